@@ -16,12 +16,12 @@ namespace {
 struct Case {
   std::string name;
   double rate_hz;
-  std::function<Clip(const Clip&)> damage;
+  std::function<Take(const Take&)> damage;
   bool is_whole = false;  ///< else five seconds of each take
 };
 
 // An arm unseen for a second in the middle.
-Clip without_arm(Clip clip) {
+Take without_arm(Take clip) {
   clip.observed.assign(clip.rotations.size(), 1);
   const auto half = static_cast<std::size_t>(clip.frame_rate_hz / 2);
   const std::size_t middle = clip.frame_count() / 2;
@@ -38,36 +38,36 @@ Clip without_arm(Clip clip) {
 
 std::vector<Case> cases(bool learned) {
   std::vector<Case> list{
-      {"1_deg", 120, [](const Clip& c) { return noisy(c, 1, 0, 5); }},
-      {"4_deg_spikes", 120, [](const Clip& c) { return noisy(c, 4, 0.004, 5); }},
+      {"1_deg", 120, [](const Take& c) { return noisy(c, 1, 0, 5); }},
+      {"4_deg_spikes", 120, [](const Take& c) { return noisy(c, 4, 0.004, 5); }},
       {"half", 120,
-       [](const Clip& c) {
+       [](const Take& c) {
          return damaged(c, "gaussian-channels", {{"k", 0.5}}, 5);
        }},
-      {"30_Hz_2_deg", 30, [](const Clip& c) { return noisy(c, 2, 0, 5); }},
-      {"30_Hz_dense", 30, [](const Clip& c) { return noisy(c, 1, 0.1, 5); }},
-      {"impulses", 120, [](const Clip& c) { return damaged(c, "impulse", {}, 5); }},
-      {"clean", 120, [](const Clip& c) { return c; }},
-      {"30_Hz_clean", 30, [](const Clip& c) { return c; }}};
+      {"30_Hz_2_deg", 30, [](const Take& c) { return noisy(c, 2, 0, 5); }},
+      {"30_Hz_dense", 30, [](const Take& c) { return noisy(c, 1, 0.1, 5); }},
+      {"impulses", 120, [](const Take& c) { return damaged(c, "impulse", {}, 5); }},
+      {"clean", 120, [](const Take& c) { return c; }},
+      {"30_Hz_clean", 30, [](const Take& c) { return c; }}};
   if (!learned) {
-    list.push_back({"clean_whole", 120, [](const Clip& c) { return c; }, true});
-    list.push_back({"30_Hz_impulses", 30, [](const Clip& c) {
+    list.push_back({"clean_whole", 120, [](const Take& c) { return c; }, true});
+    list.push_back({"30_Hz_impulses", 30, [](const Take& c) {
                       return damaged(c, "impulse", {{"share", 0.004}}, 5);
                     }});
-    list.push_back({"outliers", 120, [](const Clip& c) { return noisy(c, 0, 0.004, 5); }});
-    list.push_back({"0.3_deg_few", 120, [](const Clip& c) { return noisy(c, 0.3, 0.001, 5); }});
+    list.push_back({"outliers", 120, [](const Take& c) { return noisy(c, 0, 0.004, 5); }});
+    list.push_back({"0.3_deg_few", 120, [](const Take& c) { return noisy(c, 0.3, 0.001, 5); }});
   }
   if (learned) {
-    list.push_back({"30_Hz_20_%", 30, [](const Clip& c) { return noisy(c, 1, 0.2, 5); }});
+    list.push_back({"30_Hz_20_%", 30, [](const Take& c) { return noisy(c, 1, 0.2, 5); }});
     list.push_back(
-        {"arm_missing", 60, [](const Clip& c) { return without_arm(noisy(c, 1, 0, 5)); }});
+        {"arm_missing", 60, [](const Take& c) { return without_arm(noisy(c, 1, 0, 5)); }});
   }
   return list;
 }
 
-Clip part_of(const Clip& clip, const Case& one) {
+Take part_of(const Take& clip, const Case& one) {
   const std::size_t most = one.is_whole ? clip.frame_count() : 600;
-  const Clip part = slice(clip, 0, std::min(clip.frame_count(), most));
+  const Take part = slice(clip, 0, std::min(clip.frame_count(), most));
   return one.rate_hz == part.frame_rate_hz ? part : resample(part, one.rate_hz);
 }
 
@@ -89,8 +89,8 @@ int measure(int count, char** values) {
   for (const Case& one : cases(!model.empty())) {
     double sum = 0;
     for (const std::string& name : takes) {
-      const Clip truth = part_of(load_take(arguments, name + ".bvh", {}).clip, one);
-      const Clip result = clean_clip(one.damage(truth), *cleaner).clip;
+      const Take truth = part_of(load_take(arguments, name + ".bvh", {}).clip, one);
+      const Take result = clean_take(one.damage(truth), *cleaner).take;
       // What is below a hundredth of a degree is as good as nothing.
       sum += std::log(geodesic_rms_deg(truth, result) + 0.01);
     }

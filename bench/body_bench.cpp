@@ -8,34 +8,30 @@
 // seconds.
 namespace {
 
-kinemend::Clip take(const benchmark::State& state) {
+kinemend::Take take(const benchmark::State& state) {
   return kinemend::synthesize({.motion = "stroll",
                                .duration_s = static_cast<double>(state.range(1)),
                                .frame_rate_hz = static_cast<double>(state.range(0))});
 }
 
-template <class AnyClip>
-kinemend::BodyLayout layout_of(const AnyClip& clip) {
+kinemend::BodyLayout layout_of(const kinemend::Take& clip) {
   kinemend::BodyLayoutBuilder builder;
   builder.add(clip);
   return builder.finish();
 }
 
-template <class AnyClip>
-void match(benchmark::State& state, const AnyClip& clip) {
+void match(benchmark::State& state, const kinemend::Take& clip) {
   const kinemend::BodyLayout layout = layout_of(clip);
   for (auto _ : state) benchmark::DoNotOptimize(kinemend::match_body(layout, clip));
 }
 
-template <class AnyClip>
-void encode(benchmark::State& state, const AnyClip& clip) {
+void encode(benchmark::State& state, const kinemend::Take& clip) {
   const kinemend::BodyLayout layout = layout_of(clip);
   const kinemend::BodyMatch match = kinemend::match_body(layout, clip);
   for (auto _ : state) benchmark::DoNotOptimize(kinemend::encode_body(clip, layout, match));
 }
 
-template <class AnyClip>
-void decode(benchmark::State& state, AnyClip clip) {
+void decode(benchmark::State& state, kinemend::Take clip) {
   const kinemend::BodyLayout layout = layout_of(clip);
   const kinemend::BodyMatch match = kinemend::match_body(layout, clip);
   const kinemend::BodyChannels channels = kinemend::encode_body(clip, layout, match);

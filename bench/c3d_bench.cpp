@@ -97,7 +97,7 @@ void read_c3d_file(benchmark::State& state) {
   write_file(path, bytes, true);
   for (auto _ : state) {
     TakeResult result = read_take(path);
-    benchmark::DoNotOptimize(std::get<MarkerClip>(result.take).positions.data());
+    benchmark::DoNotOptimize(result.take.positions.data());
   }
   std::filesystem::remove(path);
   report(state, bytes.size());
@@ -112,7 +112,7 @@ void read_c3d_bytes(benchmark::State& state) {
   std::string copy = bytes;
   for (auto _ : state) {
     TakeResult result = read_take(std::move(copy), "take.c3d");
-    benchmark::DoNotOptimize(std::get<MarkerClip>(result.take).positions.data());
+    benchmark::DoNotOptimize(result.take.positions.data());
     state.PauseTiming();
     result = {};
     copy = bytes;
@@ -127,9 +127,9 @@ BENCHMARK(read_c3d_bytes)
 
 void write_c3d(benchmark::State& state, double change) {
   const std::string bytes = make_take(state.range(0));
-  MarkerClip clip = std::get<MarkerClip>(read_take(bytes, "take.c3d").take);
+  Take clip = read_take(bytes, "take.c3d").take;
   for (Vec3& p : clip.positions) p.x += change;
-  for (auto _ : state) benchmark::DoNotOptimize(write_markers(clip, "c3d").data());
+  for (auto _ : state) benchmark::DoNotOptimize(write_take(clip, "c3d").data());
   report(state, bytes.size());
 }
 BENCHMARK_CAPTURE(write_c3d, unchanged, 0.0)
@@ -142,10 +142,10 @@ BENCHMARK_CAPTURE(write_c3d, changed, 0.5)
     ->Unit(benchmark::kMillisecond);
 
 void write_new_c3d(benchmark::State& state) {
-  MarkerClip clip = std::get<MarkerClip>(read_take(make_take(state.range(0)), "take.c3d").take);
+  Take clip = read_take(make_take(state.range(0)), "take.c3d").take;
   clip.source.document.reset();
   std::size_t bytes = 0;
-  for (auto _ : state) bytes = write_markers(clip, "c3d").size();
+  for (auto _ : state) bytes = write_take(clip, "c3d").size();
   report(state, bytes);
 }
 BENCHMARK(write_new_c3d)->Name("c3d/write_new_c3d")->Arg(intel_real)->Unit(benchmark::kMillisecond);

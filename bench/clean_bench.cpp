@@ -12,8 +12,8 @@ namespace {
 
 using namespace kinemend;
 
-Clip noisy_clip(std::size_t joints, std::size_t frames, double rate_hz) {
-  Clip clip;
+Take noisy_clip(std::size_t joints, std::size_t frames, double rate_hz) {
+  Take clip;
   clip.frame_rate_hz = rate_hz;
   const RotationOrder order = parse_rotation_order("ZXY");
   for (std::size_t j = 0; j < joints; ++j) {
@@ -34,9 +34,9 @@ Clip noisy_clip(std::size_t joints, std::size_t frames, double rate_hz) {
   return clip;
 }
 
-void run(benchmark::State& state, const Cleaner& cleaner, const Clip& input) {
+void run(benchmark::State& state, const Cleaner& cleaner, const Take& input) {
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  Clip clip = input;
+  Take clip = input;
   for (auto _ : state) {
     state.PauseTiming();
     clip.rotations = input.rotations;

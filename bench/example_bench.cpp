@@ -231,10 +231,10 @@ BENCHMARK(patterns_product)
 
 // A whole take of 10 s at 30 Hz by the method with the model that ships, `auto` included.
 void method(benchmark::State& state) {
-  const kinemend::Clip take = kinemend::bench::noisy_walk(30, 10, 0.02);
+  const kinemend::Take take = kinemend::bench::noisy_walk(30, 10, 0.02);
   const auto cleaner = kinemend::make_example({});
   for (auto _ : state) {
-    benchmark::DoNotOptimize(kinemend::clean_clip(take, *cleaner));
+    benchmark::DoNotOptimize(kinemend::clean_take(take, *cleaner));
   }
 }
 BENCHMARK(method)->Name("example/method")->Unit(benchmark::kMillisecond)->UseRealTime();

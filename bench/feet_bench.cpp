@@ -9,8 +9,8 @@
 // take.
 namespace {
 
-kinemend::Clip sliding_walk(std::size_t frames) {
-  kinemend::Clip clip = kinemend::synthesize(
+kinemend::Take sliding_walk(std::size_t frames) {
+  kinemend::Take clip = kinemend::synthesize(
       {.motion = "walk", .duration_s = (static_cast<double>(frames) + 1) / 120});
   for (std::size_t f = 0; f < clip.frame_count(); ++f)
     clip.root_position(f).x += 5 * std::sin(0.02 * static_cast<double>(f));
@@ -19,12 +19,12 @@ kinemend::Clip sliding_walk(std::size_t frames) {
 
 void clean_feet(benchmark::State& state) {
   const auto frames = static_cast<std::size_t>(state.range(0));
-  const kinemend::Clip clip = sliding_walk(frames);
+  const kinemend::Take clip = sliding_walk(frames);
   kinemend::FeetSettings settings;
   settings.mode = kinemend::FeetMode::force;
   for (auto _ : state) {
     state.PauseTiming();
-    kinemend::Clip cleaned = clip;
+    kinemend::Take cleaned = clip;
     state.ResumeTiming();
     benchmark::DoNotOptimize(kinemend::clean_feet(cleaned, settings));
   }
@@ -38,7 +38,7 @@ BENCHMARK(clean_feet)
     ->Unit(benchmark::kMillisecond);
 
 void find_contacts(benchmark::State& state) {
-  const kinemend::Clip clip = sliding_walk(5000);
+  const kinemend::Take clip = sliding_walk(5000);
   for (auto _ : state) benchmark::DoNotOptimize(kinemend::find_contacts(clip));
 }
 BENCHMARK(find_contacts)->Name("feet/find_contacts")->Unit(benchmark::kMillisecond);

@@ -21,12 +21,12 @@ constexpr std::size_t marker_count = 41;
 constexpr std::size_t frames_per_gap = 75;
 
 // Markers about the joints of a walker who turns about, each with a sway of its own.
-kinemend::MarkerClip whole_take(std::size_t frames) {
-  const kinemend::Clip clip = kinemend::synthesize(
+kinemend::Take whole_take(std::size_t frames) {
+  const kinemend::Take clip = kinemend::synthesize(
       {.motion = "stroll", .duration_s = (static_cast<double>(frames) + 1) / 120});
   std::vector<std::string> names;
   for (std::size_t m = 0; m < marker_count; ++m) names.push_back(fmt::format("m{}", m));
-  kinemend::MarkerClip take = kinemend::make_marker_clip(names, frames, 120);
+  kinemend::Take take = kinemend::make_marker_take(names, frames, 120);
   take.observed.assign(take.positions.size(), 1);
   kinemend::Random random(1);
   std::vector<Vec3> places;
@@ -46,8 +46,8 @@ kinemend::MarkerClip whole_take(std::size_t frames) {
   return take;
 }
 
-kinemend::MarkerClip damaged_take(std::size_t frames) {
-  kinemend::MarkerClip take = whole_take(frames);
+kinemend::Take damaged_take(std::size_t frames) {
+  kinemend::Take take = whole_take(frames);
   kinemend::Random random(2);
   for (std::size_t gap = 0; gap < frames / frames_per_gap; ++gap) {
     const std::size_t length = 10 + random.below(191);
@@ -60,7 +60,7 @@ kinemend::MarkerClip damaged_take(std::size_t frames) {
 }
 
 void fill(benchmark::State& state, const char* method) {
-  const kinemend::MarkerClip damaged = damaged_take(static_cast<std::size_t>(state.range(0)));
+  const kinemend::Take damaged = damaged_take(static_cast<std::size_t>(state.range(0)));
   kinemend::FillSettings settings;
   settings.method = method;
   settings.fill_all = true;
@@ -68,7 +68,7 @@ void fill(benchmark::State& state, const char* method) {
   std::size_t filled = 0;
   for (auto _ : state) {
     state.PauseTiming();
-    kinemend::MarkerClip take = damaged;
+    kinemend::Take take = damaged;
     state.ResumeTiming();
     filled = kinemend::fill_gaps(take, settings).filled();
     benchmark::DoNotOptimize(take.positions.data());

@@ -18,8 +18,8 @@ using namespace kinemend;
 constexpr std::size_t frame_count = 10000, joint_count = 31;
 
 // Smooth joint angles, so that the digits are like those of a real take.
-Clip make_take() {
-  Clip clip;
+Take make_take() {
+  Take clip;
   const RotationOrder order = parse_rotation_order("ZYX");
   for (std::size_t j = 0; j < joint_count; ++j) {
     const std::int32_t parent = j == 0 ? -1 : static_cast<std::int32_t>(j % 5 == 1 ? 0 : j - 1);
@@ -48,7 +48,7 @@ Clip make_take() {
 // Four decimals: written once with the plain layout's six, then cut.
 const std::string& take_text() {
   static const std::string text = [] {
-    const std::string six = write_clip(make_take());
+    const std::string six = write_take(make_take());
     const std::size_t data = six.find('\n', six.find("Frame Time"));
     std::string four = six.substr(0, data);
     std::size_t decimals = 0;
@@ -74,8 +74,8 @@ void read_bvh_take(benchmark::State& state) {
     state.PauseTiming();
     std::string bytes = text;
     state.ResumeTiming();
-    ReadResult result = read_clip(std::move(bytes), "take.bvh");
-    benchmark::DoNotOptimize(result.clip.rotations.data());
+    TakeResult result = read_joints(std::move(bytes), "take.bvh");
+    benchmark::DoNotOptimize(result.take.rotations.data());
     state.PauseTiming();
     result = {};
     state.ResumeTiming();
@@ -97,7 +97,7 @@ void parse_numbers_only(benchmark::State& state) {
 BENCHMARK(parse_numbers_only)->Name("io/parse_numbers_only")->Unit(benchmark::kMillisecond);
 
 void angles_to_quaternions_only(benchmark::State& state) {
-  const Clip clip = make_take();
+  const Take clip = make_take();
   MotionColumns columns(clip.skeleton);
   const std::size_t block = columns.block_frames();
   std::vector<double> rows(block * columns.count());
@@ -113,17 +113,17 @@ void angles_to_quaternions_only(benchmark::State& state) {
 BENCHMARK(angles_to_quaternions_only)->Name("io/angles_to_quaternions_only");
 
 void write_unchanged(benchmark::State& state) {
-  const Clip clip = read_clip(take_text(), "take.bvh").clip;
-  for (auto _ : state) benchmark::DoNotOptimize(write_clip(clip).data());
+  const Take clip = read_joints(take_text(), "take.bvh").take;
+  for (auto _ : state) benchmark::DoNotOptimize(write_take(clip).data());
   count_bytes(state, take_text().size());
 }
 BENCHMARK(write_unchanged)->Name("io/write_unchanged")->Unit(benchmark::kMillisecond);
 
 void write_one_joint_changed(benchmark::State& state) {
-  Clip clip = read_clip(take_text(), "take.bvh").clip;
+  Take clip = read_joints(take_text(), "take.bvh").take;
   for (std::size_t f = 0; f < clip.frame_count(); ++f)
     clip.rotation(f, 5) = clip.rotation(f, 5) * exp({0.01, 0, 0});
-  for (auto _ : state) benchmark::DoNotOptimize(write_clip(clip).data());
+  for (auto _ : state) benchmark::DoNotOptimize(write_take(clip).data());
   count_bytes(state, take_text().size());
 }
 BENCHMARK(write_one_joint_changed)
@@ -131,18 +131,18 @@ BENCHMARK(write_one_joint_changed)
     ->Unit(benchmark::kMillisecond);
 
 void write_all_changed(benchmark::State& state) {
-  Clip clip = read_clip(take_text(), "take.bvh").clip;
+  Take clip = read_joints(take_text(), "take.bvh").take;
   for (Quat& q : clip.rotations) q = q * exp({0.01, 0.02, -0.01});
   for (std::size_t f = 0; f < clip.frame_count(); ++f) clip.root_position(f) += {0.01, 0.01, 0.01};
-  for (auto _ : state) benchmark::DoNotOptimize(write_clip(clip).data());
+  for (auto _ : state) benchmark::DoNotOptimize(write_take(clip).data());
   count_bytes(state, take_text().size());
 }
 BENCHMARK(write_all_changed)->Name("io/write_all_changed")->Unit(benchmark::kMillisecond);
 
 void write_plain_layout(benchmark::State& state) {
-  const Clip clip = make_take();
+  const Take clip = make_take();
   std::size_t bytes = 0;
-  for (auto _ : state) bytes = write_clip(clip).size();
+  for (auto _ : state) bytes = write_take(clip).size();
   count_bytes(state, bytes);
 }
 BENCHMARK(write_plain_layout)->Name("io/write_plain_layout")->Unit(benchmark::kMillisecond);

@@ -18,7 +18,7 @@ using namespace kinemend;
 using bench::FrameTimes;
 
 void push_frame(benchmark::State& state, const LiveMethod& method) {
-  const Clip clip = bench::noisy_walk(120, 10, 0);
+  const Take clip = bench::noisy_walk(120, 10, 0);
   const auto cleaner = make_cleaner(method.name, method.options);
   const auto stream = make_stream(*cleaner, clip);
   const TakeView view = view_of(clip);
@@ -38,7 +38,7 @@ void push_frame(benchmark::State& state, const LiveMethod& method) {
 
 // The same from a line of text to a line of text.
 void feed_line(benchmark::State& state, const LiveMethod& method) {
-  const std::string take = write_clip(bench::noisy_walk(120, 10, 0));
+  const std::string take = write_take(bench::noisy_walk(120, 10, 0));
   const std::size_t motion = take.find('\n', take.find("Frame Time:")) + 1;
   const auto cleaner = make_cleaner(method.name, method.options);
   std::size_t bytes = 0;

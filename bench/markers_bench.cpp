@@ -9,22 +9,22 @@
 namespace kinemend {
 namespace {
 
-Clip noisy_walk() {
+Take noisy_walk() {
   SynthOptions options;
   options.duration_s = 10;
-  Clip clip = synthesize(options);
+  Take clip = synthesize(options);
   Random random(1);
   apply_damage(clip, "gaussian", {{"std_deg", 1.0}}, random);
   return clip;
 }
 
 // The joints' places, as often as it takes for 41 markers.
-MarkerClip noisy_markers() {
+Take noisy_markers() {
   constexpr std::size_t count = 41;
-  const MarkerClip joints = joint_markers(noisy_walk(), true);
+  const Take joints = joint_markers(noisy_walk(), true);
   std::vector<std::string> names;
   for (std::size_t m = 0; m < count; ++m) names.push_back("M" + std::to_string(m));
-  MarkerClip clip = make_marker_clip(names, joints.frame_count(), joints.frame_rate_hz);
+  Take clip = make_marker_take(names, joints.frame_count(), joints.frame_rate_hz);
   clip.observed.assign(clip.positions.size(), 1);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     for (std::size_t m = 0; m < count; ++m)
@@ -35,10 +35,10 @@ MarkerClip noisy_markers() {
 }
 
 void clean_joints_by(benchmark::State& state, const std::string& method) {
-  static const Clip clip = noisy_walk();
+  static const Take clip = noisy_walk();
   const auto cleaner = make_cleaner(method);
   for (auto _ : state) {
-    Clip copy = clip;
+    Take copy = clip;
     clean_in_place(*cleaner, copy);
     benchmark::DoNotOptimize(copy.rotations.data());
   }
@@ -46,10 +46,10 @@ void clean_joints_by(benchmark::State& state, const std::string& method) {
 }
 
 void clean_markers_by(benchmark::State& state, const std::string& method) {
-  static const MarkerClip clip = noisy_markers();
+  static const Take clip = noisy_markers();
   const auto cleaner = make_cleaner(method);
   for (auto _ : state) {
-    MarkerClip copy = clip;
+    Take copy = clip;
     clean_in_place(*cleaner, copy);
     benchmark::DoNotOptimize(copy.positions.data());
   }

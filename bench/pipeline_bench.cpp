@@ -19,8 +19,8 @@ using namespace kinemend;
 
 constexpr std::size_t joint_count = 31;
 
-Clip noisy_take(std::size_t frames) {
-  Clip clip;
+Take noisy_take(std::size_t frames) {
+  Take clip;
   for (std::size_t j = 0; j < joint_count; ++j) {
     clip.skeleton.add_joint("joint" + std::to_string(j), j == 0 ? -1 : static_cast<int>(j) - 1,
                             {0, 10, 0}, make_channels(j == 0, parse_rotation_order("ZYX")));
@@ -42,8 +42,8 @@ Clip noisy_take(std::size_t frames) {
   return clip;
 }
 
-const Clip& long_take() {
-  static const Clip clip = noisy_take(10000);
+const Take& long_take() {
+  static const Take clip = noisy_take(10000);
   return clip;
 }
 
@@ -55,9 +55,9 @@ void count_frames(benchmark::State& state, std::size_t frames) {
 void clean_take(benchmark::State& state, const std::string& method) {
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(state.range(0)));
-  const Clip& clip = long_take();
+  const Take& clip = long_take();
   const auto cleaner = make_cleaner(method);
-  for (auto _ : state) benchmark::DoNotOptimize(clean_clip(clip, *cleaner).clip.rotations.data());
+  for (auto _ : state) benchmark::DoNotOptimize(clean_take(clip, *cleaner).take.rotations.data());
   count_frames(state, clip.frame_count());
 }
 
@@ -66,7 +66,7 @@ void cleaner_alone(benchmark::State& state, const std::string& method) {
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(state.range(0)));
   const auto cleaner = make_cleaner(method);
-  Clip clip = long_take();
+  Take clip = long_take();
   for (auto _ : state) {
     state.PauseTiming();
     clip.rotations = long_take().rotations;
@@ -77,14 +77,14 @@ void cleaner_alone(benchmark::State& state, const std::string& method) {
 }
 
 void encode_and_decode(benchmark::State& state) {
-  Clip clip = long_take();
+  Take clip = long_take();
   const auto encoding = static_cast<Encoding>(state.range(0));
   for (auto _ : state) decode(encode(clip, encoding), clip);
   count_frames(state, clip.frame_count());
 }
 
 void live_frame(benchmark::State& state, const std::string& method) {
-  const Clip clip = noisy_take(600);
+  const Take clip = noisy_take(600);
   const auto cleaner = make_cleaner(method);
   const auto stream = make_stream(*cleaner, clip);
   const TakeView view = view_of(clip);

@@ -224,7 +224,7 @@ void clean_take(benchmark::State& state) {
   const auto take = kinemend::bench::noisy_walk(static_cast<double>(state.range(0)), 10, 0);
   const auto cleaner = kinemend::make_sparse();
   for (auto _ : state) {
-    kinemend::Clip clip = take;
+    kinemend::Take clip = take;
     clean_in_place(*cleaner, clip);
     benchmark::DoNotOptimize(clip.rotations.data());
   }

@@ -19,10 +19,10 @@ constexpr std::size_t frame_count = 4500, marker_count = 41;
 
 double with_five_decimals(double value) { return std::round(value * 1e5) / 1e5; }
 
-MarkerClip make_take() {
+Take make_take() {
   std::vector<std::string> names;
   for (std::size_t m = 0; m < marker_count; ++m) names.push_back(fmt::format("M{}", m));
-  MarkerClip clip = make_marker_clip(names, frame_count, 120);
+  Take clip = make_marker_take(names, frame_count, 120);
   clip.unit = "mm";
   Random random(1);
   for (std::size_t i = 0; i < clip.positions.size(); ++i) {
@@ -36,13 +36,11 @@ MarkerClip make_take() {
 }
 
 const std::string& take_text() {
-  static const std::string text = write_markers(make_take(), "trc");
+  static const std::string text = write_take(make_take(), "trc");
   return text;
 }
 
-MarkerClip read_markers(std::string bytes) {
-  return std::get<MarkerClip>(read_take(std::move(bytes), "take.trc", {}).take);
-}
+Take read_markers(std::string bytes) { return read_take(std::move(bytes), "take.trc", {}).take; }
 
 void count_bytes(benchmark::State& state) {
   state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations()) *
@@ -54,7 +52,7 @@ void read_trc_take(benchmark::State& state) {
     state.PauseTiming();
     std::string bytes = take_text();
     state.ResumeTiming();
-    MarkerClip clip = read_markers(std::move(bytes));
+    Take clip = read_markers(std::move(bytes));
     benchmark::DoNotOptimize(clip.positions.data());
     state.PauseTiming();
     clip = {};
@@ -77,23 +75,23 @@ void parse_cells_only(benchmark::State& state) {
 BENCHMARK(parse_cells_only)->Name("trc/parse_cells_only")->Unit(benchmark::kMillisecond);
 
 void write_unchanged(benchmark::State& state) {
-  const MarkerClip clip = read_markers(take_text());
-  for (auto _ : state) benchmark::DoNotOptimize(write_markers(clip, "trc").data());
+  const Take clip = read_markers(take_text());
+  for (auto _ : state) benchmark::DoNotOptimize(write_take(clip, "trc").data());
   count_bytes(state);
 }
 BENCHMARK(write_unchanged)->Name("trc/write_unchanged")->Unit(benchmark::kMillisecond);
 
 void write_all_changed(benchmark::State& state) {
-  MarkerClip clip = read_markers(take_text());
+  Take clip = read_markers(take_text());
   for (Vec3& p : clip.positions) p += {0.5, 0.25, 0.125};
-  for (auto _ : state) benchmark::DoNotOptimize(write_markers(clip, "trc").data());
+  for (auto _ : state) benchmark::DoNotOptimize(write_take(clip, "trc").data());
   count_bytes(state);
 }
 BENCHMARK(write_all_changed)->Name("trc/write_all_changed")->Unit(benchmark::kMillisecond);
 
 void write_plain_layout(benchmark::State& state) {
-  const MarkerClip clip = make_take();
-  for (auto _ : state) benchmark::DoNotOptimize(write_markers(clip, "trc").data());
+  const Take clip = make_take();
+  for (auto _ : state) benchmark::DoNotOptimize(write_take(clip, "trc").data());
   count_bytes(state);
 }
 BENCHMARK(write_plain_layout)->Name("trc/write_plain_layout")->Unit(benchmark::kMillisecond);

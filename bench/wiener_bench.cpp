@@ -15,13 +15,13 @@
 // does beforehand, and training.
 namespace {
 
-using kinemend::Clip;
+using kinemend::Take;
 using kinemend::bench::noisy_walk;
 using kinemend::bench::walk;
 
-void clean(benchmark::State& state, const kinemend::Cleaner& cleaner, const Clip& take) {
+void clean(benchmark::State& state, const kinemend::Cleaner& cleaner, const Take& take) {
   for (auto _ : state) {
-    Clip clip = take;
+    Take clip = take;
     clean_in_place(cleaner, clip);
     benchmark::DoNotOptimize(clip.rotations.data());
   }
@@ -69,7 +69,7 @@ BENCHMARK(clean_by_auto)
 
 // Ten walks of 10 s.
 void training(benchmark::State& state) {
-  std::vector<Clip> clips;
+  std::vector<Take> clips;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) clips.push_back(walk(seed, 120, 10));
   const kinemend::TrainingTakes takes{clips.size(),
                                       [&](std::size_t i) { return kinemend::Take(clips[i]); }};

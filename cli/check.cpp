@@ -33,15 +33,14 @@ CheckSettings check_settings(const Arguments& arguments) {
 }
 
 struct Checked {
-  AnyTake take;
+  Take take;
   Report report;
 };
 
 Checked check_file(const std::string& input, const Arguments& arguments) {
   TakeResult read = read_take(std::filesystem::path(input), read_options(arguments));
   const CheckSettings settings = check_settings(arguments);
-  CheckReport report =
-      std::visit([&](const auto& take) { return check_take(take, settings); }, read.take);
+  CheckReport report = check_take(read.take, settings);
   TakeFacts facts = facts_of(read.take, input, std::move(read.diagnostics));
   return {std::move(read.take), {std::move(facts), std::move(report)}};
 }
@@ -80,7 +79,7 @@ int run_check(const Arguments& arguments) {
       const auto& stale = std::get<CheckReport>(report.result).stale;
       write_output(gaps_out, gaps_text(stale, report.take.first_frame), force);
     }
-    if (reports.with_page()) page = page_of(report, take, nullptr, page_settings(arguments));
+    if (reports.with_page()) page = report_page(report, take, nullptr, page_settings(arguments));
     if (json || reports.with_json()) takes.push_back(to_json(report));
     if (!json && gaps_out != "-" && !reports.on_out()) {
       write_out(to_text(report, options));

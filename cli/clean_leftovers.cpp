@@ -141,11 +141,11 @@ Leftover noise_not_measured(const CheckReport& check, const CleanReport& report)
 
 }  // namespace
 
-std::vector<Leftover> reasons_unchanged(const AnyTake& take, const CleanReport& report,
+std::vector<Leftover> reasons_unchanged(const Take& take, const CleanReport& report,
                                         const CleanPlan& plan, const std::string& input) {
   std::vector<Leftover> reasons;
   if (report.frames == 0 || report.tracks.empty()) return reasons;
-  const CheckReport check = std::visit([](const auto& clip) { return check_take(clip); }, take);
+  const CheckReport check = check_take(take);
   const Leftover reason = reason_of_method(report, plan);
   if (!reason.what.empty()) reasons.push_back(reason);
   const std::string listing = fmt::format("kinemend check {} lists them", printable(input));
@@ -160,7 +160,7 @@ std::vector<Leftover> reasons_unchanged(const AnyTake& take, const CleanReport& 
       FindingKind::spike,
       [](const Found& found) { return counted(found.count, "spike") + " left"; },
       plan.method == "auto" || plan.method == "learned" ? listing : "--method auto repairs them");
-  const bool is_joints = std::holds_alternative<Clip>(take);
+  const bool is_joints = take.has_joints();
   add(
       FindingKind::slide,
       [](const Found& found) {
@@ -187,13 +187,12 @@ std::vector<Leftover> reasons_unchanged(const AnyTake& take, const CleanReport& 
   return reasons;
 }
 
-std::vector<std::string> meaningless_flags(const AnyTake& take, const CleanPlan& plan) {
+std::vector<std::string> meaningless_flags(const Take& take, const CleanPlan& plan) {
   const auto is_given = [&](std::string_view flag) {
     return std::find(plan.asked.begin(), plan.asked.end(), flag) != plan.asked.end();
   };
   std::vector<std::string> lines;
-  const auto* const clip = std::get_if<Clip>(&take);
-  if (clip == nullptr) {
+  if (!take.has_joints()) {
     if (is_given("max_change_deg"))
       lines.emplace_back("--max-change-deg has no effect on markers; --max-change limits them");
     if (is_given("root_position"))
@@ -205,7 +204,7 @@ std::vector<std::string> meaningless_flags(const AnyTake& take, const CleanPlan&
   if (is_given("fix_swaps"))
     lines.emplace_back("--fix-swaps has no effect on joints; only marker labels can be swapped");
   if (is_given("unlabelled")) lines.emplace_back("--unlabelled has no effect on joints");
-  const bool has_gaps = plan.gaps || !clip->observed.empty() || !clip->observed_positions.empty();
+  const bool has_gaps = plan.gaps || !take.observed.empty() || !take.observed_positions.empty();
   if (!has_gaps && (is_given("fill") || is_given("fill_all"))) {
     lines.push_back(
         fmt::format("--{} has no effect: the take states no gaps; --gaps FILE lists them",

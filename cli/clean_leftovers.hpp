@@ -16,9 +16,9 @@ std::vector<Leftover> leftovers_of(const std::vector<Finding>& findings, const C
 /// What is wrong with a take that cleaning left unchanged, a line for each kind: what was found,
 /// why it was left and what to try. Empty where nothing is wrong. Kinds that `leftovers_of` tells
 /// of are left out.
-std::vector<Leftover> reasons_unchanged(const AnyTake& take, const CleanReport& report,
+std::vector<Leftover> reasons_unchanged(const Take& take, const CleanReport& report,
                                         const CleanPlan& plan, const std::string& input);
 /// Flags of the command line that mean nothing for a take of this kind, a line for each.
-std::vector<std::string> meaningless_flags(const AnyTake& take, const CleanPlan& plan);
+std::vector<std::string> meaningless_flags(const Take& take, const CleanPlan& plan);
 
 }  // namespace kinemend::cli

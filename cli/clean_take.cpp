@@ -8,7 +8,6 @@
 #include <iterator>
 #include <new>
 #include <utility>
-#include <variant>
 
 #include "clean_leftovers.hpp"
 #include "kinemend/check.hpp"
@@ -27,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void write_result(const CleanJob& job, const AnyTake& take, const std::string& format,
+void write_result(const CleanJob& job, const Take& take, const std::string& format,
                   const CleanPlan& plan) {
   std::error_code error;
   if (!plan.folder.empty()) fs::create_directories(plan.folder, error);
@@ -43,37 +42,28 @@ void refuse_warnings(const std::string& name, const std::vector<std::string>& wa
 }
 
 // The steps before the cleaner: labels, then gaps.
-std::vector<MarkerSwap> prepare(AnyTake& take, const CleanPlan& plan) {
+std::vector<MarkerSwap> prepare(Take& take, const CleanPlan& plan) {
   std::vector<MarkerSwap> swaps;
-  if (auto* markers = std::get_if<MarkerClip>(&take); markers && plan.fix_swaps) {
-    swaps = find_swaps(*markers);
-    undo_swaps(*markers, swaps);
+  if (!take.has_joints() && plan.fix_swaps) {
+    swaps = find_swaps(take);
+    undo_swaps(take, swaps);
   }
-  if (plan.gaps) {
-    std::visit(
-        [&](auto& clip) {
-          mark_gaps(clip,
-                    parse_gaps(plan.gaps->first, plan.gaps->second, first_frame_number(clip)));
-        },
-        take);
-  }
+  if (plan.gaps)
+    mark_gaps(take, parse_gaps(plan.gaps->first, plan.gaps->second, first_frame_number(take)));
   return swaps;
 }
 
-CleanResult run_cleaner(Clip& clip, const CleanPlan& plan, const CleanSettings& settings) {
-  return clean_clip(std::move(clip), *plan.cleaner, settings);
-}
-MarkerResult run_cleaner(MarkerClip& clip, const CleanPlan& plan, const CleanSettings& settings) {
-  return clean_markers(clip, *plan.cleaner, settings);
-}
-
-void read_contacts(const Clip& clip, const CleanPlan& plan, CleanSettings& settings) {
-  if (plan.contacts)
+CleanSettings settings_for(const Take& take, const CleanPlan& plan, const TakeProgress& progress) {
+  CleanSettings settings = plan.settings;
+  settings.progress = progress;
+  if (plan.range)
+    settings.range =
+        frames_of(*plan.range, take.frame_count(), take.frame_rate_hz, first_frame_number(take));
+  if (plan.contacts && take.has_joints())
     settings.feet->contacts =
-        parse_contacts(plan.contacts->first, plan.contacts->second, clip, settings.feet->names);
+        parse_contacts(plan.contacts->first, plan.contacts->second, take, settings.feet->names);
+  return settings;
 }
-void read_contacts(const MarkerClip& /*clip*/, const CleanPlan& /*plan*/,
-                   CleanSettings& /*settings*/) {}
 
 // Whether anybody asks what was done.
 bool is_reported(const CleanPlan& plan) {
@@ -97,29 +87,17 @@ void refuse_folder(const std::string& input) {
 }
 
 // Cleans the take in place.
-CleanOutcome clean_in_place(AnyTake& take, const std::string& input, const CleanPlan& plan,
+CleanOutcome clean_in_place(Take& take, const std::string& input, const CleanPlan& plan,
                             const TakeProgress& progress) {
   CleanOutcome outcome;
   outcome.options = plan.options;
   outcome.swaps = prepare(take, plan);
-  if (is_reported(plan)) {
-    outcome.leftovers = leftovers_of(
-        std::visit([](const auto& clip) { return find_beyond_cleaning(clip); }, take), plan, input);
-  }
-  std::visit(
-      [&](auto& clip) {
-        CleanSettings settings = plan.settings;
-        settings.progress = progress;
-        if (plan.range)
-          settings.range = frames_of(*plan.range, clip.frame_count(), clip.frame_rate_hz,
-                                     first_frame_number(clip));
-        read_contacts(clip, plan, settings);
-        auto result =
-            tbb::this_task_arena::isolate([&] { return run_cleaner(clip, plan, settings); });
-        clip = std::move(result.clip);
-        outcome.report = std::move(result.report);
-      },
-      take);
+  if (is_reported(plan)) outcome.leftovers = leftovers_of(find_beyond_cleaning(take), plan, input);
+  const CleanSettings settings = settings_for(take, plan, progress);
+  CleanResult result = tbb::this_task_arena::isolate(
+      [&] { return clean_take(std::move(take), *plan.cleaner, settings); });
+  take = std::move(result.take);
+  outcome.report = std::move(result.report);
   if (is_reported(plan) && is_unchanged(outcome)) {
     std::vector<Leftover> reasons = reasons_unchanged(take, outcome.report, plan, input);
     std::move(reasons.begin(), reasons.end(), std::back_inserter(outcome.leftovers));
@@ -150,18 +128,14 @@ void tell(const Report& report, const CleanJob& job, const CleanPlan& plan, Outc
 }
 
 // A few poses, for the index of a batch.
-std::string picture_of(const AnyTake& take) {
+std::string picture_of(const Take& take) {
   constexpr std::size_t poses = 5;
-  return std::visit(
-      [](const auto& clip) {
-        if (clip.frame_count() == 0) return std::string();
-        return film_strip_svg(clip, nullptr, {0, clip.frame_count() - 1}, poses);
-      },
-      take);
+  if (take.frame_count() == 0) return "";
+  return film_strip_svg(take, nullptr, {0, take.frame_count() - 1}, poses);
 }
 
-void clean_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress& progress,
-                Outcome& outcome) {
+void clean_job(const CleanJob& job, const CleanPlan& plan, const TakeProgress& progress,
+               Outcome& outcome) {
   const std::string name = input_name(job.input);
   refuse_folder(job.input);
   if (!plan.dry_run) check_free(job.output, plan.force || job.may_replace);
@@ -171,15 +145,15 @@ void clean_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress& 
     return read_take(fs::path(job.input), options);
   });
   for (const Diagnostic& entry : read.diagnostics.entries())
-    outcome.warnings.push_back(diagnostic_line(source_of(read.take), entry));
-  const std::string format = format_for(job.output, source_of(read.take));
+    outcome.warnings.push_back(diagnostic_line(read.take.source, entry));
+  const std::string format = format_for(job.output, read.take.source);
   check_can_hold(name, read.take, format);
   const std::vector<std::string> meaningless = meaningless_flags(read.take, plan);
   if (plan.strict) refuse_warnings(name, meaningless);
   for (const std::string& line : meaningless)
     outcome.warnings.push_back(fmt::format("{}: {}", name, line));
   // Cleaning takes the take apart.
-  std::optional<AnyTake> before;
+  std::optional<Take> before;
   if (plan.page) before = read.take;
   CleanOutcome cleaned = clean_in_place(read.take, job.input, plan, progress);
   const std::vector<std::string> warnings = cleaned.report.warnings;
@@ -193,7 +167,7 @@ void clean_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress& 
   Report report{facts_of(read.take, job.input, std::move(read.diagnostics)), std::move(cleaned)};
   if (!plan.dry_run) report.take.output = job.output;
   tell(report, job, plan, outcome);
-  if (plan.page) outcome.page = page_of(report, *before, &read.take, *plan.page);
+  if (plan.page) outcome.page = report_page(report, *before, &read.take, *plan.page);
   if (plan.page && !job.row_name.empty()) outcome.picture = picture_of(read.take);
 }
 
@@ -202,7 +176,7 @@ void clean_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress& 
 Outcome try_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress& progress) {
   Outcome outcome;
   try {
-    clean_take(job, plan, progress, outcome);
+    clean_job(job, plan, progress, outcome);
     return outcome;
   } catch (const Error& error) {
     outcome.code = static_cast<int>(error.kind());

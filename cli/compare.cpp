@@ -22,7 +22,7 @@ namespace kinemend::cli {
 
 namespace {
 
-ComparisonSettings comparison_settings(const Arguments& arguments, const Clip& reference) {
+ComparisonSettings comparison_settings(const Arguments& arguments, const Take& reference) {
   ComparisonSettings settings;
   settings.first_frame = leading_calibration_frames(reference);
   if (arguments.given("psnr_peak")) settings.psnr_peak = arguments.number("psnr_peak");
@@ -34,7 +34,7 @@ ComparisonSettings comparison_settings(const Arguments& arguments, const Clip& r
 }
 
 TakeFacts take_of(const TakeResult& read, const std::string& name) {
-  TakeFacts facts = std::visit([](const auto& take) { return take_facts(take); }, read.take);
+  TakeFacts facts = take_facts(read.take);
   facts.input = name;
   facts.diagnostics = read.diagnostics;
   return facts;
@@ -42,7 +42,7 @@ TakeFacts take_of(const TakeResult& read, const std::string& name) {
 
 TakeResult read_one(const std::string& name, const Arguments& arguments) {
   TakeResult read = read_take(std::filesystem::path(name), read_options(arguments));
-  std::visit([&](const auto& take) { warn_of_repairs(take.source, read.diagnostics); }, read.take);
+  warn_of_repairs(read.take.source, read.diagnostics);
   return read;
 }
 
@@ -51,8 +51,8 @@ MarkerFit fit_of(const std::string& name) {
   return name == "gain-offset" ? MarkerFit::gain_offset : MarkerFit::none;
 }
 
-const MarkerClip& markers_of(const TakeResult& read, const std::string& name) {
-  if (const auto* markers = std::get_if<MarkerClip>(&read.take)) return *markers;
+const Take& markers_of(const TakeResult& read, const std::string& name) {
+  if (!read.take.has_joints()) return read.take;
   throw Error(ErrorKind::usage,
               fmt::format("{}: holds joints, and the other take markers; kinemend "
                           "convert turns joints into markers",
@@ -81,22 +81,22 @@ CompareOutcome compare_as_markers(const TakeResult& reference, const TakeResult&
 
 CompareOutcome compare_takes(const TakeResult& reference, const TakeResult& other,
                              const Arguments& arguments) {
-  const auto* first = std::get_if<Clip>(&reference.take);
-  const auto* second = std::get_if<Clip>(&other.take);
-  if (first == nullptr || second == nullptr) return compare_as_markers(reference, other, arguments);
+  if (!reference.take.has_joints() || !other.take.has_joints())
+    return compare_as_markers(reference, other, arguments);
   for (const char* flag : {"fit", "fit_to", "lag", "least_motion"}) {
     if (arguments.given(flag))
       throw Error(ErrorKind::usage, fmt::format("--{} is for takes of markers", dashed(flag)));
   }
   CompareOutcome outcome;
   outcome.reference = arguments.positionals[0];
-  outcome.comparison = compare_clips(*first, *second, comparison_settings(arguments, *first));
+  outcome.comparison =
+      compare_clips(reference.take, other.take, comparison_settings(arguments, reference.take));
   return outcome;
 }
 
 // The markers of these names, in their order.
-MarkerClip with_markers(const MarkerClip& clip, const std::vector<std::string>& names) {
-  MarkerClip result;
+Take with_markers(const Take& clip, const std::vector<std::string>& names) {
+  Take result;
   result.names = names;
   result.frame_rate_hz = clip.frame_rate_hz;
   result.first_frame = clip.first_frame;
@@ -138,12 +138,9 @@ std::string comparison_page(const Compared& both, PageSettings settings) {
   settings.before_label = "reference";
   settings.after_label = "other";
   const auto& markers = std::get<CompareOutcome>(report.result).markers;
-  if (!markers)
-    return report_page(report, std::get<Clip>(reference.take), &std::get<Clip>(other.take),
-                       settings);
-  const MarkerClip shown = with_markers(std::get<MarkerClip>(other.take), markers->names);
-  return report_page(report, with_markers(std::get<MarkerClip>(reference.take), markers->names),
-                     &shown, settings);
+  if (!markers) return report_page(report, reference.take, &other.take, settings);
+  const Take shown = with_markers(other.take, markers->names);
+  return report_page(report, with_markers(reference.take, markers->names), &shown, settings);
 }
 
 int run_compare(const Arguments& arguments) {

@@ -17,10 +17,10 @@ namespace kinemend::cli {
 
 namespace {
 
-Clip read_joints(const std::string& input, const ReadOptions& options) {
+Take take_of_joints(const std::string& input, const ReadOptions& options) {
   TakeResult read = read_take(std::filesystem::path(input), options);
-  warn_of_repairs(source_of(read.take), read.diagnostics);
-  if (Clip* clip = std::get_if<Clip>(&read.take)) return std::move(*clip);
+  warn_of_repairs(read.take.source, read.diagnostics);
+  if (read.take.has_joints()) return std::move(read.take);
   throw Error(
       ErrorKind::usage,
       fmt::format("{}: this take holds markers; ground contacts are found in takes of joints",
@@ -39,8 +39,8 @@ int run_contacts(const Arguments& arguments) {
       .writes("--output", output)
       .check(json);
   if (!output.empty()) check_free(output, force);
-  const Clip clip = read_joints(input, read_options(arguments));
-  Clip copy = clip;
+  const Take clip = take_of_joints(input, read_options(arguments));
+  Take copy = clip;
   FeetSettings settings;
   settings.names = names_of_map(map);
   const FeetReport report = clean_feet(copy, settings);

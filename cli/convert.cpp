@@ -42,9 +42,9 @@ std::string converted_output_of(const Arguments& arguments) {
 
 /// --to, else by the ending of the output, else the format of the input.
 const Format& output_format(const Arguments& arguments, const std::string& output,
-                            const AnyTake& take) {
+                            const Take& take) {
   if (const std::string format = arguments.text("to"); !format.empty()) return format_named(format);
-  return format_named(format_for(output, source_of(take)));
+  return format_named(format_for(output, take.source));
 }
 
 Axis axis_named(const std::string& name) {
@@ -55,98 +55,84 @@ std::string_view axis_name(Axis axis) {
   return axis == Axis::x ? "x" : axis == Axis::y ? "y" : "z";
 }
 
-AnyTake of_its_kind(Take take) {
-  if (take.has_joints()) return Clip(std::move(take));
-  return MarkerClip(std::move(take));
-}
-
-AnyTake resampled(const AnyTake& take, double frame_rate_hz) {
+Take resampled(const Take& take, double frame_rate_hz) {
   if (const std::string contents = pointless_text(take); !contents.empty())
-    say(fmt::format("{}: {}: --fps has no effect", source_of(take).name, contents));
-  return std::visit([&](const auto& clip) { return of_its_kind(resample(clip, frame_rate_hz)); },
-                    take);
+    say(fmt::format("{}: {}: --fps has no effect", take.source.name, contents));
+  return resample(take, frame_rate_hz);
 }
 
 /// The old vertical axis is that of --from-up, else it is found from the motion and said.
-AnyTake turned(const AnyTake& take, const Arguments& arguments) {
+Take turned(const Take& take, const Arguments& arguments) {
   const Axis to = axis_named(arguments.text("up"));
   const std::string stated = arguments.text("from_up");
-  const Axis from = stated.empty()
-                        ? std::visit([](const auto& clip) { return guess_up_axis(clip); }, take)
-                        : axis_named(stated);
+  const Axis from = stated.empty() ? guess_up_axis(take) : axis_named(stated);
   if (stated.empty()) {
     say(fmt::format("{}: {} is taken to be the vertical axis (set it with --from-up)",
-                    source_of(take).name, axis_name(from)));
+                    take.source.name, axis_name(from)));
   }
-  return std::visit([&](const auto& clip) { return of_its_kind(turn_axes(clip, from, to)); }, take);
+  return turn_axes(take, from, to);
 }
 
 /// 0 where nothing tells. A guess is said, so ask once a take.
-double metres_per_unit_of(const AnyTake& take) {
-  if (const auto* markers = std::get_if<MarkerClip>(&take)) return metres_per_unit(markers->unit);
-  const Clip& clip = std::get<Clip>(take);
-  if (clip.metres_per_unit > 0) return clip.metres_per_unit;
-  const auto guess = guess_length_unit(clip.skeleton);
-  if (!guess) return 0;
-  say(fmt::format("{}: the unit is taken to be {}: the skeleton then has the size of a person",
-                  source_of(take).name, guess->name));
-  return guess->metres;
+double metres_per_unit_of(const Take& take) {
+  const double metres = likely_metres_per_unit(take);
+  const bool is_guess = take.has_joints() && !(take.metres_per_unit > 0) && metres > 0;
+  if (is_guess) {
+    say(fmt::format("{}: the unit is taken to be {}: the skeleton then has the size of a person",
+                    take.source.name, guess_length_unit(take.skeleton)->name));
+  }
+  return metres;
 }
 
 /// `metres`: in the unit of the take; 0 where it is unknown.
-AnyTake in_unit(const AnyTake& take, const std::string& unit, double metres) {
+Take in_unit(const Take& take, const std::string& unit, double metres) {
   if (metres == 0) {
     throw Error(ErrorKind::usage, fmt::format("{}: the unit of its lengths is unknown, so they "
                                               "cannot be converted to {}",
-                                              source_of(take).name, unit));
+                                              take.source.name, unit));
   }
   const double factor = metres / metres_per_unit(unit);
-  if (const auto* markers = std::get_if<MarkerClip>(&take)) {
-    return MarkerClip(scale_lengths(*markers, factor, unit));
-  }
-  Clip scaled = scale_lengths(std::get<Clip>(take), factor);
+  if (!take.has_joints()) return scale_lengths(take, factor, unit);
+  Take scaled = scale_lengths(take, factor);
   scaled.metres_per_unit = metres_per_unit(unit);
   return scaled;
 }
 
 /// The joint positions as markers, in millimetres where the unit is known.
-AnyTake as_markers(const AnyTake& take, const Arguments& arguments) {
+Take as_markers(const Take& take, const Arguments& arguments) {
   const bool with_end_sites = arguments.flag("end_sites");
   const double metres = arguments.given("unit") ? 0 : metres_per_unit_of(take);
-  if (metres == 0) return MarkerClip(joint_markers(std::get<Clip>(take), with_end_sites));
-  return MarkerClip(joint_markers(std::get<Clip>(in_unit(take, "mm", metres)), with_end_sites));
+  if (metres == 0) return joint_markers(take, with_end_sites);
+  return joint_markers(in_unit(take, "mm", metres), with_end_sites);
 }
 
 /// The take in the form that the format can hold.
-AnyTake fitted(AnyTake take, const Format& format, const Arguments& arguments) {
-  const bool joints = std::holds_alternative<Clip>(take);
+Take fitted(Take take, const Format& format, const Arguments& arguments) {
+  const bool joints = take.has_joints();
   if (joints && (format.write == nullptr || arguments.flag("positions"))) {
     return as_markers(take, arguments);
   }
   if (const std::string contents = pointless_text(take);
-      !contents.empty() && format.name != source_of(take).format) {
+      !contents.empty() && format.name != take.source.format) {
     throw Error(ErrorKind::usage, fmt::format("{}: {}; {} files hold markers only",
-                                              source_of(take).name, contents, format.name));
+                                              take.source.name, contents, format.name));
   }
-  check_can_hold(source_of(take).name, take, format.name);
+  check_can_hold(take.source.name, take, format.name);
   // BVH has no rest rotations.
   if (joints && format.name == "bvh") {
-    const Clip& clip = std::get<Clip>(take);
-    for (const Quat rest : clip.skeleton.rest_rotations) {
-      if (!(rest == Quat{})) return Clip(without_rest_rotations(clip));
+    for (const Quat rest : take.skeleton.rest_rotations) {
+      if (!(rest == Quat{})) return without_rest_rotations(take);
     }
   }
   return take;
 }
 
 /// Treats angles, forces, moments and powers as markers.
-void take_all_points(AnyTake& take) {
-  if (auto* markers = std::get_if<MarkerClip>(&take)) markers->is_position.clear();
-}
+void take_all_points(Take& take) { take.is_position.clear(); }
 
 /// AMC holds angles only; the skeleton is written to an ASF file beside it.
-void check_has_place(const AnyTake& take, const Format& format, const std::string& output) {
-  if (format.name != "amc" || source_of(take).format == "amc" || output != "-") return;
+void check_has_place(const Take& take, const Format& format, const std::string& output) {
+  if (format.name != "amc" || take.source.format == "amc" || output != "-") return;
   throw Error(ErrorKind::usage,
               "convert: AMC needs a skeleton file beside it; name an output file");
 }
@@ -163,10 +149,10 @@ int run_convert(const Arguments& arguments) {
   if (!arguments.given("to")) check_take_ending(output);
   check_free(output, force);
   TakeResult read = read_take(fs::path(input), read_options(arguments));
-  warn_of_repairs(source_of(read.take), read.diagnostics);
-  AnyTake take = std::move(read.take);
+  warn_of_repairs(read.take.source, read.diagnostics);
+  Take take = std::move(read.take);
   const Format& format = output_format(arguments, output, take);
-  if (arguments.flag("plain")) drop_layout(source_of(take));
+  if (arguments.flag("plain")) drop_layout(take.source);
   if (arguments.flag("all_points")) take_all_points(take);
   if (arguments.given("fps")) take = resampled(take, arguments.number("fps"));
   if (arguments.given("up")) take = turned(take, arguments);

@@ -133,16 +133,14 @@ int run_corrupt(const Arguments& arguments) {
   check_take_ending(output);
   check_free(output, force);
   TakeResult read = read_take(std::filesystem::path(input), read_options(arguments));
-  warn_of_repairs(source_of(read.take), read.diagnostics);
-  const std::string format = format_for(output, source_of(read.take));
+  warn_of_repairs(read.take.source, read.diagnostics);
+  const std::string format = format_for(output, read.take.source);
   check_can_hold(input_name(input), read.take, format);
   Random random(static_cast<std::uint64_t>(arguments.whole("seed")));
   std::vector<DamageReport> reports;
   reports.reserve(requests.size());
   for (const DamageRequest& request : requests) {
-    reports.push_back(std::visit(
-        [&](auto& clip) { return apply_damage(clip, request.name, request.values, random); },
-        read.take));
+    reports.push_back(apply_damage(read.take, request.name, request.values, random));
   }
   for (const std::string& line :
        loss_lines(input_name(input), read.take, format, arguments.flag("strict")))

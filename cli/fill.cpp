@@ -39,7 +39,7 @@ int run_fill(const Arguments& arguments) {
 
   const std::size_t refused = filled.refused();
   const bool failed = run.strict && refused > 0;
-  const std::string format = format_for(run.output, source_of(filled.after));
+  const std::string format = format_for(run.output, filled.after.source);
   if (!failed) {
     for (const std::string& line : loss_lines(name, filled.after, format, run.strict))
       say_warning(line);
@@ -53,11 +53,11 @@ int run_fill(const Arguments& arguments) {
   const std::vector<std::string> takes = {to_json(filled.report)};
   const std::string document = report_document("fill", takes);
   if (run.reports.on_out() || !failed) {
-    run.reports.write(
-        document,
-        with_page ? page_of(filled.report, filled.before, &filled.after, page_settings(arguments))
-                  : std::string(),
-        run.force);
+    run.reports.write(document,
+                      with_page ? report_page(filled.report, filled.before, &filled.after,
+                                              page_settings(arguments))
+                                : std::string(),
+                      run.force);
   }
   say_filling(filled.report, run, document);
   if (!failed) return 0;

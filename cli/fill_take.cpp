@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <type_traits>
-#include <variant>
 
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/gaps.hpp"
@@ -17,17 +15,12 @@ namespace kinemend::cli {
 
 namespace {
 
-std::size_t count_gaps(const Clip& clip) {
-  return find_gaps(clip).size() + find_position_gaps(clip).size();
-}
-std::size_t count_gaps(const MarkerClip& clip) { return find_gaps(clip).size(); }
-
-void mark_given_gaps(AnyTake& take, const FillRun& run) {
+void mark_given_gaps(Take& take, const FillRun& run) {
   if (!run.gaps) return;
   const auto& [text, name] = *run.gaps;
   const std::vector<NamedGap> gaps = parse_gaps(text, name, first_frame_of(take));
   try {
-    std::visit([&](auto& clip) { mark_gaps(clip, gaps); }, take);
+    mark_gaps(take, gaps);
   } catch (const Error& error) {
     throw Error(error.kind(), fmt::format("{}: {}", run.gaps->second, error.what()));
   }
@@ -46,7 +39,7 @@ FillSettings settings_of(const Arguments& arguments) {
 }
 
 /// The network that ships, read when a gap asks for it.
-LearnedFilling fill_by_shipped(const Clip& clip) {
+LearnedFilling fill_by_shipped(const Take& clip) {
   static const LearnedFill fill = make_learned_fill();
   return fill(clip);
 }
@@ -87,18 +80,10 @@ void check_plan_alone(const Arguments& arguments) {
 
 bool is_json(const std::string& path) { return std::filesystem::path(path).extension() == ".json"; }
 
-double metres_of_unit(const MarkerClip& clip) { return metres_per_unit(clip.unit); }
-double metres_of_unit(const Clip& clip) {
-  if (clip.metres_per_unit > 0) return clip.metres_per_unit;
-  const auto guess = guess_length_unit(clip.skeleton);
-  return guess ? guess->metres : 0;
-}
-
 /// --max-error-mm in the unit of the file.
-template <class AnyClip>
-double max_error_in_file_units(const AnyClip& clip, const FillRun& run) {
+double max_error_in_file_units(const Take& clip, const FillRun& run) {
   constexpr double metres_per_mm = 0.001;
-  const double metres = metres_of_unit(clip);
+  const double metres = likely_metres_per_unit(clip);
   if (metres > 0) return *run.max_error_mm * metres_per_mm / metres;
   throw Error(ErrorKind::usage,
               fmt::format("{}: the unit of its lengths is not known, so that --max-error-mm cannot "
@@ -107,8 +92,8 @@ double max_error_in_file_units(const AnyClip& clip, const FillRun& run) {
 }
 
 /// Limits of rotations mean nothing for markers.
-std::vector<std::string> meaningless_flags(const AnyTake& take, const FillRun& run) {
-  const bool markers = std::holds_alternative<MarkerClip>(take);
+std::vector<std::string> meaningless_flags(const Take& take, const FillRun& run) {
+  const bool markers = !take.has_joints();
   if (markers && run.settings.max_error_deg > 0)
     return {"--max-error-deg has no effect on markers; --max-error-mm limits their error"};
   if (!markers && run.settings.unlabelled)
@@ -117,63 +102,37 @@ std::vector<std::string> meaningless_flags(const AnyTake& take, const FillRun& r
 }
 
 /// Fills the gaps of the clip in place.
-template <class AnyClip>
-PlannedFill fill_clip(AnyClip& clip, const FillSettings& settings, const FillRun& run,
-                      const FillCheck& check) {
+PlannedFill fill_as_asked(Take& clip, const FillSettings& settings, const FillRun& run,
+                          const FillCheck& check) {
   if (!run.plan) return fill_with_plan(clip, settings, check);
   const auto plan = parse_plan(run.plan->first, run.plan->second, clip);
-  if constexpr (std::is_same_v<AnyClip, Clip>)
-    return fill_with_plan(clip, plan, check, settings.models);
-  else
-    return fill_with_plan(clip, plan, check);
-}
-
-void preview_plan(const Clip& before, std::vector<PlannedGap>& plan, const FillSettings& settings,
-                  const FillCheck& check) {
-  preview_methods(before, plan, check, settings.models);
-}
-void preview_plan(const MarkerClip& before, std::vector<PlannedGap>& plan,
-                  const FillSettings& /*settings*/, const FillCheck& check) {
-  preview_methods(before, plan, check);
-}
-
-GapCurves curves_in_plan(const Clip& clip, std::span<const PlannedGap> plan, std::size_t row,
-                         const FillSettings& settings, const FillCheck& check) {
-  return preview_curves(clip, plan, row, check, settings.models);
-}
-GapCurves curves_in_plan(const MarkerClip& clip, std::span<const PlannedGap> plan, std::size_t row,
-                         const FillSettings& /*settings*/, const FillCheck& check) {
-  return preview_curves(clip, plan, row, check);
+  return fill_with_plan(clip, plan, check, settings.models);
 }
 
 /// Also says the plan as the text that --plan-out asks for.
-FillOutcome fill_in_place(AnyTake& take, const FillRun& run, const FillCheck& check,
+FillOutcome fill_in_place(Take& take, const FillRun& run, const FillCheck& check,
                           std::string& plan_text) {
   FillSettings settings = run.settings;
-  return std::visit(
-      [&](auto& clip) {
-        if (run.range)
-          settings.range = frames_of(*run.range, clip.frame_count(), clip.frame_rate_hz,
-                                     first_frame_number(clip));
-        if (run.max_error_mm) settings.max_error = max_error_in_file_units(clip, run);
-        std::optional<std::decay_t<decltype(clip)>> before;
-        if (run.preview) before = clip;
-        PlannedFill filled = fill_clip(clip, settings, run, check);
-        FillOutcome outcome{std::move(filled.report)};
-        if (before) preview_plan(*before, filled.plan, settings, check);
-        if (!run.plan_out_path.empty()) {
-          plan_text = is_json(run.plan_out_path) ? plan_json(clip, filled.plan)
-                                                 : plan_csv(clip, filled.plan);
-        }
-        if (run.range) {
-          // What is neither filled nor refused was not asked for.
-          const std::size_t left = count_gaps(clip);
-          const std::size_t told = outcome.report.refused() + outcome.report.unlabelled;
-          outcome.not_within_range = left - std::min(left, told);
-        }
-        return outcome;
-      },
-      take);
+  if (run.range)
+    settings.range =
+        frames_of(*run.range, take.frame_count(), take.frame_rate_hz, first_frame_number(take));
+  if (run.max_error_mm) settings.max_error = max_error_in_file_units(take, run);
+  std::optional<Take> before;
+  if (run.preview) before = take;
+  PlannedFill filled = fill_as_asked(take, settings, run, check);
+  FillOutcome outcome{std::move(filled.report)};
+  if (before) preview_methods(*before, filled.plan, check, settings.models);
+  if (!run.plan_out_path.empty()) {
+    plan_text =
+        is_json(run.plan_out_path) ? plan_json(take, filled.plan) : plan_csv(take, filled.plan);
+  }
+  if (run.range) {
+    // What is neither filled nor refused was not asked for.
+    const std::size_t left = find_gaps(take).size() + find_position_gaps(take).size();
+    const std::size_t told = outcome.report.refused() + outcome.report.unlabelled;
+    outcome.not_within_range = left - std::min(left, told);
+  }
+  return outcome;
 }
 
 }  // namespace
@@ -231,8 +190,8 @@ FilledTake fill_take(const FillRun& run, bool with_before, const FillCheck& chec
   TakeResult read = read_take(std::filesystem::path(run.input), run.reading);
   FilledTake filled;
   for (const Diagnostic& entry : read.diagnostics.entries())
-    filled.warnings.push_back(diagnostic_line(source_of(read.take), entry));
-  check_can_hold(input_name(run.input), read.take, format_for(run.output, source_of(read.take)));
+    filled.warnings.push_back(diagnostic_line(read.take.source, entry));
+  check_can_hold(input_name(run.input), read.take, format_for(run.output, read.take.source));
   for (const std::string& line : meaningless_flags(read.take, run)) {
     const std::string warning = fmt::format("{}: {}", input_name(run.input), line);
     if (run.strict) throw Error(ErrorKind::quality_limit, warning + " (an error under --strict)");
@@ -252,12 +211,8 @@ GapCurves gap_curves(const FillRun& run, std::size_t row, const FillCheck& check
   if (!run.plan) throw Error(ErrorKind::usage, "fill: there is no plan");
   TakeResult read = read_take(std::filesystem::path(run.input), run.reading);
   mark_given_gaps(read.take, run);
-  return std::visit(
-      [&](const auto& clip) {
-        const auto plan = parse_plan(run.plan->first, run.plan->second, clip);
-        return curves_in_plan(clip, plan, row, run.settings, check);
-      },
-      read.take);
+  const auto plan = parse_plan(run.plan->first, run.plan->second, read.take);
+  return preview_curves(read.take, plan, row, check, run.settings.models);
 }
 
 }  // namespace kinemend::cli

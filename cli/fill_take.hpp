@@ -34,7 +34,7 @@ FillRun fill_run_of(const Arguments& arguments);
 
 /// A take with its gaps filled.
 struct FilledTake {
-  AnyTake before, after;
+  Take before, after;
   Report report;          ///< without the output
   std::string plan_text;  ///< as --plan-out asks for it; empty where it does not
   std::vector<std::string> warnings;

@@ -87,7 +87,7 @@ std::string noise_text(const Looked& subject, const std::string& kind, const std
   return "\n" + table.text();
 }
 
-std::string unit_text(const Clip& clip) {
+std::string unit_text(const Take& clip) {
   const double height = body_height(clip.skeleton);
   if (clip.metres_per_unit > 0) {
     return fmt::format("{} m (the skeleton measures {}, {} m)", figure(clip.metres_per_unit),
@@ -110,15 +110,14 @@ void add_facts(const Looked& subject, const SourceInfo& source, bool has_subject
     table.add({"repaired", printable(diagnostic_text(source.format, entry))});
 }
 
-template <class AnyClip>
-std::string numbered_length(const AnyClip& clip) {
+std::string numbered_length(const Take& clip) {
   const std::string length = length_text(clip.frame_count(), clip.frame_rate_hz);
   const std::int64_t first = first_frame_number(clip);
   return first == 1 ? length : fmt::format("{}, from frame {}", length, first);
 }
 
 /// "Ann (41 markers), Bob (39 markers)" for a take of several people, else empty.
-std::string people_text(const MarkerClip& clip) {
+std::string people_text(const Take& clip) {
   const std::vector<Subject> people = subjects_of(clip);
   if (people.size() < 2) return "";
   std::vector<std::string> parts;
@@ -148,15 +147,10 @@ Missing missing_in(const std::vector<Gap>& gaps, std::size_t tracks) {
   return missing;
 }
 
-Missing missing_of(const Clip& clip) {
-  Missing missing = missing_in(find_gaps(clip), clip.joint_count());
-  missing.possible = clip.frame_count() * clip.joint_count();
-  return missing;
-}
-
-Missing missing_of(const MarkerClip& clip) {
-  Missing missing = missing_in(find_gaps(clip), clip.marker_count());
-  missing.possible = clip.frame_count() * clip.position_count();
+Missing missing_of(const Take& take) {
+  Missing missing = missing_in(find_gaps(take), take.owner_count());
+  missing.possible =
+      take.frame_count() * (take.has_joints() ? take.joint_count() : take.position_count());
   return missing;
 }
 
@@ -172,7 +166,7 @@ std::string missing_text(const Missing& missing, double frame_rate_hz) {
                      static_cast<double>(missing.longest) / frame_rate_hz);
 }
 
-std::string clip_text(const Looked& subject, const Clip& clip, bool with_tree) {
+std::string joints_text(const Looked& subject, const Take& clip, bool with_tree) {
   Table table({Align::left, Align::left});
   table.add({"format", format_text(clip.source)});
   table.add({"joints", fmt::format("{} ({}, {})", clip.joint_count(),
@@ -197,7 +191,7 @@ std::string clip_text(const Looked& subject, const Clip& clip, bool with_tree) {
   return text;
 }
 
-std::string markers_text(const Looked& subject, const MarkerClip& clip, bool with_tree) {
+std::string markers_text(const Looked& subject, const Take& clip, bool with_tree) {
   const Missing missing = missing_of(clip);
   const std::size_t positions = clip.position_count();
   Table table({Align::left, Align::left});
@@ -230,9 +224,9 @@ std::string markers_text(const Looked& subject, const MarkerClip& clip, bool wit
 
 std::string subject_text(const Looked& subject, bool with_tree) {
   const std::string name = Colours::of_out().paint(Paint::bold, printable(subject.name)) + "\n";
-  if (const Clip* clip = std::get_if<Clip>(&subject.read.take))
-    return name + clip_text(subject, *clip, with_tree);
-  return name + markers_text(subject, std::get<MarkerClip>(subject.read.take), with_tree);
+  const Take& take = subject.read.take;
+  return name + (take.has_joints() ? joints_text(subject, take, with_tree)
+                                   : markers_text(subject, take, with_tree));
 }
 
 Json joints_json(const Looked& subject, const Skeleton& skeleton) {
@@ -256,7 +250,7 @@ Json facts_json(const SourceInfo& source) {
   return facts;
 }
 
-Json clip_json(const Looked& subject, const Clip& clip) {
+Json joints_take_json(const Looked& subject, const Take& clip) {
   const auto unit = guess_length_unit(clip.skeleton);
   const double stated = clip.metres_per_unit;
   const Missing missing = missing_of(clip);
@@ -284,7 +278,7 @@ Json clip_json(const Looked& subject, const Clip& clip) {
           {"joints", joints_json(subject, clip.skeleton)}};
 }
 
-Json markers_json(const Looked& subject, const MarkerClip& clip) {
+Json markers_json(const Looked& subject, const Take& clip) {
   const Missing missing = missing_of(clip);
   const double metres = metres_per_unit(clip.unit);
   Json markers = Json::array();
@@ -327,16 +321,13 @@ Json markers_json(const Looked& subject, const MarkerClip& clip) {
 }
 
 Json subject_json(const Looked& subject) {
-  if (const Clip* clip = std::get_if<Clip>(&subject.read.take)) return clip_json(subject, *clip);
-  return markers_json(subject, std::get<MarkerClip>(subject.read.take));
+  const Take& take = subject.read.take;
+  return take.has_joints() ? joints_take_json(subject, take) : markers_json(subject, take);
 }
 
 void measure_noise(Looked& subject) {
   const auto cleaner = make_cleaner("auto");
-  const Clip* clip = std::get_if<Clip>(&subject.read.take);
-  const CleanReport report =
-      clip != nullptr ? clean_clip(*clip, *cleaner).report
-                      : clean_markers(std::get<MarkerClip>(subject.read.take), *cleaner).report;
+  const CleanReport report = clean_take(subject.read.take, *cleaner).report;
   for (const TrackSummary& track : report.tracks)
     subject.noise.push_back({track.name, track.noise, track.frames_repaired});
 }

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "kinemend/diagnostics.hpp"
+#include "kinemend/error.hpp"
 #include "kinemend/options.hpp"
 
 namespace kinemend::cli {

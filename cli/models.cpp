@@ -76,8 +76,7 @@ int write_map(const std::string& model_name, const Arguments& arguments) {
       shipped != nullptr ? parse_model(shipped->bytes, model_name) : read_model(model_name);
   const TakeResult read =
       read_take(std::filesystem::path(arguments.positionals.front()), read_options(arguments));
-  const std::string text =
-      std::visit([&](const auto& clip) { return name_map_text(model.layout, clip); }, read.take);
+  const std::string text = name_map_text(model.layout, read.take);
   write_output(output.empty() ? "-" : output, text, arguments.flag("force"));
   return 0;
 }

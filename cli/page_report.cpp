@@ -94,17 +94,6 @@ PageSettings page_settings(const Arguments& arguments) {
   return settings;
 }
 
-std::string page_of(const Report& report, const AnyTake& before, const AnyTake* after,
-                    const PageSettings& settings) {
-  return std::visit(
-      [&](const auto& clip) {
-        using Kind = std::decay_t<decltype(clip)>;
-        return report_page(report, clip, after != nullptr ? &std::get<Kind>(*after) : nullptr,
-                           settings);
-      },
-      before);
-}
-
 Flag report_flag(std::string help, std::string details) {
   Flag flag = text_flag("report", "FILE", "Output", std::move(help), std::move(details));
   flag.completion = Completion::file;

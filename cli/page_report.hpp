@@ -42,9 +42,6 @@ ReportFiles report_files(const Arguments& arguments, std::size_t takes);
 /// How the program was called, quoted as a shell needs it.
 std::string command_line_of(const Arguments& arguments);
 PageSettings page_settings(const Arguments& arguments);
-/// `after` is null where there is one take; else of the same kind.
-std::string page_of(const Report& report, const AnyTake& before, const AnyTake* after,
-                    const PageSettings& settings);
 
 /// --report FILE, once.
 Flag report_flag(std::string help, std::string details = {});

@@ -8,7 +8,6 @@
 #include <limits>
 #include <optional>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "commands.hpp"
@@ -36,25 +35,15 @@ struct Drawing {
   std::size_t poses = 9;
 };
 
-TrackCurves curves_of(const Clip& before, const Clip& after, std::size_t joint, bool is_position) {
-  return is_position ? root_curves(before, after) : rotation_curves(before, after, joint);
-}
-TrackCurves curves_of(const MarkerClip& before, const MarkerClip& after, std::size_t marker,
-                      bool /*is_position*/) {
-  return marker_curves(before, after, marker);
+TrackCurves curves_of(const Take& before, const Take& after, std::size_t track, bool is_position) {
+  if (!before.has_joints()) return marker_curves(before, after, track);
+  return is_position ? root_curves(before, after) : rotation_curves(before, after, track);
 }
 
-std::optional<std::size_t> track_named(const Clip& clip, const std::string& name) {
-  const auto joint = clip.skeleton.find(name);
-  return joint < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(joint));
+std::optional<std::size_t> track_named(const Take& take, const std::string& name) {
+  const auto track = take.has_joints() ? take.skeleton.find(name) : take.find(name);
+  return track < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(track));
 }
-std::optional<std::size_t> track_named(const MarkerClip& clip, const std::string& name) {
-  const auto marker = clip.find(name);
-  return marker < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(marker));
-}
-
-std::size_t track_count(const Clip& clip) { return clip.joint_count(); }
-std::size_t track_count(const MarkerClip& clip) { return clip.marker_count(); }
 
 // How much there is to see in curves: the difference, or how far a single take's curves reach.
 double weight_of(const TrackCurves& curves, bool two) {
@@ -75,8 +64,7 @@ double weight_of(const TrackCurves& curves, bool two) {
   return sum;
 }
 
-template <class Clip>
-TrackCurves chosen_curves(const Clip& before, const Clip& after, bool two, const Drawing& drawing) {
+TrackCurves chosen_curves(const Take& before, const Take& after, bool two, const Drawing& drawing) {
   if (!drawing.track.empty()) {
     const auto track = track_named(before, drawing.track);
     if (!track)
@@ -84,19 +72,18 @@ TrackCurves chosen_curves(const Clip& before, const Clip& after, bool two, const
                   fmt::format("plot: no joint or marker is called {}", drawing.track));
     return curves_of(before, after, *track, drawing.is_position);
   }
-  if (track_count(before) == 0) throw Error(ErrorKind::usage, "plot: the take has no tracks");
+  if (before.owner_count() == 0) throw Error(ErrorKind::usage, "plot: the take has no tracks");
   if (drawing.is_position) return curves_of(before, after, 0, true);
   TrackCurves best = curves_of(before, after, 0, false);
-  for (std::size_t track = 1; track < track_count(before); ++track) {
+  for (std::size_t track = 1; track < before.owner_count(); ++track) {
     TrackCurves other = curves_of(before, after, track, false);
     if (weight_of(other, two) > weight_of(best, two)) best = std::move(other);
   }
   return best;
 }
 
-template <class Clip>
-std::string picture(const Clip& before, const Clip* other, const Drawing& drawing) {
-  const Clip& after = other != nullptr ? *other : before;
+std::string picture(const Take& before, const Take* other, const Drawing& drawing) {
+  const Take& after = other != nullptr ? *other : before;
   const bool two = other != nullptr;
   std::pair<std::size_t, std::size_t> frames{0, std::numeric_limits<std::size_t>::max()};
   if (drawing.range)
@@ -124,9 +111,9 @@ Drawing drawing_of(const Arguments& arguments) {
   return drawing;
 }
 
-AnyTake read_and_warn(const std::string& input, const Arguments& arguments) {
+Take read_and_warn(const std::string& input, const Arguments& arguments) {
   TakeResult result = read_take(fs::path(input), read_options(arguments));
-  warn_of_repairs(source_of(result.take), result.diagnostics);
+  warn_of_repairs(result.take.source, result.diagnostics);
   return std::move(result.take);
 }
 
@@ -144,21 +131,14 @@ int run_plot(const Arguments& arguments) {
   check_only_ending(output, ".svg");
   check_free(output, force);
   const Drawing drawing = drawing_of(arguments);
-  const AnyTake before = read_and_warn(inputs[0], arguments);
-  std::optional<AnyTake> after;
+  const Take before = read_and_warn(inputs[0], arguments);
+  std::optional<Take> after;
   if (inputs.size() > 1) after = read_and_warn(inputs[1], arguments);
-  if (after && after->index() != before.index()) {
+  if (after && after->has_joints() != before.has_joints()) {
     throw Error(ErrorKind::usage, fmt::format("plot: {} and {} are not both joints or both markers",
                                               inputs[0], inputs[1]));
   }
-  write_output(output,
-               std::visit(
-                   [&](const auto& clip) {
-                     using Kind = std::decay_t<decltype(clip)>;
-                     return picture(clip, after ? &std::get<Kind>(*after) : nullptr, drawing);
-                   },
-                   before),
-               force);
+  write_output(output, picture(before, after ? &*after : nullptr, drawing), force);
   return 0;
 }
 

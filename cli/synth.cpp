@@ -25,7 +25,7 @@ int run_synth(const Arguments& arguments) {
   options.frame_rate_hz = arguments.number("frame_rate_hz");
   options.seed = static_cast<std::uint64_t>(arguments.whole("seed"));
   options.t_pose_first = arguments.flag("t_pose_first");
-  const AnyTake take = synthesize(options);
+  const Take take = synthesize(options);
   const std::string format = format_for(output, {"", "bvh", nullptr});
   check_can_hold("synth", take, format);
   write_take_output(output, take, format, arguments.flag("force"));

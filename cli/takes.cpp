@@ -111,9 +111,9 @@ void check_only_ending(const std::string& output, std::string_view ending) {
                                             printable(output), printable(found), ending));
 }
 
-void check_can_hold(const std::string& name, const AnyTake& take, std::string_view format) {
+void check_can_hold(const std::string& name, const Take& take, std::string_view format) {
   const Format* const known = format_named(format);
-  const bool joints = std::holds_alternative<Clip>(take);
+  const bool joints = take.has_joints();
   if (known == nullptr || (joints ? known->write != nullptr : known->write_markers != nullptr))
     return;
   throw Error(ErrorKind::usage,
@@ -158,7 +158,7 @@ void write_side_file(const SideFile& file, bool force) {
 
 }  // namespace
 
-void write_take_output(const std::string& output, const AnyTake& take, const std::string& format,
+void write_take_output(const std::string& output, const Take& take, const std::string& format,
                        bool force) {
   const std::string bytes = write_take(take, format);
   if (output != "-") {
@@ -196,23 +196,20 @@ void warn_of_repairs(const SourceInfo& source, const Diagnostics& diagnostics) {
     say_warning(diagnostic_line(source, diagnostic));
 }
 
-std::int64_t first_frame_of(const AnyTake& take) {
-  return std::visit([](const auto& clip) { return first_frame_number(clip); }, take);
+std::int64_t first_frame_of(const Take& take) { return first_frame_number(take); }
+
+std::string pointless_text(const Take& take) {
+  return take.has_joints() ? "" : contents_without_markers(take);
 }
 
-std::string pointless_text(const AnyTake& take) {
-  const auto* const markers = std::get_if<MarkerClip>(&take);
-  return markers == nullptr ? "" : contents_without_markers(*markers);
-}
-
-TakeFacts facts_of(const AnyTake& take, std::string input, Diagnostics diagnostics) {
-  TakeFacts facts = std::visit([](const auto& clip) { return take_facts(clip); }, take);
+TakeFacts facts_of(const Take& take, std::string input, Diagnostics diagnostics) {
+  TakeFacts facts = take_facts(take);
   facts.input = std::move(input);
   facts.diagnostics = std::move(diagnostics);
   return facts;
 }
 
-std::vector<std::string> loss_lines(const std::string& name, const AnyTake& take,
+std::vector<std::string> loss_lines(const std::string& name, const Take& take,
                                     std::string_view format, bool strict) {
   std::vector<std::string> lines;
   const Diagnostics losses = lost_in_writing(take, format);

@@ -10,8 +10,8 @@
 
 #include "command.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/known_names.hpp"
 #include "kinemend/report.hpp"
+#include "kinemend/skeleton.hpp"
 
 // What the commands that read and write takes share.
 namespace kinemend::cli {
@@ -35,13 +35,13 @@ void check_take_ending(const std::string& output);
 void check_only_ending(const std::string& output, std::string_view ending);
 /// Refuses a format that cannot hold the take, as a format of markers cannot hold joints. Errors:
 /// `ErrorKind::usage`.
-void check_can_hold(const std::string& name, const AnyTake& take, std::string_view format);
+void check_can_hold(const std::string& name, const Take& take, std::string_view format);
 /// Refuses an output that exists, before work is spent on it. Errors: `ErrorKind::cannot_write`.
 void check_free(const std::string& output, bool force);
 /// To a file, or to standard output for "-".
 void write_output(const std::string& output, std::string_view bytes, bool force);
 /// Writes the take in `format`, and the file that it needs beside it (the skeleton of an AMC file).
-void write_take_output(const std::string& output, const AnyTake& take, const std::string& format,
+void write_take_output(const std::string& output, const Take& take, const std::string& format,
                        bool force);
 /// Calls `visit` with each input and returns the highest exit code. An input that cannot be read is
 /// said, its entry in JSON goes to `add_failure`, and it stops none of the others; an output that
@@ -53,15 +53,15 @@ int for_each_input(const std::vector<std::string>& inputs,
 void warn_of_repairs(const SourceInfo& source, const Diagnostics& diagnostics);
 /// A line for each part of the take that a file of this format cannot hold. Errors: `quality_limit`
 /// with the first line when `strict`.
-std::vector<std::string> loss_lines(const std::string& name, const AnyTake& take,
+std::vector<std::string> loss_lines(const std::string& name, const Take& take,
                                     std::string_view format, bool strict);
 
 /// The content of a marker file without markers, in words; empty for any other take.
-std::string pointless_text(const AnyTake& take);
+std::string pointless_text(const Take& take);
 /// What a report says about a take that was read.
-TakeFacts facts_of(const AnyTake& take, std::string input, Diagnostics diagnostics);
+TakeFacts facts_of(const Take& take, std::string input, Diagnostics diagnostics);
 /// The number that the file gives its first frame.
-std::int64_t first_frame_of(const AnyTake& take);
+std::int64_t first_frame_of(const Take& take);
 
 /// Prints a line for each limit that is given and exceeded. Returns 1 if there is one, else 0.
 int say_passed_limits(const Report& report, std::span<const FigureRule> figures,

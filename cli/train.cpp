@@ -50,15 +50,15 @@ struct Training {
   bool force = false, json = false, quiet = false, skip_unreadable = false;
 };
 
-AnyTake read_training_take(const Training& training, const std::string& path) {
+Take read_training_take(const Training& training, const std::string& path) {
   TakeResult read = read_take(std::filesystem::path(path), training.reading);
-  if (!training.quiet) warn_of_repairs(source_of(read.take), read.diagnostics);
+  if (!training.quiet) warn_of_repairs(read.take.source, read.diagnostics);
   return std::move(read.take);
 }
 
 /// Empty if it cannot be read and such takes are skipped, with a warning.
 std::optional<Take> training_take(const Training& training, const std::string& path) {
-  std::optional<AnyTake> take;
+  std::optional<Take> take;
   try {
     take = read_training_take(training, path);
   } catch (const Error& error) {
@@ -69,9 +69,9 @@ std::optional<Take> training_take(const Training& training, const std::string& p
   if (!training.fill.empty()) {
     FillSettings settings;
     settings.method = training.fill;
-    std::visit([&](auto& clip) { fill_gaps(clip, settings); }, *take);
+    fill_gaps(*take, settings);
   }
-  return std::visit([](auto& clip) { return Take(std::move(clip)); }, *take);
+  return take;
 }
 
 TrainingTakes takes_of(const Training& training, ProgressLine& progress) {

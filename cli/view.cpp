@@ -103,8 +103,8 @@ int run_view(const Arguments& arguments) {
   for (const std::string& input : {files.input, files.other}) {
     if (input.empty()) continue;
     const TakeResult read = read_take(std::filesystem::path(input), read_options(arguments));
-    warn_of_repairs(source_of(read.take), read.diagnostics);
-    if (input == files.input) files.of_joints = std::holds_alternative<Clip>(read.take);
+    warn_of_repairs(read.take.source, read.diagnostics);
+    if (input == files.input) files.of_joints = read.take.has_joints();
   }
   // A missing file of gaps is an error now, not only once the page is open.
   if (files.with_gaps) read_file(files.gaps);

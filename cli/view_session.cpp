@@ -351,7 +351,7 @@ std::string ViewSession::fill_page(const ViewAsked& asked, const Turn& turn) {
   settings.is_served = true;
   settings.parts = {{"plan", filled.plan_text}};
   settings.check = [&] { tell(turn, "drawing", 0); };
-  return page_of(filled.report, filled.before, &filled.after, settings);
+  return report_page(filled.report, filled.before, &filled.after, settings);
 }
 
 ViewReply ViewSession::curves(const ViewAsked& asked, const Turn& turn) {
@@ -413,7 +413,7 @@ ViewReply ViewSession::save(const ViewAsked& asked) {
   if (fills) {
     const FillRun run = fill_run_of(arguments);
     const FilledTake filled = fill_take(run, false);
-    write_take_output(run.output, filled.after, format_for(run.output, source_of(filled.after)),
+    write_take_output(run.output, filled.after, format_for(run.output, filled.after.source),
                       run.force);
   } else {
     CleanPlan plan_of_take = make_clean_plan(arguments);
@@ -443,11 +443,11 @@ ViewReply ViewSession::contacts() {
   if (std::filesystem::is_regular_file(files_.contacts, ignored))
     return {200, plain, read_file(files_.contacts)};
   TakeResult read = read_take(std::filesystem::path(files_.input), read_options(parsed(words)));
-  Clip* clip = std::get_if<Clip>(&read.take);
-  if (clip == nullptr) throw Error(ErrorKind::usage, "contacts exist only in takes of joints");
-  Clip copy = *clip;
+  if (!read.take.has_joints())
+    throw Error(ErrorKind::usage, "contacts exist only in takes of joints");
+  Take copy = read.take;
   const FeetReport report = clean_feet(copy);
-  return {200, plain, contacts_text(*clip, report)};
+  return {200, plain, contacts_text(read.take, report)};
 }
 
 ViewReply ViewSession::gaps() {

@@ -1,22 +1,21 @@
 // The snippet of the README: clean a take from C++.
 #include <cstdio>
 
-#include "kinemend/clean.hpp"
-#include "kinemend/error.hpp"
-#include "kinemend/io.hpp"
+#include "kinemend/kinemend.hpp"
 
-// clean_take TAKE.bvh CLEAN.bvh
+// clean_take TAKE.bvh CLEAN.bvh; takes of markers too
 int main(int argc, char** argv) try {
   using namespace kinemend;
   if (argc != 3) return 2;
 
-  const Clip noisy = read_clip(std::filesystem::path(argv[1])).clip;
-  const CleanResult result = clean_clip(noisy, *make_cleaner("learned"));
-  for (const TrackSummary& joint : result.report.tracks) {
-    std::printf("%-16s noise %.2f degrees, %zu frames repaired\n", joint.name.c_str(), joint.noise,
-                joint.frames_repaired);
+  const Take noisy = read_take(std::filesystem::path(argv[1])).take;
+  const CleanResult result = clean_take(noisy, *make_cleaner("learned"));
+  const CleanReport& report = result.report;
+  for (const TrackSummary& track : report.tracks) {
+    std::printf("%-16s noise %.2f %s, %zu frames repaired\n", track.name.c_str(), track.noise,
+                report.unit.c_str(), track.frames_repaired);
   }
-  write_file(argv[2], write_clip(result.clip), /*overwrite=*/true);  // in the layout of TAKE.bvh
+  write_file(argv[2], write_take(result.take), /*overwrite=*/true);  // in the layout of TAKE.bvh
 } catch (const kinemend::Error& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return static_cast<int>(error.kind());

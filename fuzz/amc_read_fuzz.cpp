@@ -28,18 +28,18 @@ const std::string fixed_skeleton =
     "slider hand\nend\n";
 
 // `is_mended`: whether the file was cut off, or numbers were run together.
-Clip read(const std::string& amc, const std::string& asf, bool* is_mended = nullptr) {
+Take read(const std::string& amc, const std::string& asf, bool* is_mended = nullptr) {
   TakeResult result = read_amc(amc, "fuzz.amc", asf, "fuzz.asf", {});
   if (is_mended != nullptr) {
     *is_mended =
         result.diagnostics.count("file_cut") + result.diagnostics.count("numbers_joined") > 0;
   }
-  Clip clip = std::get<Clip>(std::move(result.take));
+  Take clip = std::move(result.take);
   clip.validate();
   return clip;
 }
 
-bool is_sensible(const Clip& clip) {
+bool is_sensible(const Take& clip) {
   const auto sensible = [](Vec3 v) { return norm(v) < 1e6; };
   for (const Vec3 v : clip.positions) {
     if (!sensible(v)) return false;
@@ -50,7 +50,7 @@ bool is_sensible(const Clip& clip) {
   return true;
 }
 
-void check_same(const Clip& clip, const Clip& again) {
+void check_same(const Take& clip, const Take& again) {
   check(clip.frame_count() == again.frame_count());
   check(clip.joint_count() == again.joint_count());
   // A sample that is held follows what was changed before it.
@@ -63,7 +63,7 @@ void check_same(const Clip& clip, const Clip& again) {
   }
 }
 
-void change(Clip& clip, std::uint64_t seed) {
+void change(Take& clip, std::uint64_t seed) {
   Random random(seed);
   const double share = random.uniform(), size_rad = std::pow(10.0, random.uniform(-6, 0.5));
   for (Quat& q : clip.rotations) {
@@ -79,34 +79,34 @@ void change(Clip& clip, std::uint64_t seed) {
 
 // What is no finite number, half a frame at the end, or two numbers without a blank between them is
 // never written: once it is gone, the text stays as it is.
-void check_unchanged(const Clip& clip, bool is_mended, const std::string& amc,
+void check_unchanged(const Take& clip, bool is_mended, const std::string& amc,
                      const std::string& asf) {
-  const std::string written = write_clip(clip, "amc");
+  const std::string written = write_take(clip, "amc");
   if (clip.observed.empty() && !is_mended) {
     check(written == amc);
     return;
   }
-  const Clip finite = read(written, asf);
+  const Take finite = read(written, asf);
   check(finite.observed.empty());
-  check(write_clip(finite, "amc") == written);
+  check(write_take(finite, "amc") == written);
 }
 
 // Of a pair that was read: nothing of what is written from it may be refused.
-void check_written(Clip clip, bool is_mended, const std::string& amc, const std::string& asf,
+void check_written(Take clip, bool is_mended, const std::string& amc, const std::string& asf,
                    std::uint64_t seed) {
   check_unchanged(clip, is_mended, amc, asf);
-  check(write_clip(clip, "asf") == asf);
+  check(write_take(clip, "asf") == asf);
   const SourceInfo source = clip.source;
   clip.source = {};
   try {
-    const Clip plain = read(write_clip(clip, "amc"), write_clip(clip, "asf"));
+    const Take plain = read(write_take(clip, "amc"), write_take(clip, "asf"));
     check(plain.frame_count() == clip.frame_count());
   } catch (const Error& error) {
     check(error.kind() == ErrorKind::usage);
   }
   clip.source = source;
   change(clip, seed);
-  check_same(clip, read(write_clip(clip, "amc"), asf));
+  check_same(clip, read(write_take(clip, "amc"), asf));
 }
 
 }  // namespace
@@ -119,7 +119,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const bool both = motion != bytes.npos && bytes.find(":root") < motion;
   const std::string amc = both ? bytes.substr(motion) : bytes;
   const std::string asf = both ? bytes.substr(0, motion) : fixed_skeleton;
-  Clip clip;
+  Take clip;
   bool is_mended = false;
   try {
     clip = read(amc, asf, &is_mended);

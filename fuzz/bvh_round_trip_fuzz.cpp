@@ -16,14 +16,14 @@ namespace {
 using namespace kinemend;
 
 // Angles and positions of a size for which four decimals say enough.
-bool is_sensible(const Clip& clip) {
+bool is_sensible(const Take& clip) {
   const auto sensible = [](Vec3 v) { return norm(v) < 1e6; };
   return std::all_of(clip.positions.begin(), clip.positions.end(), sensible);
 }
 
 // `source`: unless null, what keeps its exact value where the clip has it.
-void check_round_trip(const Clip& clip, const Clip* source, const std::string& text) {
-  const Clip again = read_clip(text, "again.bvh").clip;
+void check_round_trip(const Take& clip, const Take* source, const std::string& text) {
+  const Take again = read_joints(text, "again.bvh").take;
   again.validate();
   check(again.frame_count() == clip.frame_count() && again.joint_count() == clip.joint_count());
   if (!is_sensible(clip)) return;
@@ -45,13 +45,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string bytes = text_of(data, size);
   std::uint64_t seed = 14695981039346656037u;
   for (const char byte : bytes) seed = (seed ^ static_cast<unsigned char>(byte)) * 1099511628211u;
-  Clip clip;
+  Take clip;
   try {
-    clip = read_clip(bytes, "fuzz.bvh").clip;
+    clip = read_joints(bytes, "fuzz.bvh").take;
   } catch (const Error&) {
     return 0;
   }
-  const Clip source = clip;
+  const Take source = clip;
   Random random(seed);
   const double share = random.uniform(), size_rad = std::pow(10.0, random.uniform(-6, 0.5));
   for (Quat& q : clip.rotations) {
@@ -63,11 +63,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (std::size_t f = 0; f < clip.frame_count(); ++f)
       clip.root_position(f) += {0.5, 0.25, -0.125};
   }
-  check_round_trip(clip, &source, write_clip(clip));
+  check_round_trip(clip, &source, write_take(clip));
   if (random.chance(0.2) && clip.frame_count() > 0) {
     clip.source.document.reset();
     try {
-      check_round_trip(clip, nullptr, write_clip(clip));
+      check_round_trip(clip, nullptr, write_take(clip));
     } catch (const Error& error) {
       // The plain layout refuses motion that no channel can hold.
       check(error.kind() == ErrorKind::usage);

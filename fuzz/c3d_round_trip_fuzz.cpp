@@ -15,15 +15,15 @@ namespace {
 
 using namespace kinemend;
 
-MarkerClip read(const std::string& bytes) {
+Take read(const std::string& bytes) {
   ReadOptions options;
   options.format = "c3d";
-  return std::get<MarkerClip>(read_take(bytes, "fuzz.c3d", options).take);
+  return read_take(bytes, "fuzz.c3d", options).take;
 }
 
 // Positions of a size at which a real holds what is added to them, and nowhere zeros that a reader
 // could take for missing.
-bool is_sensible(const MarkerClip& clip) {
+bool is_sensible(const Take& clip) {
   for (std::size_t i = 0; i < clip.positions.size(); ++i) {
     const double size = norm(clip.positions[i]);
     if (clip.observed[i] != 0 && !(size > 1e-3 && size < 1e4)) return false;
@@ -32,13 +32,13 @@ bool is_sensible(const MarkerClip& clip) {
 }
 
 // Between the positions that a file can hold; 0 for reals.
-double step_of(const MarkerClip& clip) {
+double step_of(const Take& clip) {
   const std::string& encoding = clip.source.facts.at(0).text;
   const std::size_t at = encoding.find("steps of ");
   return at == encoding.npos ? 0 : std::strtod(encoding.c_str() + at + 9, nullptr);
 }
 
-void change(MarkerClip& clip, Random& random) {
+void change(Take& clip, Random& random) {
   const double share = random.uniform();
   for (std::size_t i = 0; i < clip.positions.size(); ++i) {
     if (!random.chance(share)) continue;
@@ -49,8 +49,8 @@ void change(MarkerClip& clip, Random& random) {
 }
 
 // `source`: unless null, what keeps its value where the clip has it; positions lie `step` apart.
-void check_round_trip(const MarkerClip& clip, const MarkerClip* source, double step) {
-  const MarkerClip again = read(write_markers(clip, "c3d"));
+void check_round_trip(const Take& clip, const Take* source, double step) {
+  const Take again = read(write_take(clip, "c3d"));
   again.validate();
   check(again.frame_count() == clip.frame_count());
   check(again.marker_count() == clip.marker_count());
@@ -71,7 +71,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string bytes = text_of(data, size);
   std::uint64_t seed = 14695981039346656037u;
   for (const char byte : bytes) seed = (seed ^ static_cast<unsigned char>(byte)) * 1099511628211u;
-  MarkerClip clip;
+  Take clip;
   try {
     clip = read(bytes);
   } catch (const Error&) {
@@ -79,7 +79,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   const double step = step_of(clip);
   if (step > 10 || !is_sensible(clip)) return 0;
-  const MarkerClip source = clip;
+  const Take source = clip;
   Random random(seed);
   change(clip, random);
   try {

@@ -10,7 +10,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace kinemend;
-  static const Clip clip = small_clip();
+  static const Take clip = small_clip();
   static const std::size_t legs = find_legs(clip.skeleton).size();
   std::vector<FootContact> contacts;
   try {
@@ -24,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
           contact.last_frame < clip.frame_count());
   }
   check(parse_contacts(contacts_text(clip, contacts), "again", clip) == contacts);
-  Clip held = clip;
+  Take held = clip;
   FeetSettings settings;
   settings.contacts = contacts;
   clean_feet(held, settings);

@@ -9,8 +9,8 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace kinemend;
-  static const Clip joints = small_clip();
-  static const MarkerClip markers = small_markers();
+  static const Take joints = small_clip();
+  static const Take markers = small_markers();
   const std::int64_t first_frame = size % 2 == 0 ? 1 : -3;
   std::vector<NamedGap> gaps;
   try {
@@ -26,7 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     check(gap.first_frame <= gap.last_frame);
     const std::span<const NamedGap> one(&gap, 1);
     try {
-      Clip clip = joints;
+      Take clip = joints;
       mark_gaps(clip, one);
       clip.validate();
       check(!find_gaps(clip).empty());
@@ -34,7 +34,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       check_refusal(error, {ErrorKind::usage}, "");
     }
     try {
-      MarkerClip clip = markers;
+      Take clip = markers;
       mark_gaps(clip, one);
       clip.validate();
     } catch (const Error& error) {

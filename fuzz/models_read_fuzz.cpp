@@ -23,7 +23,7 @@ std::unique_ptr<Cleaner> cleaner_of(const std::shared_ptr<const Model>& model) {
   return nullptr;
 }
 
-bool is_finite(const Clip& clip) {
+bool is_finite(const Take& clip) {
   for (const Quat& q : clip.rotations) {
     if (!std::isfinite(q.w + q.x + q.y + q.z)) return false;
   }
@@ -36,7 +36,7 @@ bool is_finite(const Clip& clip) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const Clip joints = small_clip();
+  static const Take joints = small_clip();
   std::shared_ptr<const Model> model;
   try {
     model = std::make_shared<const Model>(parse_model(text_of(data, size), "fuzz"));
@@ -48,7 +48,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const auto cleaner = cleaner_of(model);
     if (!cleaner) return 0;
-    Clip clip = joints;
+    Take clip = joints;
     clean_in_place(*cleaner, clip);
     check(is_finite(clip));
   } catch (const Error& error) {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "kinemend/experimental/body.hpp"
-#include "kinemend/known_names.hpp"
+#include "kinemend/skeleton.hpp"
 #include "laws.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

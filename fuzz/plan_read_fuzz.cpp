@@ -11,8 +11,7 @@ namespace {
 
 using namespace kinemend;
 
-template <class AnyClip>
-AnyClip with_gaps(AnyClip clip, const std::vector<NamedGap>& gaps) {
+Take with_gaps(Take clip, const std::vector<NamedGap>& gaps) {
   mark_gaps(clip, gaps);
   return clip;
 }
@@ -28,8 +27,7 @@ void check_same(const std::vector<PlannedGap>& plan, const std::vector<PlannedGa
   for (std::size_t i = 0; i < plan.size(); ++i) check(is_same(plan[i], again[i]));
 }
 
-template <class AnyClip>
-void check_plan(const std::string& text, const AnyClip& clip) {
+void check_plan(const std::string& text, const Take& clip) {
   std::vector<PlannedGap> plan;
   try {
     plan = parse_plan(text, "fuzz", clip);
@@ -42,7 +40,7 @@ void check_plan(const std::string& text, const AnyClip& clip) {
   check(plan_json(clip, parse_plan(json, "again", clip)) == json);
   check_same(plan, parse_plan(plan_csv(clip, plan), "again", clip));
   try {
-    AnyClip filled = clip;
+    Take filled = clip;
     fill_with_plan(filled, plan);
     filled.validate();
   } catch (const Error& error) {
@@ -53,9 +51,9 @@ void check_plan(const std::string& text, const AnyClip& clip) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const Clip joints =
+  static const Take joints =
       with_gaps(small_clip(), {{"Spine", 4, 6}, {"LeftLeg", 9, 12}, {"Hips", 15, 15}});
-  static const MarkerClip markers =
+  static const Take markers =
       with_gaps(small_markers(), {{"LASI", 4, 6}, {"LASI", 10, 10}, {"RKNE", 12, 16}});
   const std::string text = text_of(data, size);
   check_plan(text, joints);

@@ -3,14 +3,13 @@
 #include <string>
 #include <variant>
 
-#include "kinemend/clip.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 // Takes of a few frames, for what is read beside a take.
 
 /// Two legs and a spine, standing and walking on the spot, 24 frames at 60 Hz.
-inline kinemend::Clip small_clip() {
+inline kinemend::Take small_clip() {
   std::string text =
       "HIERARCHY\nROOT Hips\n{\n OFFSET 0 0 0\n CHANNELS 6 Xposition Yposition "
       "Zposition Zrotation Xrotation Yrotation\n";
@@ -34,11 +33,11 @@ inline kinemend::Clip small_clip() {
     for (int i = 0; i < 9; ++i) text += " 0 " + std::to_string(f * i % 17) + " 0";
     text += "\n";
   }
-  return kinemend::read_clip(text, "small.bvh").clip;
+  return kinemend::read_joints(text, "small.bvh").take;
 }
 
 /// Five markers, 24 frames at 60 Hz.
-inline kinemend::MarkerClip small_markers() {
+inline kinemend::Take small_markers() {
   std::string text = "# rate_hz: 60\n# units: mm\nframe,time_s";
   for (const char* name : {"LASI", "RASI", "SACR", "LKNE", "RKNE"}) {
     for (const char* axis : {"x", "y", "z"}) text += std::string(",") + name + "_" + axis;
@@ -51,5 +50,5 @@ inline kinemend::MarkerClip small_markers() {
   }
   kinemend::ReadOptions options;
   options.format = "csv";
-  return std::get<kinemend::MarkerClip>(kinemend::read_take(text, "small.csv", options).take);
+  return std::get<kinemend::Take>(kinemend::read_take(text, "small.csv", options).take);
 }

@@ -5,13 +5,13 @@
 #include <utility>
 #include <vector>
 
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 
 // The positions of clips, track by track.
 namespace kinemend::test {
 
 /// One track of the positions, frame by frame: 0 is the root's, k + 1 that of translated joint k.
-inline std::vector<Vec3> point_track(const Clip& clip, std::size_t track) {
+inline std::vector<Vec3> point_track(const Take& clip, std::size_t track) {
   std::vector<Vec3> points;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) points.push_back(clip.position(f, track));
   return points;
@@ -20,7 +20,7 @@ inline std::vector<Vec3> point_track(const Clip& clip, std::size_t track) {
 /// Makes `joints` the translated joints of a clip: `at(f, k)` is the translation of joints[k] in
 /// frame f, asked for in this order.
 template <class At>
-void add_translations(Clip& clip, std::vector<std::int32_t> joints, const At& at) {
+void add_translations(Take& clip, std::vector<std::int32_t> joints, const At& at) {
   const std::vector<Vec3> roots = point_track(clip, 0);
   clip.positions.clear();
   for (std::size_t f = 0; f < roots.size(); ++f) {
@@ -31,7 +31,7 @@ void add_translations(Clip& clip, std::vector<std::int32_t> joints, const At& at
 }
 
 /// The same with one translation for all.
-inline void add_translations(Clip& clip, std::vector<std::int32_t> joints, Vec3 translation) {
+inline void add_translations(Take& clip, std::vector<std::int32_t> joints, Vec3 translation) {
   add_translations(clip, std::move(joints), [&](std::size_t, std::size_t) { return translation; });
 }
 

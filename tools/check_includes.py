@@ -36,13 +36,14 @@ USES = {
     "registry": {"methods/filters", "learned/example", "learned/wiener", "learned/sparse", "learned/corrector",
                  "learned/papers"},
     "live": {"io", "pipeline", "registry"},
+    "all": {"report", "live"},  # the header that includes the stable ones
 }
 
 # The room of every public header.
 PUBLIC = {header: room for room, headers in {
-    "base": "error diagnostics random options pose_matrix version json_depth content_hash frame_rate text",
+    "base": "error random options pose_matrix version json_depth content_hash frame_rate text",
     "rotation": "rotation",
-    "motion": "skeleton take clip take_view kinematics marker_clip convert gaps frame_numbers known_names subjects",
+    "motion": "skeleton take take_view kinematics convert gaps frame_numbers subjects",
     "io": "io",
     "body": "representation body",
     "signal": "signal",
@@ -58,6 +59,7 @@ PUBLIC = {header: room for room, headers in {
     "check": "check",
     "report": "report batch_rows svg curves pictures page",
     "live": "live",
+    "all": "kinemend",
 }.items() for header in headers.split()}
 
 # Folders of programs: they see include/ (and their own folder) only.

@@ -41,21 +41,21 @@ std::string with_decimals(std::string_view bvh, int decimals) {
   return result;
 }
 
-void damage(Clip& clip, std::string_view name, const OptionValues& values, Random& random) {
+void damage(Take& clip, std::string_view name, const OptionValues& values, Random& random) {
   const DamageReport report = apply_damage(clip, name, values, random);
   fmt::print("{}: {} of {} samples, {:.2f} degrees RMS, {:.1f} at most\n", report.kind,
              report.samples_damaged, report.samples, report.rms_deg, report.max_deg);
 }
 
-void write(const std::filesystem::path& path, const Clip& clip) {
-  const std::string bytes = with_decimals(write_clip(clip), 4);
+void write(const std::filesystem::path& path, const Take& clip) {
+  const std::string bytes = with_decimals(write_take(clip), 4);
   write_file(path, bytes, true);
   fmt::print("{}: {} frames, {} bytes\n", path.filename().string(), clip.frame_count(),
              bytes.size());
 }
 
 void make_takes(const std::filesystem::path& folder) {
-  Clip clip = synthesize({"stroll", 8, 120, 11, false});
+  Take clip = synthesize({"stroll", 8, 120, 11, false});
   write(folder / "walk.bvh", clip);
   Random random(2008);
   damage(clip, "gaussian", {{"std_deg", 1.5}}, random);

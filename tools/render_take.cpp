@@ -49,7 +49,7 @@ struct Span {
 
 // Where the root faces, as a unit vector on the floor, averaged over half a second so that steps do
 // not turn the view.
-std::vector<Vec3> headings(const Clip& clip) {
+std::vector<Vec3> headings(const Take& clip) {
   const std::size_t frames = clip.frame_count();
   const auto half = static_cast<std::size_t>(std::lround(0.25 * clip.frame_rate_hz));
   std::vector<Vec3> result(frames);
@@ -68,7 +68,7 @@ std::vector<Vec3> headings(const Clip& clip) {
 // frame about its own place on the time axis.
 class View {
  public:
-  View(const Clip& clip, const std::vector<Vec3>& facing, const Span& span, double ground_y,
+  View(const Take& clip, const std::vector<Vec3>& facing, const Span& span, double ground_y,
        double pixels_per_unit)
       : clip_(clip),
         facing_(facing),
@@ -97,10 +97,10 @@ class View {
     if (index < 0) throw Error(ErrorKind::usage, fmt::format("no joint is called {}", joint));
     return static_cast<std::size_t>(index);
   }
-  const Clip& clip() const { return clip_; }
+  const Take& clip() const { return clip_; }
 
  private:
-  const Clip& clip_;
+  const Take& clip_;
   const std::vector<Vec3>& facing_;
   std::vector<Vec3> positions_;
   std::size_t columns_;
@@ -172,12 +172,12 @@ struct JointAngle {
   Quat mean;
   Vec3 axis;
 
-  double of(const Clip& clip, std::size_t frame) const {
+  double of(const Take& clip, std::size_t frame) const {
     return dot(axis, log(conjugate(mean) * clip.rotation(frame, joint))) * degrees_per_radian;
   }
 };
 
-JointAngle main_angle(const Clip& clip, std::string_view name) {
+JointAngle main_angle(const Take& clip, std::string_view name) {
   const auto joint = clip.skeleton.find(name);
   if (joint < 0) throw Error(ErrorKind::usage, fmt::format("no joint is called {}", name));
   JointAngle angle{static_cast<std::size_t>(joint), {}, {}};
@@ -220,7 +220,7 @@ void draw_scale(Svg& svg, const Panel& panel) {
   svg.close_group();
 }
 
-void draw_curves(Svg& svg, const std::array<Clip, 3>& clips, const Settings& settings,
+void draw_curves(Svg& svg, const std::array<Take, 3>& clips, const Settings& settings,
                  const Span& span, double top, double bottom) {
   const JointAngle angle = main_angle(clips[0], settings.joint);
   std::array<std::vector<double>, 3> values;
@@ -268,13 +268,13 @@ void key(Svg& svg, double x, double y, std::string_view look, std::string_view n
   svg.text(x + 32, y, fmt::format("font-size=\"13\" fill=\"{}\"", text_ink), name);
 }
 
-std::string figures_of(const Clip& reference, const Clip& other) {
+std::string figures_of(const Take& reference, const Take& other) {
   return fmt::format("error {:.2f}° RMS, {:.1f}° at the 99th percentile",
                      geodesic_rms_deg(reference, other), geodesic_percentile_deg(reference, other));
 }
 
-std::string render(const std::array<Clip, 3>& clips, const Settings& settings) {
-  const Clip& truth = clips[0];
+std::string render(const std::array<Take, 3>& clips, const Settings& settings) {
+  const Take& truth = clips[0];
   const double rate = truth.frame_rate_hz;
   const auto last = static_cast<double>(truth.frame_count() - 1);
   const Span span{static_cast<std::size_t>(std::clamp(settings.from_s * rate, 0.0, last - 1)),
@@ -343,8 +343,8 @@ Settings parse(int count, char** arguments) {
 int main(int count, char** arguments) {
   try {
     const Settings settings = parse(count, arguments);
-    std::array<Clip, 3> clips;
-    for (std::size_t i = 0; i < 3; ++i) clips[i] = read_clip(settings.takes[i]).clip;
+    std::array<Take, 3> clips;
+    for (std::size_t i = 0; i < 3; ++i) clips[i] = read_joints(settings.takes[i]).take;
     const std::string svg = render(clips, settings);
     write_file(settings.output, svg, true);
     fmt::print("{}: {} bytes\n", settings.output, svg.size());

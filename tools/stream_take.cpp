@@ -23,33 +23,29 @@ namespace {
 
 using namespace kinemend;
 
-void set_frame(Clip& clip, std::size_t f, const Frame& frame) {
+void set_frame(Take& clip, std::size_t f, const Frame& frame) {
+  if (!clip.has_joints()) {
+    for (std::size_t m = 0; m < clip.marker_count(); ++m) clip.position(f, m) = frame.positions[m];
+    return;
+  }
   const std::size_t joints = clip.joint_count();
   for (std::size_t j = 0; j < joints; ++j) clip.rotation(f, j) = frame.rotations[j];
   for (std::size_t i = 0; i < frame.positions.size(); ++i)
     set_track(clip, joints + i, std::span(frame.positions).subspan(i, 1), f);
 }
 
-void set_frame(MarkerClip& clip, std::size_t f, const Frame& frame) {
-  for (std::size_t m = 0; m < clip.marker_count(); ++m) clip.position(f, m) = frame.positions[m];
-}
-
-std::unique_ptr<Stream> stream_of(const Cleaner& cleaner, const Clip& clip) {
-  return make_stream(cleaner, clip);
-}
-std::unique_ptr<Stream> stream_of(const Cleaner& cleaner, const MarkerClip& clip) {
-  return make_stream(cleaner, clip, body_height(clip));
+std::unique_ptr<Stream> stream_of(const Cleaner& cleaner, const Take& take) {
+  return take.has_joints() ? make_stream(cleaner, take)
+                           : make_stream(cleaner, take, body_height(take));
 }
 
 // None of a method that needs the whole take.
-template <class AnyTake>
-std::optional<AnyTake> streamed(const AnyTake& take, const Method& method,
-                                const OptionValues& options) {
+std::optional<Take> streamed(const Take& take, const Method& method, const OptionValues& options) {
   try {
     const auto cleaner = make_cleaner(method.name, options);
     const auto stream = stream_of(*cleaner, take);
     const TakeView view = view_of(take);
-    AnyTake result = take;
+    Take result = take;
     std::size_t next = 0;
     Frame out;
     for (std::size_t f = 0; f < take.frame_count(); ++f) {
@@ -63,8 +59,7 @@ std::optional<AnyTake> streamed(const AnyTake& take, const Method& method,
   }
 }
 
-template <class AnyTake>
-void stream_all(const AnyTake& take, const std::filesystem::path& folder) {
+void stream_all(const Take& take, const std::filesystem::path& folder) {
   const std::vector<std::pair<std::string, OptionValues>> ways{
       {"", {}}, {".causal", {{"causal", true}}}, {".filter", {{"smoother", false}}}};
   for (const Method& method : methods()) {
@@ -87,10 +82,7 @@ int main(int argc, char** argv) {
   try {
     const TakeResult read = read_take(std::filesystem::path(argv[1]));
     std::filesystem::create_directories(argv[2]);
-    if (const auto* clip = std::get_if<Clip>(&read.take))
-      stream_all(*clip, argv[2]);
-    else
-      stream_all(std::get<MarkerClip>(read.take), argv[2]);
+    stream_all(read.take, argv[2]);
   } catch (const std::exception& error) {
     fmt::print(stderr, "stream_take: {}\n", error.what());
     return 3;

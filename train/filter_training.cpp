@@ -149,12 +149,12 @@ double mean_error(const FilterTake& take, const std::vector<float>& values,
 
 }  // namespace
 
-FilterTrainer::FilterTrainer(std::vector<Clip> takes, const FilterTraining& settings)
+FilterTrainer::FilterTrainer(std::vector<Take> takes, const FilterTraining& settings)
     : takes_(std::move(takes)), settings_(settings), head_(head_of(settings.head)) {
   if (takes_.empty()) throw Error(ErrorKind::usage, "no takes to learn from");
   rate_hz_ = takes_.front().frame_rate_hz;
   BodyLayoutBuilder builder;
-  for (const Clip& take : takes_) {
+  for (const Take& take : takes_) {
     if (std::abs(take.frame_rate_hz / rate_hz_ - 1) > 1e-3)
       throw Error(ErrorKind::usage, "the takes have different frame rates");
     builder.add(take);
@@ -163,7 +163,7 @@ FilterTrainer::FilterTrainer(std::vector<Clip> takes, const FilterTraining& sett
   layout_ = builder.finish();
   mirror_ = without_root(mirror_of(layout_));
   std::vector<FilterTake> clean;
-  for (const Clip& take : takes_) {
+  for (const Take& take : takes_) {
     clean.push_back(filter_take_of(encode_body(take, layout_, match_body(layout_, take)), layout_));
     const std::size_t chunk = settings_.frames * (settings_.kind == "ebd" ? 4 : 1);
     chunks_of_epoch_ += (take.frame_count() + chunk - 1) / chunk;
@@ -184,11 +184,11 @@ FilterTrainer::FilterTrainer(std::vector<Clip> takes, const FilterTraining& sett
   network_ = std::make_unique<SequenceNetwork>(shape_, settings_.descent, settings_.seed);
 }
 
-FilterTrainer::Sample FilterTrainer::sample_of(const Clip& clip, Random random) const {
+FilterTrainer::Sample FilterTrainer::sample_of(const Take& clip, Random random) const {
   const BodyMatch match = match_body(layout_, clip);
   Sample sample;
   sample.truth = filter_take_of(encode_body(clip, layout_, match), layout_).values;
-  Clip damaged = clip;
+  Take damaged = clip;
   for (const std::vector<FilterDamage>* choices :
        {&settings_.noise, &settings_.bias, &settings_.gaps}) {
     if (choices->empty()) continue;
@@ -380,7 +380,7 @@ std::vector<float> FilterTrainer::apply(const FilterTake& take) const {
   return result;
 }
 
-double FilterTrainer::share_left(const std::vector<Clip>& takes) const {
+double FilterTrainer::share_left(const std::vector<Take>& takes) const {
   double share = 0, count = 0;
   for (std::size_t i = 0; i < takes.size(); ++i) {
     const Sample sample = sample_of(takes[i], Random(7).fork(i));

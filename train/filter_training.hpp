@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/clip.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/options.hpp"
+#include "kinemend/take.hpp"
 #include "learned/core/recurrent_forms.hpp"
 #include "learned/papers/filter_network.hpp"
 #include "sequence_network.hpp"
@@ -44,7 +44,7 @@ class FilterTrainer {
  public:
   /// Clean takes at one rate. Errors: `ErrorKind::usage` as of `BodyLayoutBuilder`, for takes of
   /// different rates, an unknown kind or head, and an EBD that filters.
-  FilterTrainer(std::vector<Clip> takes, const FilterTraining& settings);
+  FilterTrainer(std::vector<Take> takes, const FilterTraining& settings);
 
   std::size_t batch() const noexcept { return batch_; }
   std::size_t batches() const noexcept {
@@ -54,7 +54,7 @@ class FilterTrainer {
   double step();
   /// Mean error over takes that are not learned from, damaged in a fixed way, over that of the
   /// Gaussian of 58 ms; of EBD over that of the straight lines in the gaps.
-  double share_left(const std::vector<Clip>& takes) const;
+  double share_left(const std::vector<Take>& takes) const;
   /// The model as it is now. The card is the caller's.
   Model model() const;
   std::string checkpoint() const;
@@ -81,7 +81,7 @@ class FilterTrainer {
 
   bool fills() const noexcept { return !settings_.gaps.empty(); }
   FilterInputs inputs() const noexcept { return {settings_.sees_roughness, fills()}; }
-  Sample sample_of(const Clip& clip, Random random) const;
+  Sample sample_of(const Take& clip, Random random) const;
   void damage_takes(std::size_t round);
   FilterSignal signal_of(const FilterTake& take) const;
   /// Whether the loss counts a sample: those that are missing, of all where a pose is made anew.
@@ -94,7 +94,7 @@ class FilterTrainer {
   Rows rows_of(const Chunk& chunk) const;
   std::vector<float> apply(const FilterTake& take) const;
 
-  std::vector<Clip> takes_;
+  std::vector<Take> takes_;
   FilterTraining settings_;
   BodyLayout layout_;
   BodyMirror mirror_;  // of the joints but the root

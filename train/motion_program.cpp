@@ -31,8 +31,7 @@ struct Arguments {
   std::string pairs, validation_pairs, outset;
 };
 
-template <class AnyClip>
-MotionPair pair_of(const std::string& name, const AnyClip& noisy, const AnyClip& reference,
+MotionPair pair_of(const std::string& name, const Take& noisy, const Take& reference,
                    double least_deg) {
   const TakeView take = view_of(noisy);
   MotionTracks tracks = motion_tracks_of(take, changeable_tracks(take));
@@ -51,14 +50,10 @@ std::vector<MotionPair> pairs_of(const std::string& list) {
     if (tab == std::string::npos)
       throw Error(ErrorKind::usage, fmt::format("{}: expected two files with a tab between", list));
     const std::string noisy = line.substr(0, tab), reference = line.substr(tab + 1);
-    const AnyTake one = read_take(noisy).take, other = read_take(reference).take;
-    if (one.index() != other.index())
+    const Take one = read_take(noisy).take, other = read_take(reference).take;
+    if (one.has_joints() != other.has_joints())
       throw Error(ErrorKind::usage, fmt::format("{}: joints and markers are no pair", noisy));
-    if (const auto* markers = std::get_if<MarkerClip>(&one)) {
-      pairs.push_back(pair_of(noisy, *markers, std::get<MarkerClip>(other), least_move_deg));
-    } else {
-      pairs.push_back(pair_of(noisy, std::get<Clip>(one), std::get<Clip>(other), least_turn_deg));
-    }
+    pairs.push_back(pair_of(noisy, one, other, one.has_joints() ? least_turn_deg : least_move_deg));
   }
   return pairs;
 }
@@ -67,8 +62,8 @@ std::vector<MotionPair> pairs_of(const std::string& list) {
 std::vector<MarkerMotion> marker_motions_of(const std::vector<std::string>& paths) {
   std::vector<MarkerMotion> motions;
   for (const std::string& path : paths) {
-    const Clip clip = read_clip(path).clip;
-    const MarkerClip markers =
+    const Take clip = read_joints(path).take;
+    const Take markers =
         joint_markers(slice(clip, leading_calibration_frames(clip), clip.frame_count()));
     const TakeView view = view_of(markers);
     std::vector<std::size_t> all(markers.marker_count());

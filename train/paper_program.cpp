@@ -46,10 +46,10 @@ FilterDamage damage_of(const std::string& text) {
   return damage;
 }
 
-std::vector<Clip> read_takes(const std::vector<std::string>& paths) {
-  std::vector<Clip> takes;
+std::vector<Take> read_takes(const std::vector<std::string>& paths) {
+  std::vector<Take> takes;
   for (const std::string& path : paths) {
-    const Clip clip = read_clip(path).clip;
+    const Take clip = read_joints(path).take;
     takes.push_back(slice(clip, leading_calibration_frames(clip), clip.frame_count()));
   }
   return takes;
@@ -65,7 +65,7 @@ void train(Arguments arguments) {
   FilterTrainer trainer(read_takes(paths), arguments.training);
   if (!arguments.start.empty()) trainer.begin_with(read_model(arguments.start));
   if (run.resume) trainer.resume(file_bytes(run.checkpoint), run.checkpoint);
-  std::vector<Clip> kept;
+  std::vector<Take> kept;
   if (!run.validation.empty()) kept = read_takes(lines_of(run.validation));
   fmt::print("{} takes, {} channels, {} steps\n", paths.size(),
              trainer.model().layout.channel_count(), trainer.batches());

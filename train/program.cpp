@@ -78,7 +78,7 @@ bool parse(CLI::App& app, int count, char** values, const Run& run, int& exit_co
 
 TrainingTakes takes_of(const std::vector<std::string>& paths) {
   return {paths.size(),
-          [paths](std::size_t i) -> std::optional<Take> { return read_clip(paths[i]).clip; }};
+          [paths](std::size_t i) -> std::optional<Take> { return read_joints(paths[i]).take; }};
 }
 
 void save(const Run& run, const std::string& checkpoint, Model model,

@@ -154,7 +154,7 @@ std::vector<Constant> constants_of_held() {
 }
 
 // The rotations as the method `auto` cleans them, with other constants.
-Clip cleaned_with(const Tuning& tuning, Clip clip) {
+Take cleaned_with(const Tuning& tuning, Take clip) {
   const std::size_t frames = clip.frame_count();
   std::vector<std::size_t> joints, track_of(clip.joint_count(), clip.joint_count());
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
@@ -193,7 +193,7 @@ Clip cleaned_with(const Tuning& tuning, Clip clip) {
 }
 
 // The positions of a clip's joints, as markers of the scale on which `auto` cleans these.
-VectorMotion markers_of(const Clip& clip) {
+VectorMotion markers_of(const Take& clip) {
   constexpr double degrees_per_height = 1150;
   const double scale = degrees_per_height / body_height(clip.skeleton);
   const std::vector<Vec3> positions = joint_positions(clip);
@@ -247,13 +247,13 @@ double rms(const VectorMotion& a, const VectorMotion& b) {
 struct Damage {
   std::string name;
   double rate_hz;
-  std::function<Clip(const Clip&)> apply;
+  std::function<Take(const Take&)> apply;
 };
 
 // Noise with a colour, and takes that are easily taken for such.
 std::vector<Damage> coloured_damages() {
   const auto ar1 = [](double correlation) {
-    return [=](const Clip& c) {
+    return [=](const Take& c) {
       return damaged(c, "ar1", {{"std_deg", 1.5}, {"correlation", correlation}}, 7);
     };
   };
@@ -261,21 +261,21 @@ std::vector<Damage> coloured_damages() {
           {"ar1_0.8", 120, ar1(0.8)},
           {"ar1_0.95", 120, ar1(0.95)},
           {"video", 60,
-           [](const Clip& c) {
+           [](const Take& c) {
              return damaged(c, "system", {{"kind", std::string("video")}}, 7);
            }},
           {"half", 120,
-           [](const Clip& c) {
+           [](const Take& c) {
              return damaged(c, "gaussian-channels", {{"k", 0.5}}, 7);
            }},
-          {"clean", 120, [](const Clip& c) { return c; }},
-          {"clean_30_hz", 30, [](const Clip& c) { return c; }}};
+          {"clean", 120, [](const Take& c) { return c; }},
+          {"clean_30_hz", 30, [](const Take& c) { return c; }}};
 }
 
 // Samples of a lower rate with noise of 1 degree, held or joined by lines, and clean ones.
 std::vector<Damage> held_damages() {
   const auto lower = [](double noise_deg, const char* join, double rate_hz) {
-    return [=](const Clip& c) {
+    return [=](const Take& c) {
       return damaged(noisy(c, noise_deg, 0, 7), join, {{"rate_hz", rate_hz}}, 7);
     };
   };
@@ -284,8 +284,8 @@ std::vector<Damage> held_damages() {
           {"upsampled_60_hz", 120, lower(1, "upsampled", 60)},
           {"upsampled_30_hz", 120, lower(1, "upsampled", 30)},
           {"clean_held_30_hz", 120, lower(0, "held", 30)},
-          {"1_deg", 120, [](const Clip& c) { return noisy(c, 1, 0, 7); }},
-          {"clean", 120, [](const Clip& c) { return c; }}};
+          {"1_deg", 120, [](const Take& c) { return noisy(c, 1, 0, 7); }},
+          {"clean", 120, [](const Take& c) { return c; }}};
 }
 
 // The same of markers.
@@ -303,37 +303,37 @@ std::vector<MarkerDamage> marker_damages() {
 }
 
 std::vector<Damage> damages() {
-  return {{"1_deg", 120, [](const Clip& c) { return noisy(c, 1, 0, 7); }},
-          {"4_deg_spikes", 120, [](const Clip& c) { return noisy(c, 4, 0.004, 7); }},
+  return {{"1_deg", 120, [](const Take& c) { return noisy(c, 1, 0, 7); }},
+          {"4_deg_spikes", 120, [](const Take& c) { return noisy(c, 4, 0.004, 7); }},
           {"half", 120,
-           [](const Clip& c) {
+           [](const Take& c) {
              return damaged(c, "gaussian-channels", {{"k", 0.5}}, 7);
            }},
-          {"30_hz_2_deg", 30, [](const Clip& c) { return noisy(c, 2, 0, 7); }},
-          {"30_hz_dense", 30, [](const Clip& c) { return noisy(c, 1, 0.1, 7); }},
-          {"impulses", 120, [](const Clip& c) { return damaged(c, "impulse", {}, 7); }},
-          {"clean", 120, [](const Clip& c) { return c; }},
-          {"clean_30_hz", 30, [](const Clip& c) { return c; }},
+          {"30_hz_2_deg", 30, [](const Take& c) { return noisy(c, 2, 0, 7); }},
+          {"30_hz_dense", 30, [](const Take& c) { return noisy(c, 1, 0.1, 7); }},
+          {"impulses", 120, [](const Take& c) { return damaged(c, "impulse", {}, 7); }},
+          {"clean", 120, [](const Take& c) { return c; }},
+          {"clean_30_hz", 30, [](const Take& c) { return c; }},
           {"impulses_30_hz", 30,
-           [](const Clip& c) {
+           [](const Take& c) {
              return damaged(c, "impulse", {{"share", 0.004}}, 7);
            }},
-          {"outliers", 120, [](const Clip& c) { return noisy(c, 0, 0.004, 7); }},
-          {"third_deg_few_spikes", 120, [](const Clip& c) { return noisy(c, 0.3, 0.001, 7); }}};
+          {"outliers", 120, [](const Take& c) { return noisy(c, 0, 0.004, 7); }},
+          {"third_deg_few_spikes", 120, [](const Take& c) { return noisy(c, 0.3, 0.001, 7); }}};
 }
 
 // 5 s of each take.
-std::vector<Clip> takes_of(const Arguments& arguments) {
-  std::vector<Clip> takes;
+std::vector<Take> takes_of(const Arguments& arguments) {
+  std::vector<Take> takes;
   for (const char* name : {"111_24", "118_13", "13_12", "13_29", "39_05", "82_02", "83_47"}) {
-    const Clip clip = load_take(arguments, std::string(name) + ".bvh", {.motion = "walk"}).clip;
+    const Take clip = load_take(arguments, std::string(name) + ".bvh", {.motion = "walk"}).clip;
     takes.push_back(slice(clip, 0, std::min<std::size_t>(clip.frame_count(), 600)));
     if (arguments.quick) break;
   }
   return takes;
 }
 
-Clip at_rate(const Clip& clip, double rate_hz) {
+Take at_rate(const Take& clip, double rate_hz) {
   if (rate_hz == clip.frame_rate_hz) return clip;
   return resample(clip, rate_hz);
 }
@@ -344,12 +344,12 @@ struct Kind {
   std::vector<std::function<double(const Tuning&)>> errors;
 };
 
-std::vector<Kind> kinds_of(const std::vector<Clip>& takes, const std::vector<Damage>& damages) {
+std::vector<Kind> kinds_of(const std::vector<Take>& takes, const std::vector<Damage>& damages) {
   std::vector<Kind> kinds;
   for (const Damage& damage : damages) {
     kinds.push_back({damage.name, {}});
-    for (const Clip& clip : takes) {
-      const Clip truth = at_rate(clip, damage.rate_hz);
+    for (const Take& clip : takes) {
+      const Take truth = at_rate(clip, damage.rate_hz);
       kinds.back().errors.push_back([truth, bad = damage.apply(truth)](const Tuning& tuning) {
         return geodesic_rms_deg(truth, cleaned_with(tuning, bad));
       });
@@ -358,10 +358,10 @@ std::vector<Kind> kinds_of(const std::vector<Clip>& takes, const std::vector<Dam
   return kinds;
 }
 
-void add_markers(const std::vector<Clip>& takes, std::vector<Kind>& kinds) {
+void add_markers(const std::vector<Take>& takes, std::vector<Kind>& kinds) {
   for (const MarkerDamage& damage : marker_damages()) {
     kinds.push_back({damage.name, {}});
-    for (const Clip& clip : takes) {
+    for (const Take& clip : takes) {
       const VectorMotion truth = markers_of(at_rate(clip, damage.rate_hz));
       VectorMotion bad = truth;
       Random random(7);
@@ -426,7 +426,7 @@ void vary(const Arguments& arguments, const std::vector<Constant>& list,
 }
 
 void sweep(const Arguments& arguments) {
-  const std::vector<Clip> takes = takes_of(arguments);
+  const std::vector<Take> takes = takes_of(arguments);
   const std::string columns = "constant,value,factor,mean,largest";
   // What estimates the colour is slow: fewer values.
   Table special(arguments, "auto_sweep_colour.csv", columns);

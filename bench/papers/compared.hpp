@@ -13,7 +13,7 @@ struct Compared {
   OptionValues options{};
 };
 
-inline Clip cleaned(const Clip& clip, const Compared& by) {
+inline Take cleaned(const Take& clip, const Compared& by) {
   return cleaned(clip, by.method, by.options);
 }
 

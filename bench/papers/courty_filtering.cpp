@@ -23,13 +23,13 @@ constexpr int paper_passes = 5;
 
 double sigma_g_deg(double paper_value) { return 2 * paper_value * degrees_per_radian; }
 
-std::vector<Quat> track_of(const Clip& clip, std::size_t joint) {
+std::vector<Quat> track_of(const Take& clip, std::size_t joint) {
   std::vector<Quat> track;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) track.push_back(clip.rotation(f, joint));
   return track;
 }
 
-double path_rad(const Clip& clip, std::size_t joint, std::size_t first, std::size_t last) {
+double path_rad(const Take& clip, std::size_t joint, std::size_t first, std::size_t last) {
   double sum = 0;
   for (std::size_t f = first + 1; f < last; ++f) {
     sum += angle_between(clip.rotation(f - 1, joint), clip.rotation(f, joint));
@@ -42,7 +42,7 @@ bool is_arm(const std::string& name) {
 }
 
 // The `frames` frames, every `step`-th, in which the arms turn the most.
-Clip busiest_part(const Clip& clip, std::size_t step, std::size_t frames) {
+Take busiest_part(const Take& clip, std::size_t step, std::size_t frames) {
   std::size_t best = 0;
   double most = -1;
   for (std::size_t first = 0; first + step * frames <= clip.frame_count(); first += 10) {
@@ -55,7 +55,7 @@ Clip busiest_part(const Clip& clip, std::size_t step, std::size_t frames) {
   return thinned(clip, best, step, frames);
 }
 
-std::size_t busiest_arm_joint(const Clip& clip) {
+std::size_t busiest_arm_joint(const Take& clip) {
   std::size_t best = 0;
   double most = -1;
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
@@ -66,14 +66,14 @@ std::size_t busiest_arm_joint(const Clip& clip) {
   return best;
 }
 
-Clip bilateral(Clip clip, double paper_value, std::int64_t passes) {
+Take bilateral(Take clip, double paper_value, std::int64_t passes) {
   const BilateralOptions options{paper_sigma_t_frames / clip.frame_rate_hz,
                                  sigma_g_deg(paper_value), passes, "mirror"};
   clean_in_place(*make_bilateral(options), clip);
   return clip;
 }
 
-double arms_mse(const Clip& truth, const Clip& other) {
+double arms_mse(const Take& truth, const Take& other) {
   double sum = 0, count = 0;
   for (std::size_t j = 0; j < truth.joint_count(); ++j) {
     if (!is_arm(truth.skeleton.names[j])) continue;
@@ -84,7 +84,7 @@ double arms_mse(const Clip& truth, const Clip& other) {
 }
 
 // Figure 3. One filter of so wide a sigma_g that it sees no edge is the Gaussian.
-void mean_square_errors(const Arguments& arguments, const Clip& truth, const Clip& noisy) {
+void mean_square_errors(const Arguments& arguments, const Take& truth, const Take& noisy) {
   const std::vector<double> sigmas{0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 8.0};
   const int passes = arguments.quick ? 6 : 20;
   Table table(arguments, "courty_mse.csv", "sigma_g,passes,mse_rad2");
@@ -96,7 +96,7 @@ void mean_square_errors(const Arguments& arguments, const Clip& truth, const Cli
       "passes");
   for (const double sigma : sigmas) fmt::print("{:>10}", sigma);
   fmt::print("\n");
-  std::vector<Clip> clips(sigmas.size(), noisy);
+  std::vector<Take> clips(sigmas.size(), noisy);
   for (int pass = 0; pass <= passes; ++pass) {
     fmt::print("{:8}", pass);
     for (std::size_t s = 0; s < sigmas.size(); ++s) {
@@ -113,7 +113,7 @@ void mean_square_errors(const Arguments& arguments, const Clip& truth, const Cli
 
 struct Version {
   std::string name;
-  Clip clip;
+  Take clip;
   double mean_speed_rad_s = 0, peak_speed_rad_s = 0, joint_mse_rad2 = 0;
   double path_length = 0, mean_distance = 0;  // of the hand, file units
 };
@@ -207,9 +207,9 @@ void summary(const Arguments& arguments, const std::vector<Version>& versions) {
 
 void experiment(const Arguments& arguments) {
   const SynthOptions synth{"wave", 8, 120, 3, false};
-  const AnyTake take = load_take(arguments, "26_01.bvh", synth);
-  const Clip truth = busiest_part(take.clip, 4, 150);
-  Clip noisy = truth;
+  const NamedTake take = load_take(arguments, "26_01.bvh", synth);
+  const Take truth = busiest_part(take.clip, 4, 150);
+  Take noisy = truth;
   Random random(2008);
   // Read as the root mean square of the whole turn: with 0.18 rad on each axis, or on each
   // component of the quaternion's logarithm, sigma_g = 0.1 would take nearly every neighbour for an

@@ -25,8 +25,8 @@ struct Noise {
 const std::vector<Noise> noises{{"1 sigma", 1},   {"15 sigma", 15}, {"30 sigma", 30},
                                 {"50 sigma", 50}, {"75 sigma", 75}, {"impulse", 0}};
 
-Clip damaged(const Clip& truth, const Noise& noise) {
-  Clip clip = truth;
+Take damaged(const Take& truth, const Noise& noise) {
+  Take clip = truth;
   Random random(2016);
   if (noise.multiple > 0) {
     apply_damage(clip, "gaussian-log", {{"sigma", noise.multiple * base_sigma}}, random);
@@ -96,13 +96,13 @@ std::vector<Row> rows(bool quick) {
 
 struct Best {
   double psnr_db = -std::numeric_limits<double>::infinity();
-  Clip clip;
+  Take clip;
 };
 
-Best best_of(const Clip& truth, const Clip& noisy, const Row& row) {
+Best best_of(const Take& truth, const Take& noisy, const Row& row) {
   Best best;
   for (const OptionValues& values : row.settings) {
-    Clip clip = noisy;
+    Take clip = noisy;
     clean_in_place(*make_cleaner(row.method, values), clip);
     const double psnr = psnr_db(truth, clip);
     if (psnr > best.psnr_db) best = {psnr, std::move(clip)};
@@ -111,16 +111,16 @@ Best best_of(const Clip& truth, const Clip& noisy, const Row& row) {
 }
 
 // Half a rotation vector, the paper's logarithm of a quaternion.
-Vec3 log_at(const Clip& clip, std::size_t frame, std::size_t joint) {
+Vec3 log_at(const Take& clip, std::size_t frame, std::size_t joint) {
   return 0.5 * log(align_hemisphere(clip.rotation(frame, joint), Quat{}));
 }
 
 struct Shown {
   std::string noise, version;
-  Clip clip;
+  Take clip;
 };
 
-std::size_t knee_of(const Clip& clip) {
+std::size_t knee_of(const Take& clip) {
   return static_cast<std::size_t>(std::max(0, clip.skeleton.find("RightLeg")));
 }
 
@@ -151,7 +151,7 @@ void curves(const Arguments& arguments, const std::vector<Shown>& shown) {
 
 // What figure 6 shows, as a number: how far the knee's first channel is from that of the truth,
 // root mean square in degrees of rotation.
-void knee(const Arguments& arguments, const Clip& truth, const std::vector<Shown>& shown) {
+void knee(const Arguments& arguments, const Take& truth, const std::vector<Shown>& shown) {
   Table table(arguments, "dean_knee.csv", "noise,version,rms_deg");
   for (const auto& [noise, version, clip] : shown) {
     double sum = 0;
@@ -178,10 +178,10 @@ void add_row(Table& table, const std::string& name,
 
 void experiment(const Arguments& arguments) {
   const SynthOptions synth{"run", arguments.quick ? 1.0 : 3.0, 120, 9, false};
-  AnyTake take = load_take(arguments, "09_03.bvh", synth);
+  NamedTake take = load_take(arguments, "09_03.bvh", synth);
   if (arguments.quick)
     take.clip = slice(take.clip, 0, std::min<std::size_t>(120, take.clip.frame_count()));
-  std::vector<Clip> noisy;
+  std::vector<Take> noisy;
   for (const Noise& noise : noises) noisy.push_back(damaged(take.clip, noise));
 
   fmt::print("Dean 2016, table I: PSNR in dB on {}, {} frames.\n", take.name,

@@ -62,7 +62,7 @@ bool is_of_an_arm(const std::string& name) {
 }
 
 // Arms that are missing from `first` for `count` frames.
-Clip without_arms(Clip clip, std::size_t first, std::size_t count) {
+Take without_arms(Take clip, std::size_t first, std::size_t count) {
   clip.observed.assign(clip.rotations.size(), 1);
   for (std::size_t f = first; f < std::min(clip.frame_count(), first + count); ++f) {
     for (std::size_t j = 0; j < clip.joint_count(); ++j) {
@@ -75,7 +75,7 @@ Clip without_arms(Clip clip, std::size_t first, std::size_t count) {
 }
 
 // Root mean square of the angles between the rotations that are missing.
-double filling_error(const Clip& truth, const Clip& damaged, const Clip& other) {
+double filling_error(const Take& truth, const Take& damaged, const Take& other) {
   double sum = 0, count = 0;
   for (std::size_t i = 0; i < damaged.observed.size(); ++i) {
     if (damaged.observed[i] != 0) continue;
@@ -87,21 +87,21 @@ double filling_error(const Clip& truth, const Clip& damaged, const Clip& other) 
 
 struct Condition {
   std::string name;
-  std::function<Clip(const Clip&, std::uint64_t seed)> damaged;
+  std::function<Take(const Take&, std::uint64_t seed)> damaged;
   bool is_filling = false;
 };
 
 std::vector<Condition> conditions() {
   const auto noise = [](double deg, double outliers) {
     return
-        [=](const Clip& clip, std::uint64_t seed) { return lou_noise(clip, deg, outliers, seed); };
+        [=](const Take& clip, std::uint64_t seed) { return lou_noise(clip, deg, outliers, seed); };
   };
-  const auto second = [](const Clip& clip, std::uint64_t seed) {
+  const auto second = [](const Take& clip, std::uint64_t seed) {
     const auto frames = static_cast<std::size_t>(std::lround(clip.frame_rate_hz));
     const std::size_t first = clip.frame_count() > frames ? (clip.frame_count() - frames) / 2 : 0;
     return without_arms(lou_noise(clip, 0.5, 0, seed), first, frames);
   };
-  const auto always = [](const Clip& clip, std::uint64_t) {
+  const auto always = [](const Take& clip, std::uint64_t) {
     return without_arms(clip, 0, clip.frame_count());
   };
   return {{"1 deg", noise(1, 0)},  {"4 deg", noise(4, 0)},     {"5 %", noise(1, 0.05)},
@@ -110,11 +110,11 @@ std::vector<Condition> conditions() {
 
 struct Group {
   std::shared_ptr<const Model> model;
-  std::vector<Clip> tests;
+  std::vector<Take> tests;
 };
 
 // The middle five seconds.
-Clip middle_of(const Clip& clip) {
+Take middle_of(const Take& clip) {
   const auto most = static_cast<std::size_t>(std::lround(5 * clip.frame_rate_hz));
   const std::size_t count = std::min(most, clip.frame_count());
   const std::size_t first = (clip.frame_count() - count) / 2;
@@ -150,9 +150,9 @@ Errors errors_of(const std::vector<Group>& tried, const Variant& v) {
     for (const Group& group : tried) {
       const auto cleaner =
           v.name == "auto" ? make_auto() : make_tuned_example(v.options, group.model, v.tuning);
-      for (const Clip& truth : group.tests) {
-        const Clip damaged = condition.damaged(truth, 1);
-        const Clip result = cleaned(*cleaner, damaged);
+      for (const Take& truth : group.tests) {
+        const Take damaged = condition.damaged(truth, 1);
+        const Take result = cleaned(*cleaner, damaged);
         errors.back().push_back(condition.is_filling ? filling_error(truth, damaged, result)
                                                      : rms_deg(truth, result));
       }

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/clip.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/synth.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/take.hpp"
 
 // What the programs that repeat a paper's experiment share: arguments, takes and tables.
 namespace kinemend::papers {
@@ -59,16 +59,16 @@ inline std::optional<std::filesystem::path> find_take(const std::filesystem::pat
   return std::nullopt;
 }
 
-struct AnyTake {
+struct NamedTake {
   std::string name;
-  Clip clip;
+  Take clip;
 };
 
 /// The real take without its calibration frames, or the synthetic one where there is none.
-inline AnyTake load_take(const Arguments& arguments, const std::string& file,
-                         const SynthOptions& otherwise) {
+inline NamedTake load_take(const Arguments& arguments, const std::string& file,
+                           const SynthOptions& otherwise) {
   if (const auto path = find_take(arguments.data, file)) {
-    const Clip clip = read_clip(*path).clip;
+    const Take clip = read_joints(*path).take;
     return {"CMU " + path->stem().string(),
             slice(clip, leading_calibration_frames(clip), clip.frame_count())};
   }
@@ -76,9 +76,9 @@ inline AnyTake load_take(const Arguments& arguments, const std::string& file,
 }
 
 /// Every step-th frame of a part of the clip.
-inline Clip thinned(const Clip& clip, std::size_t first, std::size_t step, std::size_t frames) {
+inline Take thinned(const Take& clip, std::size_t first, std::size_t step, std::size_t frames) {
   const std::size_t have = clip.frame_count() > first ? (clip.frame_count() - first) / step : 0;
-  Clip result = slice(clip, first, first + std::min(frames, have));
+  Take result = slice(clip, first, first + std::min(frames, have));
   for (std::size_t f = 0; f < result.frame_count(); ++f) {
     for (std::size_t j = 0; j < clip.joint_count(); ++j) {
       result.rotation(f, j) = clip.rotation(first + f * step, j);

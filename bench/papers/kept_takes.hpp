@@ -17,8 +17,8 @@ inline std::vector<std::string> kept_takes(const Arguments& arguments) {
 }
 
 /// Ten seconds of one of them.
-inline Clip kept_take(const Arguments& arguments, const std::string& name) {
-  const Clip whole = load_take(arguments, name + ".bvh", {.motion = name}).clip;
+inline Take kept_take(const Arguments& arguments, const std::string& name) {
+  const Take whole = load_take(arguments, name + ".bvh", {.motion = name}).clip;
   constexpr std::size_t most_frames = 1201;
   return slice(whole, 0, std::min(whole.frame_count(), most_frames));
 }

@@ -66,7 +66,7 @@ struct NamedPops {
 };
 
 // RMS angle to the truth over hips, knees and ankles.
-double legs_deg(const Clip& truth, const Clip& result) {
+double legs_deg(const Take& truth, const Take& result) {
   const std::vector<double> joints = geodesic_rms_deg_per_joint(truth, result);
   double sum = 0, count = 0;
   for (const Leg& leg : find_legs(truth.skeleton)) {
@@ -80,7 +80,7 @@ double legs_deg(const Clip& truth, const Clip& result) {
 }
 
 // Mean distance of knees, ankles and toes to the truth.
-double legs_distance(const Clip& truth, const Clip& result) {
+double legs_distance(const Take& truth, const Take& result) {
   double sum = 0, count = 0;
   for (std::size_t f = 0; f < truth.frame_count(); ++f) {
     const Pose right = forward_kinematics(truth, f), pose = forward_kinematics(result, f);
@@ -100,7 +100,7 @@ double legs_distance(const Clip& truth, const Clip& result) {
 struct Row {
   double takes = 0, slide = 0, most_slide = 0, position = 0, knee_pop = 0, legs = 0, legs_cm = 0;
 
-  void add(const Clip& truth, const Clip& result, const std::vector<FootContact>& contacts) {
+  void add(const Take& truth, const Take& result, const std::vector<FootContact>& contacts) {
     const double cm = 100 * guess_length_unit(truth.skeleton)->metres;
     const FeetFigures figures = feet_figures(result, contacts);
     ++takes;
@@ -130,18 +130,18 @@ void after_cleaning(const Arguments& arguments, const std::string& group,
     Row clean, plain, held;
     Pops pops;
     for (const std::string& name : names) {
-      const Clip truth = load_take(arguments, name + ".bvh", {}).clip;
+      const Take truth = load_take(arguments, name + ".bvh", {}).clip;
       const std::vector<FootContact> contacts = find_contacts(truth);
-      Clip noisy = truth;
+      Take noisy = truth;
       Random random(2002);
       apply_damage(noisy, "gaussian", {{"std_deg", 1.0}}, random);
       const std::unique_ptr<Cleaner> cleaner = make_cleaner(method);
       CleanSettings settings;
       clean.add(truth, truth, contacts);
-      const Clip before = clean_clip(noisy, *cleaner, settings).clip;
+      const Take before = clean_take(noisy, *cleaner, settings).take;
       plain.add(truth, before, contacts);
       settings.feet.emplace();
-      const Clip after = clean_clip(noisy, *cleaner, settings).clip;
+      const Take after = clean_take(noisy, *cleaner, settings).take;
       held.add(truth, after, contacts);
       pops.add(name, feet_figures(truth, contacts).knee_pop_deg,
                feet_figures(before, contacts).knee_pop_deg,
@@ -165,10 +165,10 @@ void as_recorded(const Arguments& arguments, std::vector<NamedPops>& all_pops) {
     double contacts = 0, held = 0, frames = 0, changed = 0, before = 0, after = 0;
     Pops pops, forced;
     for (const std::string& name : names) {
-      Clip clip = load_take(arguments, name + ".bvh", {}).clip;
+      Take clip = load_take(arguments, name + ".bvh", {}).clip;
       FeetSettings force;
       force.mode = FeetMode::force;
-      Clip copy = clip;
+      Take copy = clip;
       const FeetFigures by_force = clean_feet(copy, force).after;
       const FeetReport report = clean_feet(clip);
       pops.add(name, report.before.knee_pop_deg, report.before.knee_pop_deg,
@@ -211,9 +211,9 @@ void survey(const Arguments& arguments, std::vector<NamedPops>& all_pops) {
     names.insert(entry.path().stem().string());
   Pops pops, forced;
   for (const std::string& name : names) {
-    const Clip clip = load_take(arguments, name + ".bvh", {}).clip;
+    const Take clip = load_take(arguments, name + ".bvh", {}).clip;
     for (const FeetMode mode : {FeetMode::automatic, FeetMode::force}) {
-      Clip copy = clip;
+      Take copy = clip;
       FeetSettings settings;
       settings.mode = mode;
       const FeetReport report = clean_feet(copy, settings);
@@ -228,7 +228,7 @@ void survey(const Arguments& arguments, std::vector<NamedPops>& all_pops) {
 
 struct FeetPair {
   std::string name;
-  Clip raw, fixed;
+  Take raw, fixed;
 };
 
 // Without data: walks whose feet slide after noise was smoothed, and the same as they were made.
@@ -237,8 +237,8 @@ std::vector<FeetPair> pairs_of(const Arguments& arguments) {
   const std::string stem = "style_transfer_demo_results_";
   if (!find_take(arguments.data, stem + "comp_3d_1_raw.bvh")) {
     for (const std::uint64_t seed : {1, 2}) {
-      const Clip walk = synthesize({.motion = "walk", .duration_s = 4, .seed = seed});
-      Clip raw = walk;
+      const Take walk = synthesize({.motion = "walk", .duration_s = 4, .seed = seed});
+      Take raw = walk;
       Random random(seed);
       apply_damage(raw, "gaussian", {{"std_deg", 1.0}}, random);
       clean_in_place(*make_gaussian(), raw);

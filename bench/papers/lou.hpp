@@ -26,17 +26,17 @@ constexpr double lou_rate_hz = 30;  // the paper's: 120 Hz, thinned
 /// Clips that a model is fitted to, and clips that it is tried on, which are not among them.
 struct LouGroup {
   std::string name;
-  std::vector<Clip> training;  ///< at their own rate: all four phases are learned from
-  std::vector<Clip> tests;     ///< at 30 Hz
+  std::vector<Take> training;  ///< at their own rate: all four phases are learned from
+  std::vector<Take> tests;     ///< at 30 Hz
 };
 
-inline Clip at_lou_rate(const Clip& clip) { return resample(clip, lou_rate_hz); }
+inline Take at_lou_rate(const Take& clip) { return resample(clip, lou_rate_hz); }
 
 /// The takes of these names (`08_01`); synthetic ones of `motion` where there is no data.
-inline std::vector<Clip> lou_takes(const Arguments& arguments,
+inline std::vector<Take> lou_takes(const Arguments& arguments,
                                    const std::vector<std::string>& names, const std::string& motion,
                                    std::uint64_t first_seed) {
-  std::vector<Clip> clips;
+  std::vector<Take> clips;
   for (const std::string& name : names) {
     SynthOptions otherwise{.motion = motion, .duration_s = 4, .frame_rate_hz = 120};
     otherwise.seed = first_seed + clips.size();
@@ -50,7 +50,7 @@ inline LouGroup lou_group(const Arguments& arguments, const std::string& name,
                           const std::vector<std::string>& tests,
                           const std::string& motion = "walk") {
   LouGroup group{name, lou_takes(arguments, training, motion, 1), {}};
-  for (const Clip& clip : lou_takes(arguments, tests, motion, 101)) {
+  for (const Take& clip : lou_takes(arguments, tests, motion, 101)) {
     group.tests.push_back(at_lou_rate(clip));
   }
   return group;
@@ -73,9 +73,9 @@ inline std::vector<LouGroup> walking_groups(const Arguments& arguments) {
   return groups;
 }
 
-template <class AnyClip>
-std::shared_ptr<const Model> learned(const std::string& method, const std::vector<AnyClip>& clips,
-                                     OptionValues options = {}) {
+inline std::shared_ptr<const Model> learned(const std::string& method,
+                                            const std::vector<Take>& clips,
+                                            OptionValues options = {}) {
   TrainingTakes takes;
   takes.count = clips.size();
   takes.take = [&clips](std::size_t i) { return Take(clips[i]); };
@@ -94,8 +94,7 @@ inline bool is_trained(const std::string& method) {
 struct LouModels {
   std::shared_ptr<const Model> example, kalman, wiener;
 };
-template <class AnyClip>
-LouModels lou_models(const std::vector<AnyClip>& training) {
+inline LouModels lou_models(const std::vector<Take>& training) {
   return {learned("example", training), learned("kalman-learned", training),
           is_trained("wiener") ? learned("wiener", training) : nullptr};
 }
@@ -146,13 +145,13 @@ inline std::vector<LouMethod> lou_methods(const LouModels& models) {
   return methods;
 }
 
-inline Clip cleaned(const Cleaner& cleaner, Clip clip) {
+inline Take cleaned(const Cleaner& cleaner, Take clip) {
   clean_in_place(cleaner, clip);
   return clip;
 }
 
 /// Gaussian noise on every joint angle, then outliers.
-inline Clip lou_noise(Clip clip, double std_deg, double share_of_outliers, std::uint64_t seed) {
+inline Take lou_noise(Take clip, double std_deg, double share_of_outliers, std::uint64_t seed) {
   const Random random(seed);
   Random noise = random.fork(0), jumps = random.fork(1);
   if (std_deg > 0) apply_damage(clip, "gaussian", {{"std_deg", std_deg}}, noise);

@@ -18,7 +18,7 @@ struct Bases {
   const std::vector<double>* patterns = nullptr;  // M x L x K
 };
 
-Bases bases_of(const std::vector<Clip>& training, std::size_t most) {
+Bases bases_of(const std::vector<Take>& training, std::size_t most) {
   Bases bases;
   bases.model = learned("example", training,
                         {{"bases", static_cast<std::int64_t>(most)},
@@ -60,14 +60,14 @@ std::vector<double> residuals(const Bases& bases, const PoseMatrix& poses, std::
 
 // Root mean square per joint angle of a walk that the bases were not learned from, after 0, 1, ...
 // of them.
-std::vector<double> errors_of(const std::vector<Clip>& walks, std::size_t left_out,
+std::vector<double> errors_of(const std::vector<Take>& walks, std::size_t left_out,
                               std::size_t most) {
-  std::vector<Clip> training;
+  std::vector<Take> training;
   for (std::size_t i = 0; i < walks.size(); ++i) {
     if (i != left_out) training.push_back(walks[i]);
   }
   const Bases bases = bases_of(training, most);
-  const Clip test = at_lou_rate(walks[left_out]);
+  const Take test = at_lou_rate(walks[left_out]);
   const BodyLayout& layout = bases.model->layout;
   const PoseMatrix poses = encode_body(test, layout, match_body(layout, test)).poses;
   std::vector<double> sums(most + 1, 0.0);
@@ -100,7 +100,7 @@ void figure_3(const Arguments& arguments) {
   for (const std::size_t k : shown) columns.push_back(fmt::format("{}", k));
   const TextTable text(columns);
   for (const auto& [set, clips] : sets) {
-    const std::vector<Clip> walks = lou_takes(arguments, clips, "walk", 1);
+    const std::vector<Take> walks = lou_takes(arguments, clips, "walk", 1);
     std::vector<double> mean(most + 1, 0.0);
     for (std::size_t i = 0; i < walks.size(); ++i) {
       const std::vector<double> errors = errors_of(walks, i, most);

@@ -19,9 +19,9 @@ LouErrors errors_of(const Arguments& arguments, const std::vector<LouGroup>& gro
                     const std::vector<std::vector<LouMethod>>& methods, const Damaged& damage) {
   LouErrors errors;
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    for (const Clip& truth : groups[g].tests) {
+    for (const Take& truth : groups[g].tests) {
       for (std::size_t seed = 1; seed <= seeds(arguments); ++seed) {
-        const Clip noisy = lou_noise(truth, damage.std_deg, damage.share_of_outliers, seed);
+        const Take noisy = lou_noise(truth, damage.std_deg, damage.share_of_outliers, seed);
         for (std::size_t m = 0; m < methods[g].size(); ++m) {
           for (std::size_t c = 0; c < methods[g][m].cleaners.size(); ++c)
             errors.add(m, c, rms_deg(truth, cleaned(*methods[g][m].cleaners[c], noisy)));

@@ -9,12 +9,12 @@ namespace kinemend::papers {
 namespace {
 
 // A turn's size about its mean, signed by the first axis: one curve a joint.
-double angle_deg(const Clip& clip, std::size_t frame, const std::string& joint) {
+double angle_deg(const Take& clip, std::size_t frame, const std::string& joint) {
   const auto j = static_cast<std::size_t>(std::max(0, clip.skeleton.find(joint)));
   return degrees_per_radian * log(align_hemisphere(clip.rotation(frame, j), Quat{})).x;
 }
 
-void add(Table& table, const std::string& figure, const std::string& version, const Clip& clip,
+void add(Table& table, const std::string& figure, const std::string& version, const Take& clip,
          const std::string& joint) {
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     table.add({figure, quoted(version), joint, fmt::format("{}", f),
@@ -24,17 +24,17 @@ void add(Table& table, const std::string& figure, const std::string& version, co
 
 void curves(const Arguments& arguments) {
   const LouGroup group = walking_groups(arguments)[0];
-  const Clip& truth = group.tests[0];
+  const Take& truth = group.tests[0];
   const auto model = learned("example", group.training);
   const auto example = make_example({}, model);
   const std::string knee = "RightLeg", thorax = "Spine1";
   Table table(arguments, "lou_curves.csv", "figure,version,joint,frame,angle_deg");
 
   // Figures 1 and 4: the knee is hit throughout, the thorax is not.
-  Clip hit = truth;
+  Take hit = truth;
   Random random(4);
   apply_damage(hit, "outliers", {{"share", 0.3}, {"joints", knee}}, random);
-  const Clip mended = cleaned(*example, hit);
+  const Take mended = cleaned(*example, hit);
   for (const std::string& joint : {knee, thorax}) {
     for (std::size_t i = 0; i < group.training.size(); ++i)
       add(table, "4", fmt::format("training {}", i + 1), at_lou_rate(group.training[i]), joint);
@@ -43,7 +43,7 @@ void curves(const Arguments& arguments) {
     add(table, "4", "filtered", mended, joint);
   }
   // Figure 8: noise and outliers in every joint, the thorax by the four methods.
-  const Clip noisy = lou_noise(truth, 3, 0.1, 8);
+  const Take noisy = lou_noise(truth, 3, 0.1, 8);
   KalmanLearnedOptions of_the_past;
   of_the_past.smoother = false;
   const auto gaussian = make_gaussian({2 / lou_rate_hz});
@@ -57,7 +57,7 @@ void curves(const Arguments& arguments) {
   for (const auto& [name, cleaner] :
        {std::pair{"Gaussian", gaussian.get()}, std::pair{"Kalman", kalman.get()},
         std::pair{"data-driven Kalman", data_driven.get()}, std::pair{"example", example.get()}}) {
-    const Clip result = cleaned(*cleaner, noisy);
+    const Take result = cleaned(*cleaner, noisy);
     fmt::print("  {:20}{:8.2f}\n", name, rms_deg(truth, result));
     add(table, "8", name, result, thorax);
   }

@@ -21,21 +21,15 @@ bool is_of_an_arm(const std::string& name) {
   return has_part(name, parts) || has_part(name, markers);
 }
 
-Clip without_arms(Clip clip) {
-  clip.observed.resize(clip.rotations.size(), 1);
+Take without_arms(Take clip) {
+  if (clip.has_joints()) clip.observed.resize(clip.rotations.size(), 1);
   for (std::size_t i = 0; i < clip.observed.size(); ++i) {
-    if (!is_of_an_arm(clip.skeleton.names[i % clip.joint_count()])) continue;
+    if (!is_of_an_arm(clip.owner_names()[i % clip.owner_count()])) continue;
     clip.observed[i] = 0;
-    clip.rotations[i] = {};
-  }
-  return clip;
-}
-
-MarkerClip without_arms(MarkerClip clip) {
-  for (std::size_t i = 0; i < clip.observed.size(); ++i) {
-    if (!is_of_an_arm(clip.names[i % clip.marker_count()])) continue;
-    clip.observed[i] = 0;
-    clip.positions[i] = {};
+    if (clip.has_joints())
+      clip.rotations[i] = {};
+    else
+      clip.positions[i] = {};
   }
   return clip;
 }
@@ -52,19 +46,19 @@ double arm_distance(std::span<const Vec3> truth, std::span<const Vec3> other,
   return cm_per_unit * sum / count;
 }
 
-double cm_per_unit(const Clip& clip) {
+double cm_per_unit(const Take& clip) {
   const auto unit = guess_length_unit(clip.skeleton);
   return unit ? 100 * unit->metres : 1.0;
 }
 
-double error_of(const Cleaner& cleaner, const Clip& truth) {
-  const Clip filled = cleaned(cleaner, without_arms(truth));
+double error_of(const Cleaner& cleaner, const Take& truth) {
+  const Take filled = cleaned(cleaner, without_arms(truth));
   return arm_distance(joint_positions(truth), joint_positions(filled), truth.skeleton.names,
                       cm_per_unit(truth));
 }
 
-double error_of(const Cleaner& cleaner, const MarkerClip& truth, double cm) {
-  MarkerClip filled = without_arms(truth);
+double error_of(const Cleaner& cleaner, const Take& truth, double cm) {
+  Take filled = without_arms(truth);
   clean_in_place(cleaner, filled);
   return arm_distance(truth.positions, filled.positions, truth.names, cm);
 }
@@ -95,14 +89,14 @@ void joints_and_joint_markers(const std::vector<LouGroup>& groups, std::vector<R
                               std::vector<std::string>& columns) {
   for (const LouGroup& group : groups) {
     const Fillers of_joints = fillers_of(lou_models(group.training));
-    std::vector<MarkerClip> markers;
-    for (const Clip& clip : group.training) markers.push_back(joint_markers(clip, true));
+    std::vector<Take> markers;
+    for (const Take& clip : group.training) markers.push_back(joint_markers(clip, true));
     const Fillers of_markers = fillers_of(lou_models(markers));
     columns = of_joints.names;
     Result joints{group.name + ", joints", {}}, as_markers{group.name + ", markers", {}};
     for (std::size_t c = 0; c < columns.size(); ++c) {
       double joint_sum = 0, marker_sum = 0;
-      for (const Clip& truth : group.tests) {
+      for (const Take& truth : group.tests) {
         joint_sum += error_of(*of_joints.cleaners[c], truth);
         marker_sum +=
             error_of(*of_markers.cleaners[c], joint_markers(truth, true), cm_per_unit(truth));
@@ -121,8 +115,8 @@ void captured_markers(const Arguments& arguments, std::vector<Result>& results) 
   const auto training = find_take(arguments.data, "85_12.c3d");
   const auto test = find_take(arguments.data, "85_02.c3d");
   if (!training || !test || arguments.quick) return;
-  const std::vector<MarkerClip> clips = {std::get<MarkerClip>(read_take(*training).take)};
-  const MarkerClip truth = resample(std::get<MarkerClip>(read_take(*test).take), lou_rate_hz);
+  const std::vector<Take> clips = {read_take(*training).take};
+  const Take truth = resample(read_take(*test).take, lou_rate_hz);
   const Fillers fillers = fillers_of(lou_models(clips));
   Result result{"CMU 85_02, markers (C3D)", {}};
   for (const auto& cleaner : fillers.cleaners)

@@ -12,13 +12,13 @@ namespace {
 
 struct Prior {
   std::string name;
-  std::vector<Clip> training;
+  std::vector<Take> training;
 };
 
 // The takes of the library that are described as of this motion and that there are, but for those
 // that are tried, at 30 Hz: a quarter of the room, and as many frames as the paper counts.
 struct Library {
-  std::vector<Clip> clips;
+  std::vector<Take> clips;
   std::size_t subjects = 0;
 };
 
@@ -40,7 +40,7 @@ Library takes_described(const Arguments& arguments, const std::vector<std::strin
     for (const char* folder : {"bvh", "bvh-rotations"}) {
       const auto path = arguments.data / "cmu" / folder / (name + ".bvh");
       if (!std::filesystem::exists(path)) continue;
-      const Clip clip = read_clip(path).clip;
+      const Take clip = read_joints(path).take;
       library.clips.push_back(
           at_lou_rate(slice(clip, leading_calibration_frames(clip), clip.frame_count())));
       subjects.insert(subject);
@@ -51,7 +51,7 @@ Library takes_described(const Arguments& arguments, const std::vector<std::strin
   return library;
 }
 
-std::vector<Clip> joined(std::vector<Clip> a, const std::vector<Clip>& b) {
+std::vector<Take> joined(std::vector<Take> a, const std::vector<Take>& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
 }
@@ -64,8 +64,8 @@ void priors(const Arguments& arguments) {
   std::vector<std::string> runs = {"02_03", "09_01", "09_02", "09_04", "09_06", "09_08", "16_35",
                                    "16_45", "16_55", "35_17", "35_19", "35_21", "35_24"};
   if (arguments.quick) others.resize(3), runs.resize(3);
-  const std::vector<Clip> of_others = lou_takes(arguments, others, "walk", 201);
-  const std::vector<Clip> running = lou_takes(arguments, runs, "run", 301);
+  const std::vector<Take> of_others = lou_takes(arguments, others, "walk", 201);
+  const std::vector<Take> running = lou_takes(arguments, runs, "run", 301);
   const LouGroup run_tests = lou_group(arguments, "runs", {}, {"09_07", "16_56", "35_23"}, "run");
   std::vector<Prior> list = {{"small: walks of the subject", walks.training},
                              {"large: walks of 8 subjects", joined(walks.training, of_others)},
@@ -86,9 +86,9 @@ void priors(const Arguments& arguments) {
   Table table(arguments, "lou_priors.csv", "prior,frames,bases,test,rms_deg");
   fmt::print("Section 4.3: sigma = 3 degrees, bases of different motions. Degrees.\n\n");
   const TextTable text({"frames", "bases", "walk", "run"});
-  const auto tried_with = [&](const Cleaner& cleaner, const std::vector<Clip>& tests) {
+  const auto tried_with = [&](const Cleaner& cleaner, const std::vector<Take>& tests) {
     LouErrors errors;
-    for (const Clip& truth : tests) {
+    for (const Take& truth : tests) {
       for (std::size_t seed = 1; seed <= (arguments.quick ? 1 : 3); ++seed)
         errors.add(0, 0, rms_deg(truth, cleaned(cleaner, lou_noise(truth, 3, 0, seed))));
     }

@@ -15,16 +15,16 @@ const std::vector<std::vector<std::string>> limbs = {{"LeftArm", "LeftForeArm", 
                                                      {"RightUpLeg", "RightLeg", "RightFoot"}};
 
 // Each limb missing for a second in the middle of the take, one at a time.
-double filling_error(const Cleaner& cleaner, const Clip& truth) {
+double filling_error(const Cleaner& cleaner, const Take& truth) {
   const std::size_t frames = truth.frame_count();
   const std::size_t length = std::min<std::size_t>(30, frames / 2), first = (frames - length) / 2;
   double sum = 0, count = 0;
   for (const std::vector<std::string>& limb : limbs) {
     std::vector<NamedGap> gaps;
     for (const std::string& joint : limb) gaps.push_back({joint, first, first + length - 1});
-    Clip damaged = truth;
+    Take damaged = truth;
     mark_gaps(damaged, gaps);
-    const Clip filled = cleaned(cleaner, damaged);
+    const Take filled = cleaned(cleaner, damaged);
     for (const std::string& name : limb) {
       const auto joint = static_cast<std::size_t>(truth.skeleton.find(name));
       for (std::size_t f = first; f < first + length; ++f) {
@@ -50,11 +50,11 @@ void figure_9(const Arguments& arguments) {
   const TextTable text({"denoise", "fill"});
   const auto errors_of = [&](const Cleaner& denoiser, const Cleaner& filler) {
     LouErrors errors;
-    for (const Clip& truth : walks.tests) {
+    for (const Take& truth : walks.tests) {
       for (const std::uint64_t seed : {1, 2, 3})
         errors.add(0, 0, rms_deg(truth, cleaned(denoiser, lou_noise(truth, 3, 0, seed))));
     }
-    for (const Clip& truth : jumping.tests) errors.add(1, 0, filling_error(filler, truth));
+    for (const Take& truth : jumping.tests) errors.add(1, 0, filling_error(filler, truth));
     return std::pair(errors.of(0), errors.of(1));
   };
   for (const std::size_t window : windows) {

@@ -10,7 +10,7 @@
 namespace kinemend::papers {
 
 struct MarkerPair {
-  MarkerClip reference, noisy;  ///< millimetres
+  Take reference, noisy;  ///< millimetres
 };
 
 /// Five seconds of a synthetic motion, and the same with the noise of a family of systems

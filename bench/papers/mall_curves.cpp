@@ -15,8 +15,8 @@ namespace {
 constexpr double curve_step_s = 0.1;
 
 // The take without noise as each method of figure 4 has it back; EBD where its network is there.
-std::map<std::string, Clip> cleaned_by_all(const Arguments& arguments, const Clip& clip) {
-  std::map<std::string, Clip> results;
+std::map<std::string, Take> cleaned_by_all(const Arguments& arguments, const Take& clip) {
+  std::map<std::string, Take> results;
   results["gaussian 58 ms"] = cleaned(clip, "gaussian", {{"width_s", 0.058}});
   results["gaussian 125 ms"] = cleaned(clip, "gaussian", {{"width_s", 0.125}});
   results["example"] = cleaned(clip, "example");
@@ -43,7 +43,7 @@ void errors_over_time(const Arguments& arguments) {
   const std::vector<HeldOut> takes = shown_takes(arguments);
   for (std::size_t i = 0; i < takes.size(); ++i) {
     const TakeErrors errors(take_of(arguments, takes[i]));
-    const Clip clip = damaged(errors.truth(), "gaussian-channels", {{"k", 0.5}}, 100 + i);
+    const Take clip = damaged(errors.truth(), "gaussian-channels", {{"k", 0.5}}, 100 + i);
     std::map<std::string, std::vector<double>> of_methods;
     for (const auto& [method, result] : cleaned_by_all(arguments, clip))
       of_methods[method] = errors.per_frame(result, true);
@@ -107,7 +107,7 @@ NearestGaussian nearest_gaussian(Kernel kernel) {
 }
 
 // Of a network with the head shape: the weights of each frame, F x 31.
-std::vector<double> kernels_of(const PaperNetwork& paper, const Clip& clip) {
+std::vector<double> kernels_of(const PaperNetwork& paper, const Take& clip) {
   const FilterTake take =
       filter_take_of(encode_body(clip, paper.layout, match_body(paper.layout, clip)), paper.layout);
   const std::vector<float> outputs =
@@ -137,7 +137,7 @@ void free_shapes(const Arguments& arguments) {
   std::map<std::string, bool> done;
   for (const HeldOut& take : takes_of_hold_outs(arguments, "1")) {
     if (std::exchange(done[take.action], true)) continue;
-    const Clip clip = damaged(take_of(arguments, take), "gaussian-channels", {{"k", 0.5}}, 100);
+    const Take clip = damaged(take_of(arguments, take), "gaussian-channels", {{"k", 0.5}}, 100);
     const double frame_ms = 1000 / clip.frame_rate_hz;
     const std::vector<double> kernels = kernels_of(*network, clip);
     const auto step = static_cast<std::size_t>(curve_step_s * clip.frame_rate_hz);

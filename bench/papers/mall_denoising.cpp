@@ -33,8 +33,8 @@ std::vector<HeldOut> hold_outs(const Arguments& arguments) {
   return takes;
 }
 
-Clip clip_of(const Arguments& arguments, const std::string& name) {
-  const Clip clip = load_take(arguments, name + ".bvh", {.motion = name, .duration_s = 3}).clip;
+Take clip_of(const Arguments& arguments, const std::string& name) {
+  const Take clip = load_take(arguments, name + ".bvh", {.motion = name, .duration_s = 3}).clip;
   if (!arguments.quick) return clip;
   return slice(clip, 0, std::min<std::size_t>(clip.frame_count(), 240));
 }
@@ -56,8 +56,8 @@ Errors errors_of(const Arguments& arguments, const std::vector<HeldOut>& takes, 
   Errors errors;
   std::map<double, std::vector<double>> gaussians;
   for (std::size_t i = 0; i < takes.size(); ++i) {
-    const Clip truth = clip_of(arguments, takes[i].name);
-    const Clip clip = damaged(truth, "gaussian-channels", {{"k", k}}, 100 + i);
+    const Take truth = clip_of(arguments, takes[i].name);
+    const Take clip = damaged(truth, "gaussian-channels", {{"k", k}}, 100 + i);
     const auto gaussian = [&](double width_s) {
       return rms_deg(truth, cleaned(clip, "gaussian", {{"width_s", width_s}}));
     };
@@ -110,25 +110,25 @@ void amplitudes(const Arguments& arguments) {
 
 struct Kind {
   std::string name;
-  std::function<Clip(const Clip&, std::uint64_t)> damage;
+  std::function<Take(const Take&, std::uint64_t)> damage;
 };
 
 std::vector<Kind> kinds() {
   using quality::of_lower_rate;
   const auto of = [](const std::string& name, const OptionValues& options) {
-    return [name, options](const Clip& c, std::uint64_t s) { return damaged(c, name, options, s); };
+    return [name, options](const Take& c, std::uint64_t s) { return damaged(c, name, options, s); };
   };
   return {
-      {"clean", [](const Clip& c, std::uint64_t) { return c; }},
+      {"clean", [](const Take& c, std::uint64_t) { return c; }},
       {"white 1", of("gaussian", {{"std_deg", 1.0}})},
-      {"white 4 and spikes", [](const Clip& c, std::uint64_t s) { return noisy(c, 4, 0.004, s); }},
+      {"white 4 and spikes", [](const Take& c, std::uint64_t s) { return noisy(c, 4, 0.004, s); }},
       {"ar1 0.5", of("ar1", {{"std_deg", 1.5}, {"correlation", 0.5}})},
       {"ar1 0.8", of("ar1", {{"std_deg", 1.5}, {"correlation", 0.8}})},
       {"ar1 0.95", of("ar1", {{"std_deg", 1.5}, {"correlation", 0.95}})},
       {"held 60",
-       [](const Clip& c, std::uint64_t s) { return of_lower_rate(noisy(c, 1.5, 0, s), 2, true); }},
+       [](const Take& c, std::uint64_t s) { return of_lower_rate(noisy(c, 1.5, 0, s), 2, true); }},
       {"linear 30",
-       [](const Clip& c, std::uint64_t s) { return of_lower_rate(noisy(c, 1.5, 0, s), 4, false); }},
+       [](const Take& c, std::uint64_t s) { return of_lower_rate(noisy(c, 1.5, 0, s), 4, false); }},
       {"video", of("system", {{"kind", std::string("video")}})},
       {"inertial", of("system", {{"kind", std::string("inertial")}})}};
 }
@@ -142,10 +142,10 @@ void other_noise(const Arguments& arguments) {
   for (const Kind& kind : kinds()) {
     Errors errors;
     for (const std::string& name : names) {
-      const Clip whole = clip_of(arguments, name);
-      const Clip take = slice(whole, 0, std::min<std::size_t>(whole.frame_count(), 721));
-      const Clip clip = kind.damage(take, 5);
-      const Clip truth = slice(take, 0, clip.frame_count());
+      const Take whole = clip_of(arguments, name);
+      const Take take = slice(whole, 0, std::min<std::size_t>(whole.frame_count(), 721));
+      const Take clip = kind.damage(take, 5);
+      const Take truth = slice(take, 0, clip.frame_count());
       for (const std::string& method : learned_and_auto)
         errors[method].push_back(geodesic_rms_deg(truth, cleaned(clip, method)));
     }

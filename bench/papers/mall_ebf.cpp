@@ -65,9 +65,9 @@ class Comparison {
 
  private:
   // Group plain: without the joints that turn over.
-  void measure(const TakeErrors& errors, const Clip& clip,
+  void measure(const TakeErrors& errors, const Take& clip,
                std::map<std::string, Errors>& groups) const {
-    const auto add = [&](const std::string& method, const Clip& result) {
+    const auto add = [&](const std::string& method, const Take& result) {
       for (const bool plain : {true, false}) {
         Sums& sums = groups[plain ? "plain" : "all joints"][method];
         const double error = errors.mean(result, plain);

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "kinemend/clip.hpp"
 #include "kinemend/metrics.hpp"
 #include "kinemend/rotation.hpp"
+#include "kinemend/take.hpp"
 
 // The error figure of Mall et al. 2017, and what one channel that turns over makes of it.
 namespace kinemend::papers {
@@ -20,7 +20,7 @@ namespace kinemend::papers {
 /// and not of a motion, so that one such channel decides the error of a take.
 class TakeErrors {
  public:
-  explicit TakeErrors(Clip truth) : truth_(std::move(truth)), turns_over_(truth_.joint_count()) {
+  explicit TakeErrors(Take truth) : truth_(std::move(truth)), turns_over_(truth_.joint_count()) {
     constexpr double whole_turn_deg = 360, moving_deg = 1e-3;
     double moving = 0, turning = 0, all = 0, all_turning = 0;
     for (std::size_t j = 0; j < truth_.joint_count(); ++j) {
@@ -42,7 +42,7 @@ class TakeErrors {
     plain_share_that_moves_ = (moving - turning) / std::max(1.0, all - all_turning);
   }
 
-  const Clip& truth() const { return truth_; }
+  const Take& truth() const { return truth_; }
   bool has_turning() const { return plain_factor_ > 1; }
   /// Channels that move over all, with and without the joints that turn over: the others have no
   /// error.
@@ -50,9 +50,9 @@ class TakeErrors {
     return plain ? plain_share_that_moves_ : share_that_moves_;
   }
   /// `rms_deg_per_frame`.
-  std::vector<double> per_frame(const Clip& result, bool plain) const {
+  std::vector<double> per_frame(const Take& result, bool plain) const {
     if (!plain || !has_turning()) return rms_deg_per_frame(truth_, result);
-    Clip own = result;
+    Take own = result;
     for (std::size_t i = 0; i < own.rotations.size(); ++i) {
       if (turns_over_[i % own.joint_count()] != 0) own.rotations[i] = truth_.rotations[i];
     }
@@ -60,7 +60,7 @@ class TakeErrors {
     for (double& error : errors) error *= plain_factor_;
     return errors;
   }
-  double mean(const Clip& result, bool plain) const {
+  double mean(const Take& result, bool plain) const {
     double sum = 0;
     const std::vector<double> errors = per_frame(result, plain);
     for (const double error : errors) sum += error;
@@ -83,7 +83,7 @@ class TakeErrors {
     return spans;
   }
 
-  Clip truth_;
+  Take truth_;
   std::vector<std::uint8_t> turns_over_;  // of each joint
   double plain_factor_ = 1, share_that_moves_ = 1, plain_share_that_moves_ = 1;
 };

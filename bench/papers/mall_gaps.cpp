@@ -15,13 +15,13 @@ namespace kinemend::papers {
 namespace {
 
 // By the EBD; the root and what it does not know stay as they are.
-Clip filled_by_ebd(const PaperNetwork& ebd, const Clip& clip) {
+Take filled_by_ebd(const PaperNetwork& ebd, const Take& clip) {
   const BodyMatch match = match_body(ebd.layout, clip);
   BodyChannels channels = encode_body(clip, ebd.layout, match);
   channels.poses = filled_by_network(ebd.network, ebd.layout, channels);
-  Clip whole = clip;
+  Take whole = clip;
   decode_body(channels, ebd.layout, match, whole);
-  Clip result = clip;
+  Take result = clip;
   for (const std::int32_t joint : match.tracks) {
     if (joint <= 0) continue;
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -34,8 +34,8 @@ Clip filled_by_ebd(const PaperNetwork& ebd, const Clip& clip) {
   return result;
 }
 
-Clip filled_by(const Clip& clip, const std::string& method) {
-  Clip result = clip;
+Take filled_by(const Take& clip, const std::string& method) {
+  Take result = clip;
   FillSettings settings;
   settings.method = method;
   settings.fill_all = true;
@@ -44,7 +44,7 @@ Clip filled_by(const Clip& clip, const std::string& method) {
 }
 
 // Root mean square angle over the samples that are missing in `damaged`, degrees.
-double gap_error(const Clip& truth, const Clip& damaged, const Clip& result) {
+double gap_error(const Take& truth, const Take& damaged, const Take& result) {
   double square = 0, count = 0;
   for (std::size_t i = 0; i < damaged.observed.size(); ++i) {
     if (damaged.observed[i] != 0) continue;
@@ -80,14 +80,14 @@ void noise_and_gaps(const Arguments& arguments, const std::vector<HeldOut>& take
   const auto ebf = paper_network(arguments, "ebf");
   std::map<std::string, Sums> errors;
   for (std::size_t i = 0; i < takes.size(); ++i) {
-    const Clip truth = take_of(arguments, takes[i]);
-    const Clip noise = damaged(truth, "gaussian-channels", {{"k", 0.5}}, i);
-    const Clip clip = damaged(noise, "gaps", {}, 1000 + i);
-    const auto add = [&](const std::string& method, const Clip& result) {
+    const Take truth = take_of(arguments, takes[i]);
+    const Take noise = damaged(truth, "gaussian-channels", {{"k", 0.5}}, i);
+    const Take clip = damaged(noise, "gaps", {}, 1000 + i);
+    const auto add = [&](const std::string& method, const Take& result) {
       errors[method].error += rms_deg(truth, result);
       ++errors[method].count;
     };
-    const Clip lines = filled_by(clip, "slerp"), network = filled_by_ebd(ebd, clip);
+    const Take lines = filled_by(clip, "slerp"), network = filled_by_ebd(ebd, clip);
     add("lerp and gaussian 58 ms", cleaned(lines, "gaussian", {{"width_s", 0.058}}));
     add("ebd and gaussian 58 ms", cleaned(network, "gaussian", {{"width_s", 0.058}}));
     if (ebf) {
@@ -107,22 +107,22 @@ struct LongGap {
 };
 
 // Joints of CMU; other takes lack the lower back.
-std::string joints_with_gaps(const Clip& clip) {
+std::string joints_with_gaps(const Take& clip) {
   const std::string all = "*Leg,*Foot,*Arm,*ForeArm,Spine*,Neck1,Head";
   const auto& names = clip.skeleton.names;
   return std::count(names.begin(), names.end(), "LowerBack") > 0 ? all + ",LowerBack" : all;
 }
 
 // The methods' errors of one take, a number of gaps each.
-void fill_long_gaps(const Clip& truth, const LongGap& gap, const PaperNetwork& ebd,
+void fill_long_gaps(const Take& truth, const LongGap& gap, const PaperNetwork& ebd,
                     const std::vector<std::string>& methods, std::uint64_t first_seed,
                     std::uint64_t draws, std::map<std::string, Sums>& errors) {
   for (std::uint64_t draw = 0; draw < draws; ++draw) {
-    const Clip clip = damaged(
+    const Take clip = damaged(
         truth, "long-gap",
         {{"length_s", gap.length_s}, {"scope", gap.scope}, {"joints", joints_with_gaps(truth)}},
         100 * draw + first_seed);
-    const auto add = [&](const std::string& method, const Clip& result) {
+    const auto add = [&](const std::string& method, const Take& result) {
       errors[method].error += gap_error(truth, clip, result);
       ++errors[method].count;
     };
@@ -143,7 +143,7 @@ void long_gaps(const Arguments& arguments, const std::vector<HeldOut>& takes,
     if (arguments.quick && gap.length_s != 0.5) continue;
     std::map<std::string, Sums> errors;
     for (std::size_t i = 0; i < takes.size(); ++i) {
-      const Clip truth = take_of(arguments, takes[i]);
+      const Take truth = take_of(arguments, takes[i]);
       if (static_cast<double>(truth.frame_count()) >= 1.2 * gap.length_s * truth.frame_rate_hz)
         fill_long_gaps(truth, gap, ebd, {"slerp", "spline", "cyclic", "pca", "auto", "example"}, i,
                        arguments.quick ? 1 : 5, errors);
@@ -174,7 +174,7 @@ void gaps_of_other_takes(const Arguments& arguments, const PaperNetwork& ebd) {
     std::uint64_t seed = 0;
     for (const char* name :
          {"10_01", "02_06", "06_13", "13_30", "14_20", "36_05", "49_21", "131_09", "135_09"}) {
-      const Clip whole = take_of(arguments, {name, "", 1});
+      const Take whole = take_of(arguments, {name, "", 1});
       const std::size_t length =
           std::min(static_cast<std::size_t>(c.take_s * whole.frame_rate_hz), whole.frame_count());
       for (std::size_t part = 0; part < c.parts; ++part) {
@@ -198,11 +198,11 @@ void gap_curves(const Arguments& arguments, const PaperNetwork& ebd) {
   const auto ebf = paper_network(arguments, "ebf");
   for (const Drawn& drawn : {Drawn{"35_03", "LeftLeg", 0.6, 2}, Drawn{"07_02", "RightLeg", 0.3, 2},
                              Drawn{"10_01", "LeftLeg", 1.5, 4}}) {
-    const Clip truth = take_of(arguments, {drawn.take, "", 1});
+    const Take truth = take_of(arguments, {drawn.take, "", 1});
     const auto joint = static_cast<std::size_t>(
         std::find(truth.skeleton.names.begin(), truth.skeleton.names.end(), drawn.joint) -
         truth.skeleton.names.begin());
-    Clip clip = damaged(truth, "gaussian-channels", {{"k", 0.5}}, 1);
+    Take clip = damaged(truth, "gaussian-channels", {{"k", 0.5}}, 1);
     clip.observed.assign(clip.rotations.size(), 1);
     const auto frame = [&](double time_s) {
       return std::min(clip.frame_count() - 2,
@@ -210,8 +210,8 @@ void gap_curves(const Arguments& arguments, const PaperNetwork& ebd) {
     };
     const std::size_t first = frame(drawn.first_s), last = frame(drawn.first_s + drawn.length_s);
     for (std::size_t f = first; f < last; ++f) clip.observed[f * clip.joint_count() + joint] = 0;
-    const Clip lines = filled_by(clip, "slerp");
-    std::map<std::string, Clip> versions{
+    const Take lines = filled_by(clip, "slerp");
+    std::map<std::string, Take> versions{
         {"truth", truth},
         {"lerp and gaussian 58 ms", cleaned(lines, "gaussian", {{"width_s", 0.058}})},
         {"auto", cleaned(filled_by(clip, "auto"), "auto")}};

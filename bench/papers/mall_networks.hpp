@@ -52,19 +52,19 @@ inline std::optional<PaperNetwork> paper_network(const Arguments& arguments,
 }
 
 /// What a network makes of a take at its rate; the root stays.
-inline Clip by_network(const PaperNetwork& paper, const Clip& clip) {
+inline Take by_network(const PaperNetwork& paper, const Take& clip) {
   const BodyMatch match = match_body(paper.layout, clip);
   BodyChannels channels = encode_body(clip, paper.layout, match);
   put_filtered(filtered(paper.network, filter_take_of(channels, paper.layout)), channels.poses);
   std::vector<std::uint8_t> chosen(paper.layout.track_count() + 1, 1);
   chosen.front() = chosen.back() = 0;
-  Clip result = clip;
+  Take result = clip;
   decode_body(channels, paper.layout, match, result, chosen);
   return result;
 }
 
 /// The take of a hold-out, or a synthetic one where there is no data.
-inline Clip take_of(const Arguments& arguments, const HeldOut& take) {
+inline Take take_of(const Arguments& arguments, const HeldOut& take) {
   return load_take(arguments, take.name + ".bvh", {.motion = take.name, .duration_s = 2}).clip;
 }
 

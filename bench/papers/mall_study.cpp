@@ -49,7 +49,7 @@ std::vector<StudyNetwork> study_networks(const Arguments& arguments) {
 }
 
 // What a network makes of a take when each channel keeps the mean of the widths that it predicts.
-Clip by_held_widths(const PaperNetwork& paper, const Clip& clip) {
+Take by_held_widths(const PaperNetwork& paper, const Take& clip) {
   const FilterNetwork& network = paper.network;
   const BodyMatch match = match_body(paper.layout, clip);
   BodyChannels channels = encode_body(clip, paper.layout, match);
@@ -71,13 +71,13 @@ Clip by_held_widths(const PaperNetwork& paper, const Clip& clip) {
   put_filtered(result, channels.poses);
   std::vector<std::uint8_t> chosen(paper.layout.track_count() + 1, 1);
   chosen.front() = chosen.back() = 0;
-  Clip filtered_clip = clip;
+  Take filtered_clip = clip;
   decode_body(channels, paper.layout, match, filtered_clip, chosen);
   return filtered_clip;
 }
 
 // Root mean square of the biases that a network with biases subtracts, degrees.
-double bias_of(const PaperNetwork& paper, const Clip& clip) {
+double bias_of(const PaperNetwork& paper, const Take& clip) {
   const FilterNetwork& network = paper.network;
   const BodyMatch match = match_body(paper.layout, clip);
   const FilterTake take = filter_take_of(encode_body(clip, paper.layout, match), paper.layout);
@@ -129,11 +129,11 @@ double dimensions_of(const std::vector<float>& codes, std::size_t size) {
   return squares > 0 ? trace * trace / squares : 0;
 }
 
-NetworkFacts facts_of(const PaperNetwork& paper, const std::vector<Clip>& clips) {
+NetworkFacts facts_of(const PaperNetwork& paper, const std::vector<Take>& clips) {
   const FilterNetwork& network = paper.network;
   NetworkFacts facts;
   std::vector<float> codes;
-  for (const Clip& clip : clips) {
+  for (const Take& clip : clips) {
     const FilterTake take = filter_take_of(
         encode_body(clip, paper.layout, match_body(paper.layout, clip)), paper.layout);
     const std::vector<float> features = filter_features(take, network.statistics, network.inputs);
@@ -170,7 +170,7 @@ NetworkFacts facts_of(const PaperNetwork& paper, const std::vector<Clip>& clips)
 void network_facts(const Arguments& arguments, const std::vector<StudyNetwork>& networks) {
   Table table(arguments, "ablation_mall_networks.csv",
               "network,left_out,seed,over_time,between_channels,saturated_percent,code_dimensions");
-  std::vector<Clip> clips;
+  std::vector<Take> clips;
   for (const HeldOut& take : takes_of_hold_outs(arguments, "1"))
     clips.push_back(damaged(take_of(arguments, take), "gaussian-channels", {{"k", 0.5}}, 100));
   for (const StudyNetwork& own : networks) {
@@ -213,8 +213,8 @@ Tried try_half_noise(const Arguments& arguments, const std::vector<HeldOut>& tak
     const HeldOut& take = takes[i];
     const TakeErrors errors(take_of(arguments, take));
     for (std::uint64_t draw = 0; draw < draws; ++draw) {
-      const Clip clip = damaged(errors.truth(), "gaussian-channels", {{"k", 0.5}}, 100 * draw + i);
-      const auto add = [&](const std::string& method, const Clip& result) {
+      const Take clip = damaged(errors.truth(), "gaussian-channels", {{"k", 0.5}}, 100 * draw + i);
+      const auto add = [&](const std::string& method, const Take& result) {
         const auto share = 1 / static_cast<double>(draws);
         tried.plain[method][i] += share * errors.mean(result, true);
         tried.all[method][i] += share * errors.mean(result, false);
@@ -417,11 +417,11 @@ void other_noises(const Arguments& arguments, const std::vector<StudyNetwork>& n
     for (std::size_t i = 0; i < takes.size(); ++i) {
       const TakeErrors errors(take_of(arguments, takes[i]));
       for (std::uint64_t draw = 0; draw < draws; ++draw, ++count) {
-        Clip clip = errors.truth();
+        Take clip = errors.truth();
         for (std::size_t n = 0; n < noise.damages.size(); ++n)
           clip = damaged(clip, noise.damages[n].first, noise.damages[n].second,
                          1000 * n + 100 * draw + i);
-        const auto add = [&](const std::string& method, const Clip& result) {
+        const auto add = [&](const std::string& method, const Take& result) {
           sums[method].first += errors.mean(result, true);
         };
         add("noisy", clip);

@@ -14,30 +14,30 @@ constexpr double noise_deg = 1.5;
 
 struct Kind {
   std::string name;
-  std::function<Clip(const Clip&, std::uint64_t)> damage;
+  std::function<Take(const Take&, std::uint64_t)> damage;
 };
 
 std::vector<Kind> kinds() {
   using quality::of_lower_rate;
   const auto correlated = [](double correlation) {
-    return [correlation](const Clip& clip, std::uint64_t seed) {
+    return [correlation](const Take& clip, std::uint64_t seed) {
       return damaged(clip, "ar1", {{"std_deg", noise_deg}, {"correlation", correlation}}, seed);
     };
   };
-  return {{"white", [](const Clip& c, std::uint64_t s) { return noisy(c, noise_deg, 0, s); }},
+  return {{"white", [](const Take& c, std::uint64_t s) { return noisy(c, noise_deg, 0, s); }},
           {"ar1 0.5", correlated(0.5)},
           {"ar1 0.8", correlated(0.8)},
           {"ar1 0.95", correlated(0.95)},
           {"held 60",
-           [](const Clip& c, std::uint64_t s) {
+           [](const Take& c, std::uint64_t s) {
              return of_lower_rate(noisy(c, noise_deg, 0, s), 2, true);
            }},
-          {"linear 30", [](const Clip& c, std::uint64_t s) {
+          {"linear 30", [](const Take& c, std::uint64_t s) {
              return of_lower_rate(noisy(c, noise_deg, 0, s), 4, false);
            }}};
 }
 
-double best_gaussian(const Clip& truth, const Clip& clip) {
+double best_gaussian(const Take& truth, const Take& clip) {
   double best = 1e300;
   for (const double width_s : {0.006, 0.01, 0.015, 0.02, 0.03, 0.04, 0.05, 0.065, 0.085, 0.11})
     best =
@@ -53,18 +53,18 @@ void experiment(const Arguments& arguments) {
         "49_17"}}};
   Table table(arguments, "page_noise.csv", "set,kind,untouched,auto");
   for (const auto& [set, takes] : sets) {
-    std::vector<AnyTake> truths;
+    std::vector<NamedTake> truths;
     for (const std::string& take : takes) {
       if (arguments.quick && !truths.empty()) break;
       truths.push_back(load_take(arguments, take + ".bvh", {.motion = "walk"}));
-      Clip& clip = truths.back().clip;
+      Take& clip = truths.back().clip;
       clip = slice(clip, 0, std::min<std::size_t>(clip.frame_count(), 721));
     }
     for (const Kind& kind : kinds()) {
       double untouched = 0, ours = 0;
-      for (const AnyTake& take : truths) {
-        const Clip clip = kind.damage(take.clip, 5);
-        const Clip truth = slice(take.clip, 0, clip.frame_count());
+      for (const NamedTake& take : truths) {
+        const Take clip = kind.damage(take.clip, 5);
+        const Take truth = slice(take.clip, 0, clip.frame_count());
         const double best = best_gaussian(truth, clip);
         const double u = geodesic_rms_deg(truth, clip) / best;
         const double a = geodesic_rms_deg(truth, cleaned(clip, "auto")) / best;

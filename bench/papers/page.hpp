@@ -11,15 +11,15 @@
 // What the programs that measure the figures of pages share.
 namespace kinemend::papers {
 
-inline Clip damaged(Clip clip, const std::string& damage, const OptionValues& options,
+inline Take damaged(Take clip, const std::string& damage, const OptionValues& options,
                     std::uint64_t seed) {
   Random random(seed);
   apply_damage(clip, damage, options, random);
   return clip;
 }
 
-inline Clip noisy(const Clip& clip, double std_deg, double share_of_outliers, std::uint64_t seed) {
-  Clip result = clip;
+inline Take noisy(const Take& clip, double std_deg, double share_of_outliers, std::uint64_t seed) {
+  Take result = clip;
   Random random(seed);
   if (std_deg > 0) apply_damage(result, "gaussian", {{"std_deg", std_deg}}, random);
   if (share_of_outliers > 0)
@@ -27,8 +27,8 @@ inline Clip noisy(const Clip& clip, double std_deg, double share_of_outliers, st
   return result;
 }
 
-inline Clip cleaned(const Clip& clip, const std::string& method, const OptionValues& options = {}) {
-  return clean_clip(clip, *make_cleaner(method, options)).clip;
+inline Take cleaned(const Take& clip, const std::string& method, const OptionValues& options = {}) {
+  return clean_take(clip, *make_cleaner(method, options)).take;
 }
 
 inline std::string figure(double value) { return fmt::format("{:.5g}", value); }

@@ -12,7 +12,7 @@
 namespace kinemend::papers {
 namespace {
 
-std::size_t joint_named(const Clip& clip, const std::string& name) {
+std::size_t joint_named(const Take& clip, const std::string& name) {
   const auto joint = clip.skeleton.find(name);
   if (joint < 0) throw Error(ErrorKind::usage, "no joint is named " + name);
   return static_cast<std::size_t>(joint);
@@ -20,7 +20,7 @@ std::size_t joint_named(const Clip& clip, const std::string& name) {
 
 // Of the joints that turn by 200 degrees a second and more, the least share of the peak speed that
 // is left.
-double peak_left(const Clip& truth, const Clip& result) {
+double peak_left(const Take& truth, const Take& result) {
   const auto before = peak_angular_speed_deg_s(truth), after = peak_angular_speed_deg_s(result);
   double least = 1e9;
   for (std::size_t j = 0; j < before.size(); ++j) {
@@ -30,9 +30,9 @@ double peak_left(const Clip& truth, const Clip& result) {
 }
 
 // By how much the rotations of a joint of `result` swing with those of `truth`.
-double swing_left(const Clip& truth, const Clip& result, std::size_t joint) {
+double swing_left(const Take& truth, const Take& result, std::size_t joint) {
   const Quat reference = truth.rotation(0, joint);
-  const auto vectors_of = [&](const Clip& clip) {
+  const auto vectors_of = [&](const Take& clip) {
     std::vector<Vec3> vectors;
     Vec3 mean;
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -56,12 +56,12 @@ const std::vector<Oscillation> oscillations{{"tremor", "LeftForeArm", 6, 1},
                                             {"drum roll", "LeftHand", 9, 5},
                                             {"breathing", "Spine", 0.25, 1}};
 
-double phase_at(const Oscillation& motion, const Clip& clip, std::size_t frame) {
+double phase_at(const Oscillation& motion, const Take& clip, std::size_t frame) {
   return 2 * std::numbers::pi * motion.frequency_hz * static_cast<double>(frame) /
          clip.frame_rate_hz;
 }
 
-Clip with(const Oscillation& motion, Clip clip) {
+Take with(const Oscillation& motion, Take clip) {
   const std::size_t joint = joint_named(clip, motion.joint);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     const double angle =
@@ -72,7 +72,7 @@ Clip with(const Oscillation& motion, Clip clip) {
 }
 
 // The share of the oscillation that `result` still has over `clip`, which is without.
-double oscillation_left(const Oscillation& motion, const Clip& clip, const Clip& result) {
+double oscillation_left(const Oscillation& motion, const Take& clip, const Take& result) {
   const std::size_t joint = joint_named(clip, motion.joint);
   double xx = 0, xy = 0;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -95,23 +95,23 @@ void experiment(const Arguments& arguments) {
     }
   };
   for (const std::string name : {"punch", "clap", "landing"}) {
-    const Clip truth = synthesize({.motion = name, .duration_s = 4, .frame_rate_hz = 120});
+    const Take truth = synthesize({.motion = name, .duration_s = 4, .frame_rate_hz = 120});
     for (const double noise_deg : {0.0, 0.5}) {
-      const Clip clip = noisy(truth, noise_deg, 0, 6);
+      const Take clip = noisy(truth, noise_deg, 0, 6);
       each(name, noise_deg,
            [&](const Compared& method) { return peak_left(truth, cleaned(clip, method)); });
     }
   }
-  const Clip walk = load_take(arguments, "35_01.bvh", {.motion = "walk"}).clip;
+  const Take walk = load_take(arguments, "35_01.bvh", {.motion = "walk"}).clip;
   for (const double noise_deg : {0.0, 1.5}) {
-    const Clip clip = noisy(walk, noise_deg, 0, 6);
+    const Take clip = noisy(walk, noise_deg, 0, 6);
     each("arm swing", noise_deg, [&](const Compared& method) {
       return swing_left(walk, cleaned(clip, method), joint_named(walk, "LeftArm"));
     });
   }
-  const Clip still = load_take(arguments, "49_17.bvh", {.motion = "still"}).clip;
+  const Take still = load_take(arguments, "49_17.bvh", {.motion = "still"}).clip;
   for (const Oscillation& motion : oscillations) {
-    const Clip clip = with(motion, still);
+    const Take clip = with(motion, still);
     each(motion.name, 0, [&](const Compared& method) {
       return oscillation_left(motion, still, cleaned(clip, method));
     });

@@ -28,12 +28,12 @@ const std::vector<Noise> marker_noises{{"none", 0, 0},
                                        {"correlation 0.8, 15 mm", 15, 0.8},
                                        {"correlation 0.95, 15 mm", 15, 0.95}};
 
-MarkerClip in_millimetres(const Clip& clip) {
+Take in_millimetres(const Take& clip) {
   const auto unit = guess_length_unit(clip.skeleton);
   return joint_markers(scale_lengths(clip, 1000 * (unit ? unit->metres : 1)));
 }
 
-MarkerClip with_marker_noise(MarkerClip clip, const Noise& noise, std::uint64_t seed) {
+Take with_marker_noise(Take clip, const Noise& noise, std::uint64_t seed) {
   Random random(seed);
   const std::size_t markers = clip.marker_count();
   const double fresh = std::sqrt(1 - noise.correlation * noise.correlation);
@@ -48,13 +48,13 @@ MarkerClip with_marker_noise(MarkerClip clip, const Noise& noise, std::uint64_t 
   return clip;
 }
 
-MarkerClip markers_cleaned_by(const Compared& compared, MarkerClip clip) {
+Take markers_cleaned_by(const Compared& compared, Take clip) {
   clean_in_place(*make_cleaner(compared.method, compared.options), clip);
   return clip;
 }
 
 // Millimetres, root mean square of distances.
-double distance_mm(const MarkerClip& a, const MarkerClip& b) {
+double distance_mm(const Take& a, const Take& b) {
   double square = 0;
   for (std::size_t i = 0; i < a.positions.size(); ++i) {
     const Vec3 d = a.positions[i] - b.positions[i];
@@ -69,8 +69,8 @@ void markers_under_noise(const Arguments& arguments) {
   for (const Noise& noise : marker_noises) {
     std::map<std::string, double> errors;
     for (const std::string& name : names) {
-      const MarkerClip truth = in_millimetres(kept_take(arguments, name));
-      const MarkerClip clip = with_marker_noise(truth, noise, 7);
+      const Take truth = in_millimetres(kept_take(arguments, name));
+      const Take clip = with_marker_noise(truth, noise, 7);
       const auto count = static_cast<double>(names.size());
       errors["untouched"] += distance_mm(truth, clip) / count;
       for (const Compared& compared : auto_and_learned)
@@ -87,17 +87,16 @@ void markers_under_noise(const Arguments& arguments) {
 // Optical takes as they were recorded: what changes of them.
 void optical_takes(const Arguments& arguments) {
   Table table(arguments, "any_optical.csv", "method,takes,median_mm,most_mm");
-  std::vector<MarkerClip> takes;
+  std::vector<Take> takes;
   for (const char* file :
        {"85_02.c3d", "85_12.c3d", "05_13.c3d", "HDM_bd_05-01_01_120.c3d", "SprintMotion.trc"}) {
     if (arguments.quick) break;
-    if (const auto path = find_take(arguments.data, file))
-      takes.push_back(std::get<MarkerClip>(read_take(*path).take));
+    if (const auto path = find_take(arguments.data, file)) takes.push_back(read_take(*path).take);
   }
   if (takes.empty()) takes.push_back(in_millimetres(synthesize({.motion = "run"})));
   for (const Compared& compared : auto_and_learned) {
     std::vector<double> changes;
-    for (const MarkerClip& clip : takes) {
+    for (const Take& clip : takes) {
       const double metres = metres_per_unit(clip.unit);
       changes.push_back((metres > 0 ? 1000 * metres : 1) *
                         distance_mm(clip, markers_cleaned_by(compared, clip)));
@@ -115,9 +114,9 @@ void optical_takes(const Arguments& arguments) {
 void shaking_hands(const Arguments& arguments) {
   constexpr double size_mm = 60;
   Table table(arguments, "any_shaking.csv", "frequency_hz,method,share");
-  const MarkerClip still = in_millimetres(kept_take(arguments, kept_takes(arguments).back()));
+  const Take still = in_millimetres(kept_take(arguments, kept_takes(arguments).back()));
   for (const double frequency_hz : {3.0, 5.0, 7.0}) {
-    MarkerClip shaking = still;
+    Take shaking = still;
     const std::size_t markers = still.marker_count(), first = still.frame_count() / 3,
                       last = first + static_cast<std::size_t>(2 * still.frame_rate_hz);
     const auto shakes_at = [&](std::size_t f) {
@@ -134,7 +133,7 @@ void shaking_hands(const Arguments& arguments) {
         if (is_hand(m)) shaking.positions[f * markers + m].z += shakes_at(f);
     }
     for (const Compared& compared : auto_and_learned) {
-      const MarkerClip result = markers_cleaned_by(compared, shaking);
+      const Take result = markers_cleaned_by(compared, shaking);
       double left = 0, put = 0;
       for (std::size_t f = first; f < std::min(last, still.frame_count()); ++f) {
         for (std::size_t m = 0; m < markers; ++m) {

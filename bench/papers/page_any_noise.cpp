@@ -21,11 +21,11 @@ const std::vector<Compared> methods_compared{{"auto", "auto"},
                                              {"learned", "learned"},
                                              {"learned live", "learned", {{"live", true}}}};
 
-double gaussian_error(const Clip& truth, const Clip& clip, double width_s) {
+double gaussian_error(const Take& truth, const Take& clip, double width_s) {
   return rms_deg(truth, cleaned(clip, "gaussian", {{"width_s", width_s}}));
 }
 
-double best_gaussian(const Clip& truth, const Clip& clip) {
+double best_gaussian(const Take& truth, const Take& clip) {
   double best = rms_deg(truth, clip);
   for (const double width_s :
        {0.006, 0.009, 0.013, 0.018, 0.025, 0.035, 0.045, 0.058, 0.08, 0.11, 0.16})
@@ -35,12 +35,12 @@ double best_gaussian(const Clip& truth, const Clip& clip) {
 
 struct Kind {
   std::string name;
-  std::function<Clip(const Clip&, std::uint64_t)> damage;
-  std::function<double(const Clip&, const Clip&)> measure = best_gaussian;
+  std::function<Take(const Take&, std::uint64_t)> damage;
+  std::function<double(const Take&, const Take&)> measure = best_gaussian;
 };
 
 // A deviation of `std_deg` per axis, shaped by `shape` (F x 3 J, from white noise).
-Clip with_shaped_noise(Clip clip, double std_deg, std::uint64_t seed,
+Take with_shaped_noise(Take clip, double std_deg, std::uint64_t seed,
                        const std::function<void(PoseMatrix&)>& shape) {
   PoseMatrix noise(clip.frame_count(), 3 * clip.joint_count());
   Random random(seed);
@@ -60,14 +60,14 @@ Clip with_shaped_noise(Clip clip, double std_deg, std::uint64_t seed,
 }
 
 // As pipelines filter takes before they hand them over.
-Clip low_passed_noise(const Clip& clip, std::uint64_t seed) {
+Take low_passed_noise(const Take& clip, std::uint64_t seed) {
   return with_shaped_noise(clip, 3, seed, [&](PoseMatrix& noise) {
     filter_zero_phase(noise, butterworth_lowpass(2, 4, clip.frame_rate_hz));
   });
 }
 
 // As of a system of 30 Hz whose poses were brought to the rate of the take.
-Clip noise_of_30_hz(const Clip& clip, std::uint64_t seed) {
+Take noise_of_30_hz(const Take& clip, std::uint64_t seed) {
   return with_shaped_noise(clip, 1.5, seed, [&](PoseMatrix& noise) {
     const auto step = static_cast<std::size_t>(std::lround(clip.frame_rate_hz / 30));
     for (std::size_t f = 0; f < noise.frames; ++f) {
@@ -83,15 +83,15 @@ Clip noise_of_30_hz(const Clip& clip, std::uint64_t seed) {
 std::vector<Kind> kinds() {
   using quality::of_lower_rate;
   const auto of = [](const std::string& name, const OptionValues& options) {
-    return [name, options](const Clip& c, std::uint64_t s) { return damaged(c, name, options, s); };
+    return [name, options](const Take& c, std::uint64_t s) { return damaged(c, name, options, s); };
   };
   return {{"half of each channel", of("gaussian-channels", {{"k", 0.5}}),
-           [](const Clip& truth, const Clip& clip) { return gaussian_error(truth, clip, 0.058); }},
+           [](const Take& truth, const Take& clip) { return gaussian_error(truth, clip, 0.058); }},
           {"white", of("gaussian", {{"std_deg", 1.5}})},
           {"ar1 0.5", of("ar1", {{"std_deg", 1.5}, {"correlation", 0.5}})},
           {"ar1 0.8", of("ar1", {{"std_deg", 1.5}, {"correlation", 0.8}})},
           {"ar1 0.95", of("ar1", {{"std_deg", 1.5}, {"correlation", 0.95}})},
-          {"held 60", [](const Clip& c,
+          {"held 60", [](const Take& c,
                          std::uint64_t s) { return of_lower_rate(noisy(c, 1.5, 0, s), 2, true); }},
           {"lines between 30 Hz", noise_of_30_hz},
           {"below 4 Hz", low_passed_noise}};
@@ -104,11 +104,11 @@ void every_noise(const Arguments& arguments) {
     const std::vector<std::string> names = kept_takes(arguments);
     const auto count = static_cast<double>(names.size());
     for (const std::string& name : names) {
-      const Clip take = kept_take(arguments, name);
-      const Clip clip = kind.damage(take, 7);
-      const Clip truth = slice(take, 0, clip.frame_count());
+      const Take take = kept_take(arguments, name);
+      const Take clip = kind.damage(take, 7);
+      const Take truth = slice(take, 0, clip.frame_count());
       const double unit = kind.measure(truth, clip);
-      const auto add = [&](const std::string& method, const Clip& result) {
+      const auto add = [&](const std::string& method, const Take& result) {
         const double error = rms_deg(truth, result);
         shares[method] += error / unit / count;
         errors[method] += error / count;
@@ -131,8 +131,8 @@ void white_and_spikes(const Arguments& arguments) {
   std::vector<std::string> names{"35_01", "02_05", "09_03"};
   if (arguments.quick || arguments.data.empty()) names = {"walk"};
   for (const std::string& name : names) {
-    const Clip truth = load_take(arguments, name + ".bvh", {.motion = name}).clip;
-    const Clip clip = noisy(truth, 1.5, 0.004, 1);
+    const Take truth = load_take(arguments, name + ".bvh", {.motion = name}).clip;
+    const Take clip = noisy(truth, 1.5, 0.004, 1);
     table.add({name, "untouched", figure(rms_deg(truth, clip))});
     for (const Compared& method : methods_compared)
       table.add({name, method.label, figure(rms_deg(truth, cleaned(clip, method)))});
@@ -153,7 +153,7 @@ void clean_takes(const Arguments& arguments) {
   for (const Compared& method : methods_compared) {
     std::vector<double> changes;
     for (const std::string& name : names) {
-      const Clip clip = load_take(arguments, name + ".bvh", {.motion = name}).clip;
+      const Take clip = load_take(arguments, name + ".bvh", {.motion = name}).clip;
       changes.push_back(geodesic_rms_deg(clip, cleaned(clip, method)));
     }
     const auto worst = std::max_element(changes.begin(), changes.end());

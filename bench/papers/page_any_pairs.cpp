@@ -125,7 +125,8 @@ double share_within(const MotionSample& pair) {
 }
 
 // F x 3 (J - 1): the turns of the joints below the root, degrees, going on past half a turn.
-std::vector<float> channels_of(const MotionTracks&, const Clip& clip) {
+std::vector<float> channels_of(const MotionTracks& tracks, const Take& clip) {
+  if (!clip.has_joints()) return values_in(tracks, view_of(clip));
   const std::size_t joints = clip.joint_count() - 1;
   std::vector<float> values;
   std::vector<Vec3> last(joints);
@@ -138,12 +139,8 @@ std::vector<float> channels_of(const MotionTracks&, const Clip& clip) {
   }
   return values;
 }
-std::vector<float> channels_of(const MotionTracks& tracks, const MarkerClip& clip) {
-  return values_in(tracks, view_of(clip));
-}
 
-template <class AnyClip>
-void add_pair(const AnyClip& noisy, const AnyClip& reference, double least_deg, Source& source) {
+void add_pair(const Take& noisy, const Take& reference, double least_deg, Source& source) {
   const TakeView view = view_of(noisy);
   MotionTracks tracks = motion_tracks_of(view, changeable_tracks(view));
   MotionSample both{tracks.take, channels_of(tracks, reference)};
@@ -151,8 +148,7 @@ void add_pair(const AnyClip& noisy, const AnyClip& reference, double least_deg, 
   both.take.channels = both.take.values.size() / both.take.frames;
   const MotionSample pair = mapped_pair({"", std::move(both)}, least_deg).sample;
   if (std::all_of(pair.truth.begin(), pair.truth.end(), [](float v) { return v == 0; })) return;
-  const auto channels_by = [&](const std::string& method, const OptionValues& options,
-                               AnyClip clip) {
+  const auto channels_by = [&](const std::string& method, const OptionValues& options, Take clip) {
     clean_in_place(*make_cleaner(method, options), clip);
     return channels_of(tracks, clip);
   };
@@ -192,7 +188,7 @@ constexpr double least_turn_deg = 2, least_move_deg = 0.34;
 void add_made_pairs(std::map<std::string, Source>& sources) {
   const MarkerPair depth = made_pair("walk", 30, "depth");
   add_pair(depth.noisy, depth.reference, least_move_deg, sources["depth"]);
-  const Clip walk = synthesize({.motion = "walk", .duration_s = 5, .frame_rate_hz = 60});
+  const Take walk = synthesize({.motion = "walk", .duration_s = 5, .frame_rate_hz = 60});
   add_pair(damaged(walk, "system", {{"kind", std::string("inertial")}}, 1), walk, least_turn_deg,
            sources["inertial"]);
 }
@@ -203,12 +199,8 @@ void experiment(const Arguments& arguments) {
   for (const Pair& pair : pairs_below(arguments.data / "real2")) {
     if (arguments.quick && number++ % 20 != 0) continue;
     const auto noisy = read_take(pair.noisy).take, reference = read_take(pair.reference).take;
-    if (const auto* markers = std::get_if<MarkerClip>(&noisy)) {
-      add_pair(*markers, std::get<MarkerClip>(reference), least_move_deg, sources[pair.source]);
-    } else {
-      add_pair(std::get<Clip>(noisy), std::get<Clip>(reference), least_turn_deg,
-               sources[pair.source]);
-    }
+    add_pair(noisy, reference, noisy.has_joints() ? least_turn_deg : least_move_deg,
+             sources[pair.source]);
   }
   if (sources.empty()) add_made_pairs(sources);
   Table table(arguments, "any_pairs.csv", "source,method,takes,value,velocity,above_6_hz,within");

@@ -18,8 +18,8 @@ namespace {
 using body_test::channels_of, body_test::layout_of, body_test::rms_difference,
     body_test::track_named;
 
-Clip motion_of(const std::filesystem::path& path) {
-  const Clip clip = read_clip(path).clip;
+Take motion_of(const std::filesystem::path& path) {
+  const Take clip = read_joints(path).take;
   return slice(clip, leading_calibration_frames(clip), clip.frame_count());
 }
 
@@ -48,16 +48,16 @@ void noise(const Arguments& arguments) {
   Table table(arguments, "page_body_noise.csv", "take,rate_hz,heading_deg,place_mm,floor_mm");
   for (const auto& [name, motion] :
        {std::pair{"35_01", "walk"}, {"02_05", "punch"}, {"09_03", "run"}, {"05_02", "wave"}}) {
-    const Clip all = load_take(arguments, std::string(name) + ".bvh", {.motion = motion}).clip;
+    const Take all = load_take(arguments, std::string(name) + ".bvh", {.motion = motion}).clip;
     const BodyLayout layout = layout_of(all);
     const double metres = guess_length_unit(all.skeleton)->metres;
     for (const double rate_hz : {120.0, 30.0}) {
-      const Clip truth = resample(all, rate_hz);
+      const Take truth = resample(all, rate_hz);
       const BodyChannels expected = channels_of(layout, truth);
       FrameError mean;
       constexpr std::uint64_t seeds = 10;
       for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-        Clip clip = noisy(truth, 2, 0, seed);
+        Take clip = noisy(truth, 2, 0, seed);
         Random random(100 + seed);
         for (std::size_t f = 0; f < clip.frame_count(); ++f)
           clip.root_position(f) += body_test::normal_vector(random, 0.01 / metres);
@@ -98,7 +98,7 @@ void formats(const Arguments& arguments, Table& table) {
     const auto bvh = find_take(arguments.data / "cmu", name + ".bvh");
     const auto skeleton = path.parent_path() / (name.substr(0, 2) + ".asf");
     if (!bvh || !std::filesystem::exists(skeleton) || taken[name.substr(0, 2)] == 2) continue;
-    const Clip a = motion_of(*bvh), b = motion_of(path);
+    const Take a = motion_of(*bvh), b = motion_of(path);
     if (a.frame_count() != b.frame_count()) continue;
     ++taken[name.substr(0, 2)], ++takes;
     const BodyLayout layout = layout_of(a);
@@ -111,7 +111,7 @@ void formats(const Arguments& arguments, Table& table) {
 
 struct NamedMotion {
   std::string name;
-  Clip clip;
+  Take clip;
 };
 
 // Walks by other makers; without data, other walks of the generator.
@@ -156,15 +156,14 @@ void makers(const Arguments& arguments) {
 
 // How much the other channels of a take of markers change without both arms.
 double armless_deg(const Arguments& arguments) {
-  const MarkerClip clip =
-      std::get<MarkerClip>(read_take(*find_take(arguments.data, "85_12.c3d")).take);
+  const Take clip = read_take(*find_take(arguments.data, "85_12.c3d")).take;
   const BodyLayout layout = layout_of(clip);
   const auto is_of_an_arm = [](std::string_view name) {
     const auto words = {"UPA", "ELB", "FRM", "WRA", "WRB", "FIN"};
     return std::any_of(words.begin(), words.end(),
                        [&](const char* word) { return name.find(word) != name.npos; });
   };
-  MarkerClip armless = clip;
+  Take armless = clip;
   for (std::size_t i = 0; i < armless.observed.size(); ++i) {
     if (is_of_an_arm(clip.names[i % clip.marker_count()])) armless.observed[i] = 0;
   }

@@ -12,8 +12,7 @@ void experiment(const Arguments& arguments) {
   Table table(arguments, "page_swaps.csv", "take,pairs,to_the_frame,others,as_it_is");
   for (const char* file : {"85_02.c3d", "85_12.c3d", "05_13.c3d", "S02-Trial-Walk-1-vicon.c3d"}) {
     const auto path = find_take(arguments.data, file);
-    const MarkerClip clean =
-        path ? std::get<MarkerClip>(read_take(*path).take) : test::synthetic_markers("walk");
+    const Take clean = path ? read_take(*path).take : test::synthetic_markers("walk");
     test::Tally tally;
     // Two centimetres apart: the files are in millimetres, the synthetic markers in centimetres.
     for (std::uint64_t seed = 1; seed <= (arguments.quick ? 2 : 10); ++seed) {

@@ -36,7 +36,7 @@ void promises(const Arguments& arguments) {
                            "ballet_reduced.trc", "depth-RTK.reference.trc"}) {
     const auto path = find_take(arguments.data, file);
     const bool is_hdm = std::string(file).starts_with("HDM");  // of which the first are no markers
-    const MarkerClip truth =
+    const Take truth =
         path ? quality::points_of(*path, is_hdm ? 3 : 0, 41) : test::marker_take("walk", 5);
     keep(truth, fill::whole_markers(truth));
     if (arguments.quick) break;
@@ -45,7 +45,7 @@ void promises(const Arguments& arguments) {
   kept.clear();
   for (const char* name :
        {"01_05", "03_03", "07_04", "09_05", "10_03", "11_01", "35_20", "131_05"}) {
-    const Clip truth = load_take(arguments, std::string(name) + ".bvh", {.motion = "walk"}).clip;
+    const Take truth = load_take(arguments, std::string(name) + ".bvh", {.motion = "walk"}).clip;
     keep(truth, fill::moving_joints(truth));
     if (arguments.quick) break;
   }
@@ -54,10 +54,10 @@ void promises(const Arguments& arguments) {
 }
 
 // Three gaps in each of five joints that move, at places drawn by the seed.
-Clip with_gaps(const Clip& truth, std::size_t length, std::uint64_t seed) {
+Take with_gaps(const Take& truth, std::size_t length, std::uint64_t seed) {
   constexpr std::size_t apart = 3;
   Random random(seed);
-  Clip clip = truth;
+  Take clip = truth;
   std::vector<std::size_t> joints = fill::moving_joints(truth);
   for (std::size_t i = 0; i < 5; ++i) {
     std::swap(joints[i], joints[i + random.below(joints.size() - i)]);
@@ -67,7 +67,7 @@ Clip with_gaps(const Clip& truth, std::size_t length, std::uint64_t seed) {
   return clip;
 }
 
-double mean_error_deg(const Clip& truth, const Clip& damaged, const Clip& filled) {
+double mean_error_deg(const Take& truth, const Take& damaged, const Take& filled) {
   double sum = 0, count = 0;
   for (std::size_t f = 0; f < truth.frame_count(); ++f) {
     for (std::size_t j = 0; j < truth.joint_count(); ++j) {
@@ -81,7 +81,7 @@ double mean_error_deg(const Clip& truth, const Clip& damaged, const Clip& filled
 
 void joints_by_length(const Arguments& arguments) {
   Table table(arguments, "page_joint_gaps.csv", "method,length_s,mean_deg");
-  std::vector<Clip> truths;
+  std::vector<Take> truths;
   for (const auto& [name, motion] :
        {std::pair{"35_01", "walk"}, {"02_05", "punch"}, {"09_03", "run"}})
     truths.push_back(load_take(arguments, std::string(name) + ".bvh", {.motion = motion}).clip);
@@ -89,12 +89,12 @@ void joints_by_length(const Arguments& arguments) {
     for (const char* method :
          {"auto", "slerp", "squad", "spline", "quintic", "pchip", "hermite", "cyclic", "pca"}) {
       double mean = 0, count = 0;
-      for (const Clip& truth : truths) {
+      for (const Take& truth : truths) {
         const auto length = static_cast<std::size_t>(length_s * truth.frame_rate_hz);
         if (truth.frame_count() < 3 * length + 30) continue;  // a run, for gaps of a second
         for (std::uint64_t seed = 1; seed <= (arguments.quick ? 1 : 10); ++seed) {
-          const Clip damaged = with_gaps(truth, length, seed);
-          Clip filled = fill::spoilt(damaged);
+          const Take damaged = with_gaps(truth, length, seed);
+          Take filled = fill::spoilt(damaged);
           fill::fill_with(filled, method, true);
           mean += mean_error_deg(truth, damaged, filled);
           count += 1;

@@ -15,24 +15,24 @@ void methods_on_own_takes(const Arguments& arguments) {
   Table table(arguments, "page_methods.csv", "method,damage,walk,run,punch");
   const std::vector<std::pair<std::string, std::pair<double, double>>> damages{
       {"0.3", {0.3, 0}}, {"1.5", {1.5, 0}}, {"outliers", {0, 0.01}}};
-  std::array<Clip, 3> truths;
+  std::array<Take, 3> truths;
   const std::array<const char*, 3> motions{"walk", "run", "punch"};
   for (std::size_t m = 0; m < 3; ++m) truths[m] = synthesize({.motion = motions[m]});
   const auto add = [&](const std::string& name, const auto& clean) {
     for (const auto& [damage, sizes] : damages) {
       std::vector<std::string> cells{name, damage};
-      for (const Clip& truth : truths) {
-        const Clip clip = noisy(truth, sizes.first, sizes.second, 7);
+      for (const Take& truth : truths) {
+        const Take clip = noisy(truth, sizes.first, sizes.second, 7);
         cells.push_back(figure(geodesic_rms_deg(truth, clean(clip))));
       }
       table.add(cells);
     }
   };
-  add("before", [](const Clip& clip) { return clip; });
+  add("before", [](const Take& clip) { return clip; });
   for (const Method& method : methods()) {
-    if (!method.learned) add(method.name, [&](const Clip& c) { return cleaned(c, method.name); });
+    if (!method.learned) add(method.name, [&](const Take& c) { return cleaned(c, method.name); });
   }
-  add("live kalman", [](const Clip& c) { return cleaned(c, "kalman", {{"smoother", false}}); });
+  add("live kalman", [](const Take& c) { return cleaned(c, "kalman", {{"smoother", false}}); });
   table.close();
 }
 
@@ -44,11 +44,11 @@ void damaged_takes(const Arguments& arguments) {
   for (const auto& [name, motion] :
        {std::pair{"35_01", "walk"}, std::pair{"02_05", "punch"}, std::pair{"09_03", "run"}}) {
     const std::string take = name;  // of which a lambda may speak
-    const Clip truth = load_take(arguments, take + ".bvh", {.motion = motion}).clip;
+    const Take truth = load_take(arguments, take + ".bvh", {.motion = motion}).clip;
     const auto add = [&](const std::string& way, const auto& clean) {
       double rms = 0, p99 = 0, worst_rms = 0, worst_p99 = 0;
       for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-        const Clip result = clean(noisy(truth, 1.5, 0.004, seed));
+        const Take result = clean(noisy(truth, 1.5, 0.004, seed));
         const double r = geodesic_rms_deg(truth, result),
                      p = geodesic_percentile_deg(truth, result, 99);
         rms += r / static_cast<double>(seeds), p99 += p / static_cast<double>(seeds);
@@ -57,23 +57,23 @@ void damaged_takes(const Arguments& arguments) {
       table.add({take, way, figure(rms), figure(p99)});
       if (way == "auto") table.add({take, "worst", figure(worst_rms), figure(worst_p99)});
     };
-    add("noisy", [](const Clip& clip) { return clip; });
-    add("blender", [](const Clip& c) {
+    add("noisy", [](const Take& clip) { return clip; });
+    add("blender", [](const Take& c) {
       return cleaned(c, "weighted-mean", {{"passes", std::int64_t{4}}});
     });
-    add("butterworth", [](const Clip& c) {
+    add("butterworth", [](const Take& c) {
       return cleaned(c, "butterworth", {{"cutoff_hz", 6.0}});
     });
-    add("despiked", [](const Clip& c) {
+    add("despiked", [](const Take& c) {
       return cleaned(cleaned(c, "hampel"), "butterworth", {{"cutoff_hz", 10.0}});
     });
-    add("auto", [](const Clip& c) { return cleaned(c, "auto"); });
+    add("auto", [](const Take& c) { return cleaned(c, "auto"); });
   }
   table.close();
 }
 
-Clip of_the_world(const Clip& clip) {
-  Clip result = clip;
+Take of_the_world(const Take& clip) {
+  Take result = clip;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     const Pose pose = forward_kinematics(clip, f);
     for (std::size_t j = 0; j < clip.joint_count(); ++j) result.rotation(f, j) = pose.rotations[j];
@@ -83,8 +83,8 @@ Clip of_the_world(const Clip& clip) {
 
 // Of the rotations against the world, half a second and more from the ends: how much it makes that
 // those against the parents were filtered.
-std::vector<std::string> difference_of_frames(const Clip& clip, const Cleaner& cleaner) {
-  Clip local = clip, global = of_the_world(clip);
+std::vector<std::string> difference_of_frames(const Take& clip, const Cleaner& cleaner) {
+  Take local = clip, global = of_the_world(clip);
   clean_in_place(cleaner, local);
   clean_in_place(cleaner, global);
   const auto margin = static_cast<std::size_t>(clip.frame_rate_hz / 2);
@@ -105,10 +105,10 @@ std::vector<std::string> difference_of_frames(const Clip& clip, const Cleaner& c
 // that stand still, not in those of parents that turn.
 void frames_of_joints(const Arguments& arguments) {
   Table table(arguments, "page_frames.csv", "take,setting,noise_deg,joint,largest_deg,rms_deg");
-  const auto add = [&](const std::string& take, const Clip& clip) {
+  const auto add = [&](const std::string& take, const Take& clip) {
     const BilateralOptions usual, papers{1 / clip.frame_rate_hz, 11.46, 5, "mirror"};
     for (const double noise_deg : {0.0, 1.5}) {
-      const Clip damaged = noisy(clip, noise_deg, 0, 7);
+      const Take damaged = noisy(clip, noise_deg, 0, 7);
       for (const bool is_papers : {false, true}) {
         std::vector<std::string> cells{take, is_papers ? "paper" : "default",
                                        fmt::format("{}", noise_deg)};
@@ -132,11 +132,11 @@ void correlated_noise(const Arguments& arguments) {
   Table table(arguments, "page_jitter.csv", "take,noisy,best_gaussian,auto,wiener");
   for (const auto& [name, motion] :
        {std::pair{"35_01", "walk"}, std::pair{"02_05", "punch"}, std::pair{"09_03", "run"}}) {
-    const Clip truth = load_take(arguments, std::string(name) + ".bvh", {.motion = motion}).clip;
-    const Clip clip = damaged(truth, "ar1", {{"std_deg", 1.5}, {"correlation", 0.5}}, 7);
+    const Take truth = load_take(arguments, std::string(name) + ".bvh", {.motion = motion}).clip;
+    const Take clip = damaged(truth, "ar1", {{"std_deg", 1.5}, {"correlation", 0.5}}, 7);
     double best = 1e300;
     for (const double width_s : {0.01, 0.015, 0.02, 0.03, 0.045, 0.06, 0.08}) {
-      const Clip smooth = cleaned(clip, "gaussian", {{"width_s", width_s}});
+      const Take smooth = cleaned(clip, "gaussian", {{"width_s", width_s}});
       best = std::min(best, geodesic_rms_deg(truth, smooth));
     }
     table.add({name, figure(geodesic_rms_deg(truth, clip)), figure(best),

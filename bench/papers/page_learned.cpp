@@ -33,7 +33,7 @@ void clean_takes(const Arguments& arguments) {
   for (const char* method : {"auto", "wiener", "example"}) {
     std::size_t unchanged = 0, hardly = 0;
     for (const std::string& name : names) {
-      const Clip clip = load_take(arguments, name, {.motion = name}).clip;
+      const Take clip = load_take(arguments, name, {.motion = name}).clip;
       const double change = geodesic_rms_deg(clip, cleaned(clip, method));
       unchanged += change == 0 ? 1 : 0;
       hardly += change > 0 && change < 0.012 ? 1 : 0;
@@ -56,7 +56,7 @@ std::vector<std::string> hold_outs(const Arguments& arguments) {
   return names;
 }
 
-double best_gaussian(const Clip& truth, const Clip& clip) {
+double best_gaussian(const Take& truth, const Take& clip) {
   double best = 1e300;
   for (const double width_s :
        {0.006, 0.009, 0.013, 0.018, 0.025, 0.035, 0.045, 0.058, 0.08, 0.11, 0.16})
@@ -76,13 +76,13 @@ void shares_of_gaussian(const Arguments& arguments, const std::string& file,
   for (std::size_t n = 0; n < noises.size(); ++n) {
     double mean[2] = {}, worst[2] = {};
     for (const std::string& name : names) {
-      const Clip truth = load_take(arguments, name + ".bvh", {.motion = name}).clip;
-      const Clip clip = n == 2 ? damaged(truth, "gaussian-channels", {{"k", 0.5}}, 3)
+      const Take truth = load_take(arguments, name + ".bvh", {.motion = name}).clip;
+      const Take clip = n == 2 ? damaged(truth, "gaussian-channels", {{"k", 0.5}}, 3)
                                : noisy(truth, n == 0 ? 1 : 4, n == 0 ? 0 : 0.004, 3);
       const double gaussian = best_gaussian(truth, clip);
       for (std::size_t m = 0; m < 2; ++m) {
         const double share =
-            rms_deg(truth, clean_clip(clip, m == 0 ? *automatic : *wiener).clip) / gaussian;
+            rms_deg(truth, clean_take(clip, m == 0 ? *automatic : *wiener).take) / gaussian;
         mean[m] += share / static_cast<double>(names.size());
         worst[m] = std::max(worst[m], share);
       }

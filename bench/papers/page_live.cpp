@@ -9,10 +9,10 @@
 namespace kinemend::papers {
 namespace {
 
-Clip streamed(const Clip& clip, const Cleaner& cleaner) {
+Take streamed(const Take& clip, const Cleaner& cleaner) {
   const auto stream = make_stream(cleaner, clip);
   const TakeView view = view_of(clip);
-  Clip result = clip;
+  Take result = clip;
   Frame out;
   std::size_t next = 0;
   const auto take = [&] {
@@ -28,7 +28,7 @@ Clip streamed(const Clip& clip, const Cleaner& cleaner) {
 // Errors as shares of that of the take that came in, means over takes.
 void methods_that_run_live(const Arguments& arguments) {
   Table table(arguments, "page_live.csv", "method,delay_ms,white,spikes,inertial");
-  std::vector<Clip> truths;
+  std::vector<Take> truths;
   for (const auto& [name, motion] :
        std::array<std::pair<const char*, const char*>, 6>{{{"35_01", "walk"},
                                                            {"02_05", "punch"},
@@ -41,8 +41,8 @@ void methods_that_run_live(const Arguments& arguments) {
   }
   const auto error_share = [&](const Cleaner& cleaner, const auto& damage) {
     double sum = 0;
-    for (const Clip& truth : truths) {
-      const Clip noisy = damage(truth);
+    for (const Take& truth : truths) {
+      const Take noisy = damage(truth);
       sum += geodesic_rms_deg(truth, streamed(noisy, cleaner)) / geodesic_rms_deg(truth, noisy);
     }
     return figure(sum / static_cast<double>(truths.size()));
@@ -53,9 +53,9 @@ void methods_that_run_live(const Arguments& arguments) {
     const double delay_ms =
         1000.0 / 120 * static_cast<double>(make_stream(*cleaner, truths[0])->latency_frames());
     table.add({method.name, figure(delay_ms),
-               error_share(*cleaner, [](const Clip& c) { return noisy(c, 1.5, 0, 1); }),
-               error_share(*cleaner, [](const Clip& c) { return noisy(c, 1.5, 0.004, 1); }),
-               error_share(*cleaner, [](const Clip& c) {
+               error_share(*cleaner, [](const Take& c) { return noisy(c, 1.5, 0, 1); }),
+               error_share(*cleaner, [](const Take& c) { return noisy(c, 1.5, 0.004, 1); }),
+               error_share(*cleaner, [](const Take& c) {
                  return damaged(c, "system", {{"kind", std::string("inertial")}}, 1);
                })});
   }

@@ -15,8 +15,7 @@ using quality::cleaned_markers, quality::damaged_markers, test::rms_distance;
 std::string figure(double value) { return fmt::format("{:.5g}", value); }
 
 /// Of a real take the first points, of a synthetic walk without data.
-MarkerClip points(const Arguments& arguments, const char* file, std::size_t skip,
-                  std::size_t most) {
+Take points(const Arguments& arguments, const char* file, std::size_t skip, std::size_t most) {
   const auto path = find_take(arguments.data, file);
   return path ? quality::points_of(*path, skip, most) : test::marker_take("walk", 5);
 }
@@ -25,11 +24,11 @@ MarkerClip points(const Arguments& arguments, const char* file, std::size_t skip
 void noise(const Arguments& arguments) {
   Table table(arguments, "page_marker_noise.csv", "take,noise_mm,noisy,auto,other,method");
   for (const char* file : {"85_02.c3d", "85_12.c3d", "05_13.c3d"}) {
-    const MarkerClip all = points(arguments, file, 0, 1000);
+    const Take all = points(arguments, file, 0, 1000);
     const std::size_t frames = all.marker_count() > 100 ? 240 : 1200;
-    const MarkerClip truth = slice(all, 0, std::min(all.frame_count(), frames));
+    const Take truth = slice(all, 0, std::min(all.frame_count(), frames));
     for (const double noise_mm : {2.0, 5.0, 10.0}) {
-      const MarkerClip noisy = damaged_markers(truth, noise_mm, 11);
+      const Take noisy = damaged_markers(truth, noise_mm, 11);
       double best = 1e300;
       std::string best_method;
       for (const std::string& method : quality::other_methods()) {
@@ -67,13 +66,13 @@ void gaps(const Arguments& arguments) {
   Table table(arguments, "page_gaps.csv", "take,frames,method,mean_mm,worst_mm,refused");
   const std::uint64_t seeds = arguments.quick ? 2 : 10;
   for (const Case& one : cases) {
-    const MarkerClip truth = points(arguments, one.file, one.skip, one.most);
+    const Take truth = points(arguments, one.file, one.skip, one.most);
     for (const std::string& method : one.methods) {
       double mean = 0, worst = 0;
       std::size_t refused = 0;
       for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-        const MarkerClip damaged = quality::with_gaps(truth, one.length, seed);
-        MarkerClip clip = damaged;
+        const Take damaged = quality::with_gaps(truth, one.length, seed);
+        Take clip = damaged;
         FillSettings settings;
         settings.method = method;
         refused += fill_gaps(clip, settings).refused();

@@ -16,7 +16,7 @@ struct Errors {
 
 // After the reference was given a gain and an offset for each channel, which calibration would
 // mend; channels that hardly move are left out.
-Errors errors_of(const MarkerClip& reference, const MarkerClip& noisy, const MarkerClip& clip) {
+Errors errors_of(const Take& reference, const Take& noisy, const Take& clip) {
   MarkerComparisonSettings settings;
   settings.fit = MarkerFit::gain_offset;
   settings.fit_to = &noisy;
@@ -34,7 +34,7 @@ std::vector<MarkerPair> pairs_of(const Arguments& arguments) {
     return pairs;
   }
   const auto half_of = [&](const std::string& pair, const std::string& half) {
-    return std::get<MarkerClip>(read_take(folder / (pair + "." + half + ".trc")).take);
+    return read_take(folder / (pair + "." + half + ".trc")).take;
   };
   for (const char* pair :
        {"video-regular_FULL", "video-regular_HEAVY", "video-regular_LITE", "video-60fps_01_FULL",
@@ -56,7 +56,7 @@ void experiment(const Arguments& arguments) {
     const auto errors_by = [&](const std::string& method, const OptionValues& options,
                                const CleanSettings& settings) {
       return errors_of(reference, noisy,
-                       clean_markers(noisy, *make_cleaner(method, options), settings).clip);
+                       clean_take(noisy, *make_cleaner(method, options), settings).take);
     };
     const Errors was = errors_of(reference, noisy, noisy);
     add(automatic, errors_by("auto", {}, {}), was);

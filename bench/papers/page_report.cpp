@@ -15,7 +15,7 @@ void repeat(std::vector<Value>& values, std::size_t times) {
 }
 
 // The take over and over.
-Clip repeated(Clip clip, std::size_t times) {
+Take repeated(Take clip, std::size_t times) {
   repeat(clip.rotations, times);
   repeat(clip.positions, times);
   repeat(clip.observed, times);
@@ -25,7 +25,7 @@ Clip repeated(Clip clip, std::size_t times) {
 }
 
 // The data alone: the page's program is the same for all takes, and changes by itself.
-double megabytes(const Report& report, const Clip& before, const Clip* after) {
+double megabytes(const Report& report, const Take& before, const Take* after) {
   const std::size_t program = served_page("", "", {}).size();
   return static_cast<double>(report_page(report, before, after, {}).size() - program) / 1e6;
 }
@@ -45,13 +45,13 @@ void sizes_of_pages(const Arguments& arguments) {
   }
   Table table(arguments, "page_report.csv", "take,frames,clean_mb,check_mb");
   for (const Length& length : lengths) {
-    const Clip take =
+    const Take take =
         noisy(repeated(synthesize({.duration_s = length.synth_s}), length.times), 1.5, 0.004, 1);
     const auto cleaner = make_cleaner("auto", {});
-    CleanResult cleaned = clean_clip(take, *cleaner);
+    CleanResult cleaned = clean_take(take, *cleaner);
     const Report report{take_facts(take), CleanOutcome{std::move(cleaned.report), {}, {}, {}}};
     table.add({length.name, fmt::format("{}", take.frame_count()),
-               figure(megabytes(report, take, &cleaned.clip)),
+               figure(megabytes(report, take, &cleaned.take)),
                figure(megabytes(report, take, nullptr))});
   }
   table.close();

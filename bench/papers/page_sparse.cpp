@@ -14,48 +14,48 @@ namespace {
 
 struct Kind {
   std::string name;
-  std::function<Clip(const Clip&)> damage;
+  std::function<Take(const Take&)> damage;
 };
 
 std::vector<Kind> kinds() {
   using quality::of_lower_rate;
   const auto of = [](const std::string& name, const OptionValues& options) {
-    return [name, options](const Clip& c) { return damaged(c, name, options, 5); };
+    return [name, options](const Take& c) { return damaged(c, name, options, 5); };
   };
   return {{"white 1", of("gaussian", {{"std_deg", 1.0}})},
-          {"white 4 and spikes", [](const Clip& c) { return noisy(c, 4, 0.004, 5); }},
-          {"10 % outliers", [](const Clip& c) { return noisy(c, 1, 0.1, 5); }},
+          {"white 4 and spikes", [](const Take& c) { return noisy(c, 4, 0.004, 5); }},
+          {"10 % outliers", [](const Take& c) { return noisy(c, 1, 0.1, 5); }},
           {"ar1 0.5", of("ar1", {{"std_deg", 1.5}, {"correlation", 0.5}})},
           {"ar1 0.8", of("ar1", {{"std_deg", 1.5}, {"correlation", 0.8}})},
           {"ar1 0.95", of("ar1", {{"std_deg", 1.5}, {"correlation", 0.95}})},
-          {"held 60", [](const Clip& c) { return of_lower_rate(noisy(c, 1.5, 0, 5), 2, true); }},
-          {"linear 30", [](const Clip& c) { return of_lower_rate(noisy(c, 1.5, 0, 5), 4, false); }},
+          {"held 60", [](const Take& c) { return of_lower_rate(noisy(c, 1.5, 0, 5), 2, true); }},
+          {"linear 30", [](const Take& c) { return of_lower_rate(noisy(c, 1.5, 0, 5), 4, false); }},
           {"video", of("system", {{"kind", std::string("video")}})},
           {"inertial", of("system", {{"kind", std::string("inertial")}})}};
 }
 
 // Three seconds of each of ten hold-outs of cmu/recurrent-100.csv, which the models measured here
 // have not seen.
-std::vector<Clip> takes(const Arguments& arguments) {
+std::vector<Take> takes(const Arguments& arguments) {
   std::vector<std::string> names{"02_02", "05_01", "07_02", "08_01", "16_15",
                                  "26_01", "35_02", "09_01", "10_01", "135_04"};
   if (arguments.quick || arguments.data.empty()) names = {"walk"};
-  std::vector<Clip> clips;
+  std::vector<Take> clips;
   for (const std::string& name : names) {
-    const Clip clip = load_take(arguments, name + ".bvh", {.motion = "walk"}).clip;
+    const Take clip = load_take(arguments, name + ".bvh", {.motion = "walk"}).clip;
     clips.push_back(slice(clip, 0, std::min<std::size_t>(clip.frame_count(), 361)));
   }
   return clips;
 }
 
-void noises(const Arguments& arguments, const std::vector<Clip>& truths) {
+void noises(const Arguments& arguments, const std::vector<Take>& truths) {
   Table table(arguments, "sparse_kinds.csv", "kind,takes,noisy_deg,auto_deg,sparse_deg,of_auto");
   const auto count = static_cast<double>(truths.size());
   for (const Kind& kind : kinds()) {
     double before = 0, automatic = 0, sparse = 0, share = 0;
-    for (const Clip& take : truths) {
-      const Clip clip = kind.damage(take);
-      const Clip truth = slice(take, 0, clip.frame_count());
+    for (const Take& take : truths) {
+      const Take clip = kind.damage(take);
+      const Take truth = slice(take, 0, clip.frame_count());
       const double a = geodesic_rms_deg(truth, cleaned(clip, "auto"));
       const double s = geodesic_rms_deg(truth, cleaned(clip, "sparse"));
       before += geodesic_rms_deg(truth, clip) / count;
@@ -72,7 +72,7 @@ void noises(const Arguments& arguments, const std::vector<Clip>& truths) {
 }
 
 // The joints of the left arm that a gap of the shoulder, elbow and hand moves, centimetres.
-double arm_distance_cm(const Clip& truth, const Clip& filled, std::size_t first, std::size_t last,
+double arm_distance_cm(const Take& truth, const Take& filled, std::size_t first, std::size_t last,
                        const std::vector<std::size_t>& arm) {
   const auto unit = guess_length_unit(truth.skeleton);
   const std::vector<Vec3> from = joint_positions(truth), to = joint_positions(filled);
@@ -85,12 +85,12 @@ double arm_distance_cm(const Clip& truth, const Clip& filled, std::size_t first,
 }
 
 // White noise of 1 degree, and the left arm unseen for a while in the middle.
-void gaps(const Arguments& arguments, const std::vector<Clip>& truths) {
+void gaps(const Arguments& arguments, const std::vector<Take>& truths) {
   Table table(arguments, "sparse_gaps.csv", "gap,takes,example,wiener,sparse");
   for (const auto& [name, seconds] : {std::pair{"0.1 s", 0.1}, {"0.25 s", 0.25}, {"1 s", 1.0}}) {
     std::vector<double> sums(3, 0);
-    for (const Clip& truth : truths) {
-      Clip clip = noisy(truth, 1, 0, 5);
+    for (const Take& truth : truths) {
+      Take clip = noisy(truth, 1, 0, 5);
       clip.observed.assign(clip.rotations.size(), 1);
       const auto half = static_cast<std::size_t>(0.5 * seconds * clip.frame_rate_hz);
       const std::size_t middle = clip.frame_count() / 2;
@@ -143,7 +143,7 @@ void clean_takes(const Arguments& arguments) {
     std::size_t unchanged = 0;
     double mean = 0, largest = 0;
     for (const std::string& name : names) {
-      const Clip clip = load_take(arguments, name, {.motion = name}).clip;
+      const Take clip = load_take(arguments, name, {.motion = name}).clip;
       const double change = rms_deg(clip, cleaned(clip, method));
       unchanged += change == 0 ? 1 : 0;
       mean += change / static_cast<double>(names.size());
@@ -156,7 +156,7 @@ void clean_takes(const Arguments& arguments) {
 }
 
 void experiment(const Arguments& arguments) {
-  const std::vector<Clip> truths = takes(arguments);
+  const std::vector<Take> truths = takes(arguments);
   noises(arguments, truths);
   gaps(arguments, truths);
   clean_takes(arguments);

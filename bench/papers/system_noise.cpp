@@ -39,8 +39,7 @@ PoseMatrix matrix_of(const std::vector<Series>& channels) {
 }
 
 /// Markers [first, last); missing samples on straight lines.
-std::vector<Series> tracks_of(const MarkerClip& clip, std::size_t first, std::size_t last,
-                              Pair& pair) {
+std::vector<Series> tracks_of(const Take& clip, std::size_t first, std::size_t last, Pair& pair) {
   const double scale = clip.unit == "m" ? 1000 : 1;
   last = std::min(last, clip.marker_count());
   PoseMatrix values(clip.frame_count(), 3 * (last - first));
@@ -63,7 +62,7 @@ std::vector<Series> tracks_of(const MarkerClip& clip, std::size_t first, std::si
 
 std::vector<Series> read_tracks(const std::filesystem::path& path, std::size_t first,
                                 std::size_t last, Pair& pair) {
-  return tracks_of(std::get<MarkerClip>(read_take(path).take), first, last, pair);
+  return tracks_of(read_take(path).take, first, last, pair);
 }
 
 /// What is left of a channel when the reference, times a gain plus an offset, is taken off.

@@ -21,7 +21,7 @@ namespace kinemend::papers {
 /// Clips of one action as the markers of their joints: learned from, and tried.
 struct XiaoGroup {
   std::string name;
-  std::vector<MarkerClip> training, tests;
+  std::vector<Take> training, tests;
 };
 
 struct XiaoNoise {
@@ -37,18 +37,18 @@ inline std::vector<XiaoNoise> xiao_noises() {
 }
 
 /// The middle `frames` of a clip, in metres, as markers.
-inline MarkerClip xiao_markers(const Clip& clip, std::size_t frames) {
+inline Take xiao_markers(const Take& clip, std::size_t frames) {
   const std::size_t count = std::min(frames, clip.frame_count());
   const std::size_t first = (clip.frame_count() - count) / 2;
   const auto unit = guess_length_unit(clip.skeleton);
   return joint_markers(scale_lengths(slice(clip, first, first + count), unit ? unit->metres : 1));
 }
 
-inline std::vector<MarkerClip> xiao_takes(const Arguments& arguments,
-                                          const std::vector<std::string>& names,
-                                          const std::string& motion, std::uint64_t first_seed,
-                                          std::size_t frames) {
-  std::vector<MarkerClip> clips;
+inline std::vector<Take> xiao_takes(const Arguments& arguments,
+                                    const std::vector<std::string>& names,
+                                    const std::string& motion, std::uint64_t first_seed,
+                                    std::size_t frames) {
+  std::vector<Take> clips;
   for (const std::string& name : names) {
     SynthOptions otherwise{.motion = motion, .duration_s = 3, .frame_rate_hz = 120};
     otherwise.seed = first_seed + clips.size();
@@ -59,7 +59,7 @@ inline std::vector<MarkerClip> xiao_takes(const Arguments& arguments,
 
 /// A damaged take.
 struct XiaoDamaged {
-  MarkerClip clip;
+  Take clip;
   /// F x M, 1 for the markers that eq. 6 counts: Gaussian noise touches all, outliers those of
   /// which they change an entry.
   std::vector<std::uint8_t> noisy;
@@ -68,9 +68,9 @@ struct XiaoDamaged {
 /// The data matrix is taken to be that of positions from the root, which do not depend on where the
 /// laboratory has its origin: the power of the signal is theirs, and an outlier is 1.4 times an
 /// entry of it.
-inline XiaoDamaged xiao_noise(MarkerClip clip, const XiaoNoise& noise, std::uint64_t seed) {
+inline XiaoDamaged xiao_noise(Take clip, const XiaoNoise& noise, std::uint64_t seed) {
   const std::size_t markers = clip.marker_count();
-  const MarkerClip truth = clip;
+  const Take truth = clip;
   const auto from_root = [&](std::size_t i) {
     return truth.positions[i] - truth.positions[i - i % markers];
   };
@@ -93,7 +93,7 @@ inline XiaoDamaged xiao_noise(MarkerClip clip, const XiaoNoise& noise, std::uint
 }
 
 inline std::shared_ptr<const Model> xiao_model(const std::string& method,
-                                               const std::vector<MarkerClip>& clips,
+                                               const std::vector<Take>& clips,
                                                const OptionValues& options = {}) {
   TrainingTakes takes;
   takes.count = clips.size();
@@ -102,13 +102,13 @@ inline std::shared_ptr<const Model> xiao_model(const std::string& method,
 }
 
 /// Mean and deviation over frames of eq. 6, metres.
-inline MeanAndDeviation xiao_error(const MarkerClip& truth, const XiaoDamaged& damaged,
-                                   const MarkerClip& filtered) {
+inline MeanAndDeviation xiao_error(const Take& truth, const XiaoDamaged& damaged,
+                                   const Take& filtered) {
   return rmse_per_marker(truth.positions, filtered.positions, truth.marker_count(), damaged.noisy);
 }
-inline MeanAndDeviation xiao_error(const Cleaner& cleaner, const MarkerClip& truth,
+inline MeanAndDeviation xiao_error(const Cleaner& cleaner, const Take& truth,
                                    const XiaoDamaged& damaged) {
-  MarkerClip filtered = damaged.clip;
+  Take filtered = damaged.clip;
   clean_in_place(cleaner, filtered);
   return xiao_error(truth, damaged, filtered);
 }

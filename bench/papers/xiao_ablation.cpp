@@ -57,7 +57,7 @@ void experiment(const Arguments& arguments) {
     for (const XiaoVariant& v : xiao_variants()) {
       const auto cleaner = make_tuned_sparse(v.options, v.is_local ? local_model : model, v.tuning);
       for (const XiaoNoise& noise : arguments.quick ? quick_noises : noises) {
-        const MarkerClip truth = slice(group.tests.front(), 0, 120);
+        const Take truth = slice(group.tests.front(), 0, 120);
         const double error = xiao_error(*cleaner, truth, xiao_noise(truth, noise, 1)).mean;
         table.add({group.name, v.name, noise.name, fmt::format("{:.3f}", 100 * error)});
         fmt::print("{:<11}{:<19}{:<7}{:9.5f} m\n", group.name, v.name, noise.name, error);

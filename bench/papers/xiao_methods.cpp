@@ -10,8 +10,7 @@ namespace {
 constexpr std::size_t tuning_hop = 4;
 
 XiaoFilter cleaner_filter(std::unique_ptr<Cleaner> cleaner) {
-  return [cleaner = std::shared_ptr<const Cleaner>(std::move(cleaner))](MarkerClip noisy,
-                                                                        const MarkerClip&) {
+  return [cleaner = std::shared_ptr<const Cleaner>(std::move(cleaner))](Take noisy, const Take&) {
     clean_in_place(*cleaner, noisy);
     return noisy;
   };
@@ -141,7 +140,7 @@ std::string name_of(const XiaoPaperSizes& sizes, const XiaoPaperSettings& settin
 XiaoMethod xiao_algorithm(bool has_true_frames, const XiaoPaperSizes& sizes) {
   const auto filter_of = [=](const XiaoPaperSettings& one) {
     return [=](const XiaoModels& models) {
-      return [=](const MarkerClip& noisy, const MarkerClip& truth) {
+      return [=](const Take& noisy, const Take& truth) {
         return models.paper->filtered(noisy, has_true_frames ? truth : noisy, one,
                                       models.paper_hop);
       };
@@ -157,7 +156,7 @@ XiaoMethod xiao_algorithm(bool has_true_frames, const XiaoPaperSizes& sizes) {
           true};
 }
 
-double error_on(const XiaoFilter& filter, const std::vector<MarkerClip>& clips,
+double error_on(const XiaoFilter& filter, const std::vector<Take>& clips,
                 const std::vector<XiaoDamaged>& damaged) {
   double sum = 0;
   for (std::size_t c = 0; c < clips.size(); ++c)
@@ -165,11 +164,9 @@ double error_on(const XiaoFilter& filter, const std::vector<MarkerClip>& clips,
   return sum;
 }
 
-std::vector<XiaoDamaged> tuning_noise(const std::vector<MarkerClip>& clips,
-                                      const XiaoNoise& noise) {
+std::vector<XiaoDamaged> tuning_noise(const std::vector<Take>& clips, const XiaoNoise& noise) {
   std::vector<XiaoDamaged> damaged;
-  for (const MarkerClip& clip : clips)
-    damaged.push_back(xiao_noise(clip, noise, 1000 + damaged.size()));
+  for (const Take& clip : clips) damaged.push_back(xiao_noise(clip, noise, 1000 + damaged.size()));
   return damaged;
 }
 
@@ -188,7 +185,7 @@ std::vector<XiaoMethod> xiao_methods(const Arguments& arguments, const XiaoPaper
           xiao_algorithm(true, sizes)};
 }
 
-XiaoModels xiao_models(const Arguments& arguments, const std::vector<MarkerClip>& clips,
+XiaoModels xiao_models(const Arguments& arguments, const std::vector<Take>& clips,
                        const XiaoPaperSizes& sizes) {
   XiaoModels models{{}, {}, std::make_shared<const XiaoPaper>(clips, sizes)};
   for (const std::int64_t frames : xiao_sparse_windows) {
@@ -205,7 +202,7 @@ XiaoFold xiao_fold(const XiaoGroup& group) {
   XiaoFold fold;
   const std::size_t count = group.training.size();
   for (std::size_t i = 0; i < count; ++i) {
-    const MarkerClip& clip = group.training[i];
+    const Take& clip = group.training[i];
     const bool is_held = count > 4 ? i == count / 4 || i == 3 * count / 4 : i + 1 == count;
     if (!is_held) {
       fold.training.push_back(clip);
@@ -218,8 +215,8 @@ XiaoFold xiao_fold(const XiaoGroup& group) {
   return fold;
 }
 
-XiaoSetting xiao_tuned(const XiaoMethod& method, XiaoModels models,
-                       const std::vector<MarkerClip>& clips, const XiaoNoise& noise) {
+XiaoSetting xiao_tuned(const XiaoMethod& method, XiaoModels models, const std::vector<Take>& clips,
+                       const XiaoNoise& noise) {
   models.paper_hop = tuning_hop;
   const std::vector<XiaoSetting> settings = method.settings(noise);
   if (settings.size() == 1) return settings.front();

@@ -26,7 +26,7 @@ struct XiaoModels {
 };
 
 /// Nothing but the frames of "paper true frames" comes from the ground truth.
-using XiaoFilter = std::function<MarkerClip(const MarkerClip& noisy, const MarkerClip& truth)>;
+using XiaoFilter = std::function<Take(const Take& noisy, const Take& truth)>;
 
 struct XiaoSetting {
   std::string name;
@@ -47,18 +47,18 @@ inline std::vector<double> xiao_windows_s(const Arguments& arguments) {
 /// The five methods of the paper, of which `sparse` is ours, then `auto`, and Algorithm 1 itself.
 std::vector<XiaoMethod> xiao_methods(const Arguments& arguments, const XiaoPaperSizes& sizes);
 
-XiaoModels xiao_models(const Arguments& arguments, const std::vector<MarkerClip>& clips,
+XiaoModels xiao_models(const Arguments& arguments, const std::vector<Take>& clips,
                        const XiaoPaperSizes& sizes);
 
 /// The training in two: a second of two clips to choose settings by, and the others.
 struct XiaoFold {
-  std::vector<MarkerClip> training, tuning;
+  std::vector<Take> training, tuning;
 };
 XiaoFold xiao_fold(const XiaoGroup& group);
 
 /// The setting with the least mean error on the clips with that noise.
-XiaoSetting xiao_tuned(const XiaoMethod& method, XiaoModels models,
-                       const std::vector<MarkerClip>& clips, const XiaoNoise& noise);
+XiaoSetting xiao_tuned(const XiaoMethod& method, XiaoModels models, const std::vector<Take>& clips,
+                       const XiaoNoise& noise);
 
 /// Of Algorithm 1, with the M that has the least error at 20 dB.
 XiaoPaperSizes xiao_paper_sizes(const Arguments& arguments, const XiaoFold& fold);

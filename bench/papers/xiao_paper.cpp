@@ -17,7 +17,7 @@ constexpr double trunk_length = 50;
 constexpr std::size_t windows_at_once = 256;
 constexpr sparse::DescentSettings xiao_descent{};
 
-PoseMatrix positions_of(const MarkerClip& clip) {
+PoseMatrix positions_of(const Take& clip) {
   PoseMatrix positions(clip.frame_count(), 3 * clip.marker_count());
   for (std::size_t i = 0; i < clip.positions.size(); ++i) {
     const Vec3 p = clip.positions[i];
@@ -64,9 +64,9 @@ void append_window(const PoseMatrix& local, const SparsePoselet& poselet, std::s
 }  // namespace
 
 // The same poselets as those of `sparse`, by the numbers of the markers in the clips.
-void XiaoPaper::find_parts(const std::vector<MarkerClip>& clips) {
+void XiaoPaper::find_parts(const std::vector<Take>& clips) {
   BodyLayoutBuilder builder;
-  for (const MarkerClip& clip : clips) builder.add(clip);
+  for (const Take& clip : clips) builder.add(clip);
   const BodyLayout layout = builder.finish();
   const auto to_marker = [&](std::int32_t& point) {
     point = clips.front().find(layout.names[static_cast<std::size_t>(point)]);
@@ -78,12 +78,11 @@ void XiaoPaper::find_parts(const std::vector<MarkerClip>& clips) {
   for (SparsePoselet& poselet : poselets_) std::ranges::for_each(poselet.points, to_marker);
 }
 
-XiaoPaper::XiaoPaper(const std::vector<MarkerClip>& clips, const XiaoPaperSizes& sizes)
-    : sizes_(sizes) {
+XiaoPaper::XiaoPaper(const std::vector<Take>& clips, const XiaoPaperSizes& sizes) : sizes_(sizes) {
   find_parts(clips);
   std::vector<PoseMatrix> poses;
   std::size_t all = 0;
-  for (const MarkerClip& clip : clips) {
+  for (const Take& clip : clips) {
     PoseMatrix local = positions_of(clip);
     scale_by(trunk_length / trunk_of(local, local_), local);
     to_local(local_frames(local, local_), local);
@@ -140,8 +139,8 @@ PoseMatrix XiaoPaper::filter(const PoseMatrix& local, bool is_absolute, double l
   return sums;
 }
 
-MarkerClip XiaoPaper::filtered(const MarkerClip& noisy, const MarkerClip& posed,
-                               const XiaoPaperSettings& settings, std::size_t hop) const {
+Take XiaoPaper::filtered(const Take& noisy, const Take& posed, const XiaoPaperSettings& settings,
+                         std::size_t hop) const {
   PoseMatrix local = positions_of(noisy), poses = positions_of(posed);
   const double factor = trunk_length / trunk_of(poses, local_);
   scale_by(factor, local);
@@ -154,7 +153,7 @@ MarkerClip XiaoPaper::filtered(const MarkerClip& noisy, const MarkerClip& posed,
     local = filter(local, false, settings.lambda_squares, hop);
   from_local(frames, local);
   scale_by(1 / factor, local);
-  MarkerClip result = noisy;
+  Take result = noisy;
   for (std::size_t i = 0; i < result.positions.size(); ++i)
     result.positions[i] = {local.values[3 * i], local.values[3 * i + 1], local.values[3 * i + 2]};
   return result;

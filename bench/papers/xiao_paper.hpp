@@ -7,7 +7,7 @@
 
 #include "kinemend/experimental/body.hpp"
 #include "kinemend/experimental/pose_matrix.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 #include "learned/sparse/sparse_prior.hpp"
 
 // Algorithm 1 of Xiao et al. 2015 as the paper states it, without what the method `sparse` adds:
@@ -35,19 +35,19 @@ struct XiaoPaperSettings {
 class XiaoPaper {
  public:
   /// Learns from clips of the same markers, in metres.
-  XiaoPaper(const std::vector<MarkerClip>& clips, const XiaoPaperSizes& sizes);
+  XiaoPaper(const std::vector<Take>& clips, const XiaoPaperSizes& sizes);
 
   /// The filtered take, of M frames at least. Each pose goes to the local coordinates of the same
   /// pose of `posed` and back: the paper's of the noisy take itself, or of the ground truth, as if
   /// noise were added to local coordinates. `hop`: frames from window to window; 1: all T - M + 1
   /// windows.
-  MarkerClip filtered(const MarkerClip& noisy, const MarkerClip& posed,
-                      const XiaoPaperSettings& settings, std::size_t hop = 1) const;
+  Take filtered(const Take& noisy, const Take& posed, const XiaoPaperSettings& settings,
+                std::size_t hop = 1) const;
 
   const XiaoPaperSizes& sizes() const noexcept { return sizes_; }
 
  private:
-  void find_parts(const std::vector<MarkerClip>& clips);
+  void find_parts(const std::vector<Take>& clips);
   PoseMatrix filter(const PoseMatrix& local, bool is_absolute, double lambda,
                     std::size_t hop) const;
 

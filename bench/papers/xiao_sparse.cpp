@@ -16,8 +16,8 @@ constexpr std::size_t key_poses = 5;
 std::string centimetres(double metres) { return fmt::format("{:.3f}", 100 * metres); }
 
 // Eq. 6 of one frame, metres; nothing where no marker is noisy.
-std::optional<double> frame_error(const MarkerClip& truth, const XiaoDamaged& damaged,
-                                  const MarkerClip& filtered, std::size_t frame) {
+std::optional<double> frame_error(const Take& truth, const XiaoDamaged& damaged,
+                                  const Take& filtered, std::size_t frame) {
   const std::size_t markers = truth.marker_count(), first = frame * markers;
   const std::span<const std::uint8_t> noisy(damaged.noisy.data() + first, markers);
   if (std::ranges::find(noisy, 1) == noisy.end()) return std::nullopt;
@@ -26,7 +26,7 @@ std::optional<double> frame_error(const MarkerClip& truth, const XiaoDamaged& da
       .mean;
 }
 
-std::size_t far_markers(const MarkerClip& truth, const MarkerClip& filtered, std::size_t frame) {
+std::size_t far_markers(const Take& truth, const Take& filtered, std::size_t frame) {
   std::size_t count = 0;
   for (std::size_t m = 0; m < truth.marker_count(); ++m)
     count += norm(filtered.position(frame, m) - truth.position(frame, m)) > far_m ? 1 : 0;
@@ -124,7 +124,7 @@ class Comparison {
           least_.add(group.name + noise.name, name, errors.own);
       };
       add(
-          "(noisy)", "", [](const MarkerClip& noisy, const MarkerClip&) { return noisy; }, false);
+          "(noisy)", "", [](const Take& noisy, const Take&) { return noisy; }, false);
       for (const XiaoMethod& method : xiao_methods(arguments_, sizes)) {
         const XiaoSetting setting = xiao_tuned(method, tuning, fold.tuning, noise);
         add(method.name, setting.name, setting.make(models), method.is_slow);
@@ -145,9 +145,9 @@ class Comparison {
     Errors errors{};
     const std::size_t clips = std::min(most_clips, group.tests.size());
     for (std::size_t t = 0; t < clips; ++t) {
-      const MarkerClip& truth = group.tests[t];
+      const Take& truth = group.tests[t];
       const XiaoDamaged damaged = xiao_noise(truth, noise, t + 1);
-      const MarkerClip filtered = filter(damaged.clip, truth);
+      const Take filtered = filter(damaged.clip, truth);
       const MeanAndDeviation error = xiao_error(truth, damaged, filtered);
       errors.all.mean += error.mean / static_cast<double>(clips);
       errors.all.deviation += error.deviation / static_cast<double>(clips);
@@ -161,8 +161,7 @@ class Comparison {
 
   // Returns the share of frames below the paper's bound.
   double add_curve(const std::string& motion, const std::string& noise, const std::string& name,
-                   const MarkerClip& truth, const XiaoDamaged& damaged,
-                   const MarkerClip& filtered) {
+                   const Take& truth, const XiaoDamaged& damaged, const Take& filtered) {
     double frames = 0, under = 0;
     for (std::size_t f = 0; f < truth.frame_count(); ++f) {
       const std::optional<double> error = frame_error(truth, damaged, filtered, f);
@@ -173,8 +172,8 @@ class Comparison {
     return under / frames;
   }
 
-  void add_far(const std::string& motion, const std::string& name, const MarkerClip& truth,
-               const MarkerClip& filtered) {
+  void add_far(const std::string& motion, const std::string& name, const Take& truth,
+               const Take& filtered) {
     const std::size_t frames = truth.frame_count();
     double sum = 0;
     for (std::size_t f = 0; f < frames; ++f)

@@ -10,10 +10,9 @@
 #include <vector>
 
 #include "kinemend/cleaner.hpp"
-#include "kinemend/clip.hpp"
 #include "kinemend/gaps.hpp"
-#include "kinemend/known_names.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/skeleton.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -137,24 +136,22 @@ struct CheckReport {
 
 /// Runs all checks. Errors: `ErrorKind::usage` for a clip that breaks the rules of its type or a
 /// setting out of range.
-CheckReport check_take(const Clip& clip, const CheckSettings& settings = {});
-CheckReport check_take(const MarkerClip& clip, const CheckSettings& settings = {});
+CheckReport check_take(const Take& take, const CheckSettings& settings = {});
 
 /// The findings that cleaning does not mend: the serious ones among gaps, swaps, frames and the
 /// unit, and all frozen and bridged spans. Leaves out the checks that take as long as cleaning.
 /// Ordered as `CheckReport::findings`. Errors: those of `check_take`.
-std::vector<Finding> find_beyond_cleaning(const Clip& clip);
-std::vector<Finding> find_beyond_cleaning(const MarkerClip& clip);
+std::vector<Finding> find_beyond_cleaning(const Take& take);
 
 /// The spans in which two labels are exchanged, as far as the take itself proves it. At both ends,
 /// exchanging the labels makes both tracks continuous in position and velocity. Between the ends it
 /// restores the distances to the other markers. A swap may begin or end inside a gap of the two.
 /// After a single exchange no take can prove which side is wrong: the shorter one is reported. By
 /// frame.
-std::vector<MarkerSwap> find_swaps(const MarkerClip& clip);
+std::vector<MarkerSwap> find_swaps(const Take& clip);
 /// Exchanges the samples of each span between the two markers, in place: positions, `observed` and
 /// residuals. Spans that overlap are undone from the last to the first. Errors:
 /// `ErrorKind::usage` for a marker or a frame that the clip does not have.
-void undo_swaps(MarkerClip& clip, const std::vector<MarkerSwap>& swaps);
+void undo_swaps(Take& clip, const std::vector<MarkerSwap>& swaps);
 
 }  // namespace kinemend

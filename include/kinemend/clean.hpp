@@ -12,10 +12,9 @@
 #include <vector>
 
 #include "kinemend/cleaner.hpp"
-#include "kinemend/clip.hpp"
 #include "kinemend/feet.hpp"
 #include "kinemend/fill.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -121,33 +120,23 @@ struct CleanReport {
 };
 
 struct CleanResult {
-  Clip clip;
+  Take take;
   CleanReport report;
 };
 
-struct MarkerResult {
-  MarkerClip clip;
-  CleanReport report;
-};
-
-/// Cleans a take of joints: sets calibration frames aside, runs the cleaner, fills gaps if asked
-/// (measured samples come out as without filling), holds feet if asked, blends by strength, range
-/// and largest change, and reports. Samples outside the selection, joints without rotation channels
-/// and samples whose change is below 1e-9 degrees keep their exact value. Joints with one or two
-/// rotation channels get rotations that these channels can hold. Errors: `ErrorKind::usage` for
-/// settings out of range and for a joint pattern that matches nothing.
-CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner,
+/// Cleans a take: runs the cleaner, fills gaps if asked (measured samples come out as without
+/// filling), holds feet if asked, blends by strength, range and largest change, and reports.
+/// Samples outside the selection and samples whose change is below rounding keep their exact value.
+/// Joints: calibration frames are set aside; joints without rotation channels keep their exact
+/// value; joints with one or two get rotations that these channels can hold.
+/// Markers: missing samples that are not filled stay missing; points that are angles or forces keep
+/// their exact value; residuals are kept, and are 0 for filled samples; `max_change_deg` and
+/// `root_position` are ignored.
+/// Errors: `ErrorKind::usage` for settings out of range, a pattern that matches nothing, and
+/// markers with a method that works on joints only.
+CleanResult clean_take(const Take& take, const Cleaner& cleaner,
                        const CleanSettings& settings = {});
-/// The same, but consumes the clip; halves peak memory for long takes.
-CleanResult clean_clip(Clip&& clip, const Cleaner& cleaner, const CleanSettings& settings = {});
-
-/// Cleans a take of markers: runs the cleaner, fills gaps if asked, blends by strength, range and
-/// largest change, and reports. Missing samples that are not filled stay missing. Points that are
-/// angles or forces, markers outside the selection and samples whose change is below rounding keep
-/// their exact value. Residuals are kept, and are 0 for filled samples. `max_change_deg` and
-/// `root_position` are ignored. Errors: `ErrorKind::usage` for settings out of range, a pattern
-/// that matches no marker, and a method that works on joints only.
-MarkerResult clean_markers(const MarkerClip& clip, const Cleaner& cleaner,
-                           const CleanSettings& settings = {});
+/// The same, but consumes the take; halves peak memory for long takes.
+CleanResult clean_take(Take&& take, const Cleaner& cleaner, const CleanSettings& settings = {});
 
 }  // namespace kinemend

@@ -148,7 +148,7 @@ struct InPlaceTrace : CleanTrace {
   std::vector<std::vector<Action>> actions;
   std::vector<ColouredNoise> coloured;
 };
-/// The cleaner alone, without the pipeline of `clean_clip`: writes what it makes of the clip back
+/// The cleaner alone, without the pipeline of `clean_take`: writes what it makes of the clip back
 /// into it. Markers that it filled become observed.
 InPlaceTrace clean_in_place(const Cleaner& cleaner, Take& take, const Selection& selection = {},
                             const std::function<void(double)>& progress = {});

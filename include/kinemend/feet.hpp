@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/clip.hpp"
-#include "kinemend/known_names.hpp"
+#include "kinemend/skeleton.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -55,16 +55,16 @@ struct ContactSettings {
 /// at any height. Beside the level on which a foot stands as a rule, any place is floor on which it
 /// rests for 0.15 s and is the lowest foot for 0.1 s: steps and ramps. Positions are smoothed for
 /// this by as much as their noise asks for. None where no direction is clearly up.
-std::vector<FootContact> find_contacts(const Clip& clip, const ContactSettings& settings = {});
+std::vector<FootContact> find_contacts(const Take& clip, const ContactSettings& settings = {});
 
 /// Contacts as text, one a line: `left heel 12 40`, frames by `first_frame_number`; `#` starts a
 /// comment. Edited by hand and read back.
-std::string contacts_text(const Clip& clip, const std::vector<FootContact>& contacts);
+std::string contacts_text(const Take& clip, const std::vector<FootContact>& contacts);
 /// Sorted by leg, part, then frame. `names`: as `FeetSettings::names`. Errors:
 /// `ErrorKind::unreadable_input`, `<name>:<line>: ...`, for legs, parts or frames that there are
 /// not, and contacts of one part that overlap.
 std::vector<FootContact> parse_contacts(std::string_view text, std::string_view name,
-                                        const Clip& clip, const KnownNames& names = {});
+                                        const Take& clip, const KnownNames& names = {});
 
 enum class FeetMode : std::uint8_t {
   off,
@@ -111,13 +111,13 @@ struct FeetReport {
 /// knees that do not pop, solve each leg in closed form, and blend at the ends. No bone changes its
 /// length. Nothing outside contacts and their blends changes, nor do calibration frames. Errors:
 /// `ErrorKind::usage` for settings out of range, and contacts of legs or frames that there are not.
-FeetReport clean_feet(Clip& clip, const FeetSettings& settings = {});
+FeetReport clean_feet(Take& clip, const FeetSettings& settings = {});
 
 /// The figures of a clip under given contacts. Errors: `ErrorKind::usage` as above.
-FeetFigures feet_figures(const Clip& clip, const std::vector<FootContact>& contacts);
+FeetFigures feet_figures(const Take& clip, const std::vector<FootContact>& contacts);
 
 /// Contacts as text, with those that were left alone as comments that say why. What stands still
 /// already is listed like what was held.
-std::string contacts_text(const Clip& clip, const FeetReport& report);
+std::string contacts_text(const Take& clip, const FeetReport& report);
 
 }  // namespace kinemend

@@ -10,9 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "kinemend/clip.hpp"
 #include "kinemend/gaps.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -27,7 +26,7 @@ struct LearnedFilling {
 };
 /// Such a model. It gets a take without its calibration pose and is called from several threads at
 /// once.
-using LearnedFill = std::function<LearnedFilling(const Clip& clip)>;
+using LearnedFill = std::function<LearnedFilling(const Take& clip)>;
 
 /// The models of the learned methods, by the method's name; an empty one is not there.
 struct FillModels {
@@ -90,10 +89,8 @@ std::span<const FillMethod> fill_methods();
 /// span meets its ends in value and velocity (in value only by `slerp`, `pchip` and `recurrent`).
 /// Gaps that the method's rules refuse stay missing and are listed. Gaps that a model cannot fill
 /// are filled by `auto` under its own rules, with a warning. Errors: `ErrorKind::usage` for an
-/// unknown method, name or donor, and for a learned method without its model.
-FillReport fill_gaps(MarkerClip& clip, const FillSettings& settings = {});
-/// The same for rotations, and positions of joints, that are not observed. A joint with one or two
-/// rotation channels gets rotations that these can hold.
-FillReport fill_gaps(Clip& clip, const FillSettings& settings = {});
+/// unknown method, name or donor, and for a learned method without its model. A joint with one or
+/// two rotation channels gets rotations that these can hold.
+FillReport fill_gaps(Take& clip, const FillSettings& settings = {});
 
 }  // namespace kinemend

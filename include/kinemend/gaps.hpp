@@ -8,8 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/clip.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

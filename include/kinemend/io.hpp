@@ -8,20 +8,12 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
-#include "kinemend/clip.hpp"
-#include "kinemend/diagnostics.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
-
-/// The content of a file: the motion of a skeleton, or of markers.
-using AnyTake = std::variant<Clip, MarkerClip>;
-
-const SourceInfo& source_of(const AnyTake& take);
-SourceInfo& source_of(AnyTake& take);
 
 struct ReadOptions {
   std::string format;           ///< "bvh"; empty: detected by content, then by extension
@@ -39,13 +31,8 @@ struct ReadOptions {
   std::function<void(double done)> progress;
 };
 
-struct ReadResult {
-  Clip clip;
-  Diagnostics diagnostics;
-};
-
 struct TakeResult {
-  AnyTake take;
+  Take take;
   Diagnostics diagnostics;
 };
 
@@ -63,27 +50,24 @@ TakeResult read_take(const std::filesystem::path& path, const ReadOptions& optio
 /// beside it. The source document of the take keeps the bytes (moved, not copied).
 TakeResult read_take(std::string bytes, std::string_view name, const ReadOptions& options = {});
 /// `read_take` for joints only. Errors: also `usage` for a file of markers.
-ReadResult read_clip(const std::filesystem::path& path, const ReadOptions& options = {});
-ReadResult read_clip(std::string bytes, std::string_view name, const ReadOptions& options = {});
+TakeResult read_joints(const std::filesystem::path& path, const ReadOptions& options = {});
+TakeResult read_joints(std::string bytes, std::string_view name, const ReadOptions& options = {});
 
-/// The bytes of a file in `format`; empty: the format that the clip was read from, else BVH. In the
-/// clip's own format the layout of the source is kept, and every unchanged sample keeps its digits:
-/// an unchanged clip is written byte for byte. The exception is a value that was not finite: the
-/// value that replaced it is written, because no output holds a number that is not finite. A
-/// changed rotation is written in the rotation order of its joint and continues the angles of the
-/// frame before. A joint with fewer than three channels gets the nearest rotation that they can
-/// express. A clip with other frames than its source keeps the text of the hierarchy. A clip with
-/// another skeleton, or made in memory, gets a plain layout. Errors: `usage` when the format cannot
-/// hold the clip.
-std::string write_clip(const Clip& clip, std::string_view format = {});
-/// The same for markers; the default without a source is C3D. A missing sample is written in the
-/// way of the format. Points that are not positions are written to C3D only.
-std::string write_markers(const MarkerClip& clip, std::string_view format = {});
-std::string write_take(const AnyTake& take, std::string_view format = {});
+/// The bytes of a file in `format`; empty: the format that the take was read from, else BVH for
+/// joints and C3D for markers. In the clip's own format the layout of the source is kept, and every
+/// unchanged sample keeps its digits: an unchanged clip is written byte for byte. The exception is
+/// a value that was not finite: the value that replaced it is written, because no output holds a
+/// number that is not finite. A changed rotation is written in the rotation order of its joint and
+/// continues the angles of the frame before. A joint with fewer than three channels gets the
+/// nearest rotation that they can express. A clip with other frames than its source keeps the text
+/// of the hierarchy. A clip with another skeleton, or made in memory, gets a plain layout. Errors:
+/// `usage` when the format cannot hold the clip. Markers: a missing sample is written in the way of
+/// the format, and points that are not positions are written to C3D only.
+std::string write_take(const Take& take, std::string_view format = {});
 /// What is lost when `write_take` writes the take in `format`: analog samples, force plates,
 /// events, subjects, parameters, rotations. Empty where nothing is lost. Names are stable
 /// (`not_kept`). Errors: `usage` for an unknown format.
-Diagnostics lost_in_writing(const AnyTake& take, std::string_view format);
+Diagnostics lost_in_writing(const Take& take, std::string_view format);
 
 /// A file that another file needs in the same folder.
 struct SideFile {
@@ -94,8 +78,8 @@ struct SideFile {
 /// read again: the skeleton of an AMC file. It has the name of the source's skeleton where a reader
 /// would look for that name, else the name of the take. Empty for other formats, and where a reader
 /// already finds the same skeleton.
-std::optional<SideFile> side_file(const AnyTake& take, std::string_view bytes,
-                                  std::string_view format, const std::filesystem::path& output);
+std::optional<SideFile> side_file(const Take& take, std::string_view bytes, std::string_view format,
+                                  const std::filesystem::path& output);
 
 /// Writes `bytes` to a temporary file beside `path`, flushes it to the disk and renames it, so that
 /// `path` always holds either its old content or all of the new. A replaced file keeps its
@@ -114,8 +98,8 @@ struct Format {
   int (*sniff)(std::string_view head);
   /// nullptr for a format that is only written.
   TakeResult (*read)(std::string bytes, std::string_view name, const ReadOptions& options);
-  std::string (*write)(const Clip& clip);                ///< nullptr for a format without joints
-  std::string (*write_markers)(const MarkerClip& clip);  ///< nullptr for one without markers
+  std::string (*write)(const Take& clip);          ///< nullptr for a format without joints
+  std::string (*write_markers)(const Take& clip);  ///< nullptr for one without markers
 };
 
 std::span<const Format> formats();

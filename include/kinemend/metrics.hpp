@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/clip.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -31,41 +30,41 @@ struct MeanAndDeviation {
 /// degrees in all) count, roots are left out. The other clip's angles are those nearest to the
 /// reference's in the same frame, so that no branch or whole turn is mistaken for a difference.
 /// Over a set of clips the figure is the mean of the clips' figures. 0 when no channel moves.
-double rms_deg(const Clip& reference, const Clip& other, std::size_t first_frame = 0);
+double rms_deg(const Take& reference, const Take& other, std::size_t first_frame = 0);
 /// The figure of each frame from `first_frame` on, whose mean is `rms_deg`.
-std::vector<double> rms_deg_per_frame(const Clip& reference, const Clip& other,
+std::vector<double> rms_deg_per_frame(const Take& reference, const Take& other,
                                       std::size_t first_frame = 0);
 
 /// Root mean square, over all joints and frames, of the angle between local rotations, in degrees.
-double geodesic_rms_deg(const Clip& reference, const Clip& other, std::size_t first_frame = 0);
+double geodesic_rms_deg(const Take& reference, const Take& other, std::size_t first_frame = 0);
 /// The same joint by joint, J values.
-std::vector<double> geodesic_rms_deg_per_joint(const Clip& reference, const Clip& other,
+std::vector<double> geodesic_rms_deg_per_joint(const Take& reference, const Take& other,
                                                std::size_t first_frame = 0);
 /// A percentile (0 to 100, linear interpolation between order statistics as in NumPy) of the same
 /// angles, degrees.
-double geodesic_percentile_deg(const Clip& reference, const Clip& other, double percentile = 99,
+double geodesic_percentile_deg(const Take& reference, const Take& other, double percentile = 99,
                                std::size_t first_frame = 0);
 
 /// Mean distance of joint positions (end sites left out), in file units times `scale`: pass the
 /// centimetres a file unit has for centimetres.
-double mpjpe(const Clip& reference, const Clip& other, std::size_t first_frame = 0,
+double mpjpe(const Take& reference, const Take& other, std::size_t first_frame = 0,
              double scale = 1.0);
 
 /// Mean norm, over joints and inner frames, of the difference of the second derivatives of joint
 /// positions (central differences at the reference's frame rate), file units / s^2. 0 for fewer
 /// than three frames.
-double accel_error(const Clip& reference, const Clip& other, std::size_t first_frame = 0);
+double accel_error(const Take& reference, const Take& other, std::size_t first_frame = 0);
 
 /// Dean 2016: 10 log10(peak^2 / MSE), the mean squared error taken over frames, joints and the
 /// three channels of the logarithm of the quaternion (half the rotation vector) of reference^-1
 /// other, radians. He does not state his peak. Default pi / 2: the largest value that a channel of
 /// that logarithm takes. Infinity when the clips are the same.
-double psnr_db(const Clip& reference, const Clip& other, std::size_t first_frame = 0,
+double psnr_db(const Take& reference, const Take& other, std::size_t first_frame = 0,
                double peak = pi / 2);
 
 /// Xiao et al. 2015, eq. 6: per frame the root mean squared distance of the markers, here the joint
 /// positions, in metres.
-MeanAndDeviation rmse_per_marker_m(const Clip& reference, const Clip& other, double metres_per_unit,
+MeanAndDeviation rmse_per_marker_m(const Take& reference, const Take& other, double metres_per_unit,
                                    std::size_t first_frame = 0);
 /// The same of F x M positions in any unit. `noisy` (F x M, empty: all) is 1 where the damaged
 /// input was damaged: the paper divides by the number of noisy markers of the frame. Frames without
@@ -80,11 +79,11 @@ MeanAndDeviation rmse_per_marker(std::span<const Vec3> reference, std::span<cons
 /// `ErrorKind::usage` when the lengths differ.
 double mse_rad2(std::span<const Quat> reference, std::span<const Quat> other);
 /// The mean over joints.
-double mse_rad2(const Clip& reference, const Clip& other, std::size_t first_frame = 0);
+double mse_rad2(const Take& reference, const Take& other, std::size_t first_frame = 0);
 
 /// Largest angular speed of each local rotation from a frame to the next, degrees / s, noise and
 /// spikes included; 0 for fewer than two frames. J values.
-std::vector<double> peak_angular_speed_deg_s(const Clip& clip, std::size_t first_frame = 0);
+std::vector<double> peak_angular_speed_deg_s(const Take& clip, std::size_t first_frame = 0);
 
 /// Joints whose travel on the floor is slide: heel (`foot`, `ankle`, `heel`) and toe (`toe`,
 /// `ball`), by parts of their names, case ignored.
@@ -110,7 +109,7 @@ struct FootSlide {
 
 /// Horizontal travel of toes and heels in `other` while the reference is in contact with the floor.
 /// Zero for no contact.
-FootSlide foot_slide(const Clip& reference, const Clip& other,
+FootSlide foot_slide(const Take& reference, const Take& other,
                      const FootSlideSettings& settings = {}, std::size_t first_frame = 0);
 
 struct ComparisonSettings {
@@ -151,7 +150,7 @@ struct Comparison {
 };
 
 /// Errors: `ErrorKind::usage` when joints or numbers of frames differ, saying how.
-Comparison compare_clips(const Clip& reference, const Clip& other,
+Comparison compare_clips(const Take& reference, const Take& other,
                          const ComparisonSettings& settings = {});
 
 /// How a reference is brought to what another system shows of the same motion.
@@ -165,7 +164,7 @@ struct MarkerComparisonSettings {
   MarkerFit fit = MarkerFit::none;
   /// The take that the reference is fitted to; null: `other`. A fit to each of several cleaned
   /// takes flatters the one that stands still: fit to the take before cleaning.
-  const MarkerClip* fit_to = nullptr;
+  const Take* fit_to = nullptr;
   /// Frames by which the takes that are compared come behind the reference.
   std::int64_t lag_frames = 0;
   /// Channels whose reference has a smaller standard deviation do not count, file units (>= 0).
@@ -202,7 +201,7 @@ struct MarkerComparison {
 /// Markers are paired by name, with or without their subject; lengths of `other` are brought to the
 /// reference's unit where both files state theirs. Errors: `ErrorKind::usage` where numbers of
 /// frames or rates differ, no marker is in both, or too few frames are left behind the lag.
-MarkerComparison compare_markers(const MarkerClip& reference, const MarkerClip& other,
+MarkerComparison compare_markers(const Take& reference, const Take& other,
                                  const MarkerComparisonSettings& settings = {});
 
 }  // namespace kinemend

@@ -12,7 +12,7 @@
 
 #include "kinemend/check.hpp"
 #include "kinemend/clean.hpp"
-#include "kinemend/diagnostics.hpp"
+#include "kinemend/error.hpp"
 #include "kinemend/feet.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/metrics.hpp"
@@ -39,11 +39,10 @@ struct TakeFacts {
   std::string contents;
   Diagnostics diagnostics;  ///< what the reader repaired
 };
-/// Without `input`, `output` and `diagnostics`, which a clip does not know.
-TakeFacts take_facts(const Clip& clip);
-TakeFacts take_facts(const MarkerClip& clip);
+/// Without `input`, `output` and `diagnostics`, which a take does not know.
+TakeFacts take_facts(const Take& take);
 /// `TakeFacts::contents`.
-std::string contents_without_markers(const MarkerClip& clip);
+std::string contents_without_markers(const Take& clip);
 
 /// Something wrong with a take that cleaning left as it was.
 struct Leftover {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -84,5 +85,14 @@ std::optional<LengthUnit> guess_length_unit(const Skeleton& skeleton);
 
 /// Position channels in the order x, y, z where asked for, then rotations in the given order.
 std::vector<Channel> make_channels(bool with_position, RotationOrder order);
+
+/// Names that are known ("LeftFoot", "LTOE") to names in a take ("bone_17", "M3"); an empty one:
+/// the take has no such part. What `parse_name_map` reads.
+using KnownNames = std::map<std::string, std::string, std::less<>>;
+
+/// The names of a take, those of the map by what they are known as. A subject stays: "Ann:M3" of
+/// "LTOE" is "Ann:LTOE". What bears a name of the map and is another part loses it. Errors:
+/// `ErrorKind::usage` for a name that the take does not have, or that several of it have.
+std::vector<std::string> known_names(const std::vector<std::string>& names, const KnownNames& map);
 
 }  // namespace kinemend

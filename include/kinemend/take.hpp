@@ -75,6 +75,12 @@ struct Take {
 
   bool has_joints() const noexcept { return !skeleton.names.empty(); }
   std::size_t joint_count() const noexcept { return skeleton.joint_count(); }
+  /// Of what a mask `observed` has a column for: joints, or markers.
+  std::size_t owner_count() const noexcept { return has_joints() ? joint_count() : names.size(); }
+  /// Their names.
+  const std::vector<std::string>& owner_names() const noexcept {
+    return has_joints() ? skeleton.names : names;
+  }
   /// Of a take of markers, with the points that are no positions.
   std::size_t marker_count() const noexcept { return names.size(); }
   /// P.
@@ -107,8 +113,7 @@ struct Take {
 
   /// Whether the rotation of a joint, or the position of a marker, was measured.
   bool is_observed(std::size_t frame, std::size_t owner) const {
-    return observed.empty() ||
-           observed[frame * (has_joints() ? joint_count() : marker_count()) + owner] != 0;
+    return observed.empty() || observed[frame * owner_count() + owner] != 0;
   }
   /// The same of the positions of joints, counted as in `position`.
   bool is_position_observed(std::size_t frame, std::size_t point) const {
@@ -137,5 +142,33 @@ Take slice(const Take& take, std::size_t first, std::size_t last);
 /// The number that the file gives its first frame: an AMC file and a table number their frames, as
 /// files of markers do; 1 stands for files that do not.
 std::int64_t first_frame_number(const Take& take);
+
+/// How many frames at the start are a calibration pose, 0 to 9, and not part of the motion. A
+/// calibration pose is a T-pose as in the CMU files: joints other than roots are within 25 degrees
+/// of their rest rotation, 6 on average. A jump follows: one joint turns by more than 25 degrees,
+/// and the mean turn of the joints is 1.5 times that of the next step and of nine in ten later
+/// steps. Noise does not hide it. Never all frames of a clip.
+std::size_t leading_calibration_frames(const Take& clip);
+
+/// A take of markers of `frames` frames in which every sample is missing and every point is a
+/// position.
+Take make_marker_take(std::vector<std::string> names, std::size_t frames, double frame_rate_hz);
+
+/// An estimate of the person's height in file units: 4.2 times the lower quartile of the distances
+/// between any two markers of a frame, over at most 64 frames. It does not depend on position,
+/// heading or the order of the markers; pose, outliers, props and a second person have little
+/// effect. Where the unit is known the result is at most 2.2 m. Where no frame has two markers it
+/// is 1.75 m, or 1 if the unit is unknown.
+double body_height(const Take& clip);
+
+/// Metres in a unit, by its usual names ("mm", "m", "cm", "in", "inches", ...); 0 for other names.
+double metres_per_unit(std::string_view unit);
+
+/// Metres in a unit of the take's lengths: what it states, else, of joints, what gives its skeleton
+/// the size of a person; 0 where neither tells.
+double likely_metres_per_unit(const Take& take);
+
+/// The name without its subject: `LASI` for `Ann:LASI`.
+std::string_view without_subject(std::string_view name);
 
 }  // namespace kinemend

@@ -7,8 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/clip.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

@@ -1,5 +1,5 @@
 // Collects repairs, counting those that repeat.
-#include "kinemend/diagnostics.hpp"
+#include "kinemend/error.hpp"
 
 #include <algorithm>
 

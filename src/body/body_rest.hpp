@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "body/body_names.hpp"
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::representation {
 

@@ -102,12 +102,12 @@ void check_points(const BodyPoints& body, const CheckSettings& settings, CheckRe
 
 }  // namespace
 
-void check_body(const Clip& clip, const CheckSettings& settings, CheckReport& report) {
+void check_body(const Take& clip, const CheckSettings& settings, CheckReport& report) {
   if (report.metres_per_unit > 0)
     check_points(body_points(clip, report.metres_per_unit, settings.names), settings, report);
 }
 
-void check_body(const MarkerClip& clip, const std::vector<Subject>& subjects,
+void check_body(const Take& clip, const std::vector<Subject>& subjects,
                 const CheckSettings& settings, CheckReport& report) {
   if (!(report.metres_per_unit > 0)) return;
   bool has_rate = false;

@@ -58,7 +58,7 @@ std::string upper_case(std::string_view name) {
   return upper;
 }
 
-std::vector<Foot> feet_of(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+std::vector<Foot> feet_of(const Take& clip, const std::vector<std::size_t>& markers,
                           const KnownNames& names) {
   std::vector<Foot> feet;
   const std::vector<std::string> known = known_names(clip.names, names);
@@ -78,7 +78,7 @@ std::vector<Foot> feet_of(const MarkerClip& clip, const std::vector<std::size_t>
 
 }  // namespace
 
-BodyPoints body_points(const Clip& clip, double metres_per_unit, const KnownNames& names) {
+BodyPoints body_points(const Take& clip, double metres_per_unit, const KnownNames& names) {
   BodyPoints body;
   body.frames = clip.frame_count();
   body.points = clip.joint_count() + clip.skeleton.end_sites.size();
@@ -93,7 +93,7 @@ BodyPoints body_points(const Clip& clip, double metres_per_unit, const KnownName
   return body;
 }
 
-BodyPoints body_points(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+BodyPoints body_points(const Take& clip, const std::vector<std::size_t>& markers,
                        double metres_per_unit, const KnownNames& names) {
   BodyPoints body;
   body.frames = clip.frame_count();

@@ -51,7 +51,7 @@ void report_calibration(CheckReport& report) {
                              "are a calibration pose, not part of the motion"});
 }
 
-void report_left_out(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+void report_left_out(const Take& clip, const std::vector<std::size_t>& markers,
                      CheckReport& report) {
   const std::size_t count = clip.marker_count() - markers.size();
   if (count == 0) return;
@@ -62,7 +62,7 @@ void report_left_out(const MarkerClip& clip, const std::vector<std::size_t>& mar
 }
 
 // With a row for each joint.
-CheckReport report_on(const Clip& clip) {
+CheckReport report_on_joints(const Take& clip) {
   clip.validate();
   CheckReport report;
   report.frames = clip.frame_count();
@@ -73,7 +73,7 @@ CheckReport report_on(const Clip& clip) {
   return report;
 }
 
-void check_gaps_of(const Clip& motion, CheckReport& report) {
+void check_gaps_of(const Take& motion, CheckReport& report) {
   std::vector<std::int32_t> track_of(motion.joint_count());
   std::iota(track_of.begin(), track_of.end(), 0);
   check::check_gaps(find_gaps(motion), track_of, report);
@@ -86,7 +86,7 @@ struct MarkerRows {
 };
 
 // With a row for each marker that is a position.
-CheckReport report_on(const MarkerClip& clip, MarkerRows& rows) {
+CheckReport report_on_markers(const Take& clip, MarkerRows& rows) {
   clip.validate();
   CheckReport report;
   report.is_markers = true;
@@ -123,13 +123,10 @@ std::vector<Finding> beyond_cleaning(std::vector<Finding> findings) {
   return findings;
 }
 
-}  // namespace
-
-CheckReport check_take(const Clip& clip, const CheckSettings& settings) {
-  validate(settings);
-  CheckReport report = report_on(clip);
-  std::optional<Clip> sliced;
-  const Clip& motion = frames_from(clip, report.calibration_frames, sliced);
+CheckReport check_joints(const Take& clip, const CheckSettings& settings) {
+  CheckReport report = report_on_joints(clip);
+  std::optional<Take> sliced;
+  const Take& motion = frames_from(clip, report.calibration_frames, sliced);
   check_gaps_of(motion, report);
   check::check_noise_and_spikes(motion, settings, report);
   check::check_stale(motion, settings, report);
@@ -145,17 +142,16 @@ CheckReport check_take(const Clip& clip, const CheckSettings& settings) {
   return report;
 }
 
-CheckReport check_take(const MarkerClip& clip, const CheckSettings& settings) {
-  validate(settings);
+CheckReport check_markers(const Take& clip, const CheckSettings& settings) {
   MarkerRows rows;
-  CheckReport report = report_on(clip, rows);
+  CheckReport report = report_on_markers(clip, rows);
   const auto& [markers, track_of] = rows;
   const std::vector<Subject> subjects = subjects_of(clip);
   check::check_unit(clip, largest_of(subjects, markers), settings, report);
   check::check_gaps(find_gaps(clip), track_of, report);
   check::check_swaps(clip, track_of, report);
   // Other checks would report an exchange of labels twice for each of two tracks.
-  MarkerClip labelled = clip;
+  Take labelled = clip;
   undo_swaps(labelled, report.swaps);
   check::check_noise_and_spikes(labelled, markers, settings, report);
   check::check_stale(labelled, markers, settings, report);
@@ -168,11 +164,11 @@ CheckReport check_take(const MarkerClip& clip, const CheckSettings& settings) {
   return report;
 }
 
-std::vector<Finding> find_beyond_cleaning(const Clip& clip) {
+std::vector<Finding> beyond_cleaning_of_joints(const Take& clip) {
   const CheckSettings settings;
-  CheckReport report = report_on(clip);
-  std::optional<Clip> sliced;
-  const Clip& motion = frames_from(clip, report.calibration_frames, sliced);
+  CheckReport report = report_on_joints(clip);
+  std::optional<Take> sliced;
+  const Take& motion = frames_from(clip, report.calibration_frames, sliced);
   check_gaps_of(motion, report);
   check::check_stale(motion, settings, report);
   check::check_frames(motion, report);
@@ -182,10 +178,10 @@ std::vector<Finding> find_beyond_cleaning(const Clip& clip) {
   return beyond_cleaning(std::move(report.findings));
 }
 
-std::vector<Finding> find_beyond_cleaning(const MarkerClip& clip) {
+std::vector<Finding> beyond_cleaning_of_markers(const Take& clip) {
   const CheckSettings settings;
   MarkerRows rows;
-  CheckReport report = report_on(clip, rows);
+  CheckReport report = report_on_markers(clip, rows);
   const std::vector<Subject> subjects = subjects_of(clip);
   check::check_unit(clip, largest_of(subjects, rows.markers), settings, report);
   check::check_gaps(find_gaps(clip), rows.track_of, report);
@@ -193,6 +189,17 @@ std::vector<Finding> find_beyond_cleaning(const MarkerClip& clip) {
   check::check_stale(clip, rows.markers, settings, report);
   check::check_frames(clip, rows.markers, report);
   return beyond_cleaning(std::move(report.findings));
+}
+
+}  // namespace
+
+CheckReport check_take(const Take& take, const CheckSettings& settings) {
+  validate(settings);
+  return take.has_joints() ? check_joints(take, settings) : check_markers(take, settings);
+}
+
+std::vector<Finding> find_beyond_cleaning(const Take& take) {
+  return take.has_joints() ? beyond_cleaning_of_joints(take) : beyond_cleaning_of_markers(take);
 }
 
 }  // namespace kinemend

@@ -16,44 +16,42 @@ namespace kinemend::check {
 void check_gaps(const std::vector<Gap>& gap_list, const std::vector<std::int32_t>& track_of,
                 CheckReport& report);
 
-void check_noise_and_spikes(const Clip& clip, const CheckSettings& settings, CheckReport& report);
+void check_noise_and_spikes(const Take& clip, const CheckSettings& settings, CheckReport& report);
 /// `markers`: the marker of each track of the report.
-void check_noise_and_spikes(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+void check_noise_and_spikes(const Take& clip, const std::vector<std::size_t>& markers,
                             const CheckSettings& settings, CheckReport& report);
 
-void check_stale(const Clip& clip, const CheckSettings& settings, CheckReport& report);
-void check_stale(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+void check_stale(const Take& clip, const CheckSettings& settings, CheckReport& report);
+void check_stale(const Take& clip, const std::vector<std::size_t>& markers,
                  const CheckSettings& settings, CheckReport& report);
 
-void check_swaps(const MarkerClip& clip, const std::vector<std::int32_t>& track_of,
-                 CheckReport& report);
+void check_swaps(const Take& clip, const std::vector<std::int32_t>& track_of, CheckReport& report);
 
-void check_lengths(const Clip& clip, const CheckSettings& settings, CheckReport& report);
-void check_lengths(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+void check_lengths(const Take& clip, const CheckSettings& settings, CheckReport& report);
+void check_lengths(const Take& clip, const std::vector<std::size_t>& markers,
                    const CheckSettings& settings, CheckReport& report);
 
 /// Takes the clip with its calibration frames, as its file has them.
-void check_euler_flips(const Clip& clip, CheckReport& report);
+void check_euler_flips(const Take& clip, CheckReport& report);
 
 /// Whole frames that hold nothing but zeros. Takes the clip with its calibration frames, among
 /// which some stand.
-void check_zero_frames(const Clip& clip, CheckReport& report);
+void check_zero_frames(const Take& clip, CheckReport& report);
 
 /// Whole frames that repeat, and the rate that such repeats indicate.
-void check_frames(const Clip& clip, CheckReport& report);
-void check_frames(const MarkerClip& clip, const std::vector<std::size_t>& markers,
-                  CheckReport& report);
+void check_frames(const Take& clip, CheckReport& report);
+void check_frames(const Take& clip, const std::vector<std::size_t>& markers, CheckReport& report);
 
 /// Chooses the scale, puts it into the report and finds whether the declared one fits a person.
-void check_unit(const Clip& clip, const CheckSettings& settings, CheckReport& report);
-void check_unit(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+void check_unit(const Take& clip, const CheckSettings& settings, CheckReport& report);
+void check_unit(const Take& clip, const std::vector<std::size_t>& markers,
                 const CheckSettings& settings, CheckReport& report);
 
 /// Feet that slide or sink, and a rate at which the body would fall too fast or too slowly.
 /// `check_unit` comes before.
-void check_body(const Clip& clip, const CheckSettings& settings, CheckReport& report);
+void check_body(const Take& clip, const CheckSettings& settings, CheckReport& report);
 /// Each subject by itself.
-void check_body(const MarkerClip& clip, const std::vector<Subject>& subjects,
+void check_body(const Take& clip, const std::vector<Subject>& subjects,
                 const CheckSettings& settings, CheckReport& report);
 
 }  // namespace kinemend::check

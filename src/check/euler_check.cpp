@@ -76,7 +76,7 @@ LeapSize leap_of(const double* before, const double* now, const AngleColumns& jo
 
 }  // namespace
 
-void check_euler_flips(const Clip& clip, CheckReport& report) {
+void check_euler_flips(const Take& clip, CheckReport& report) {
   const std::size_t frames = clip.frame_count(), width = channel_count(clip.skeleton);
   if (clip.source.document == nullptr || frames == 0) return;
   const std::vector<double> values = clip.source.document->channel_values();

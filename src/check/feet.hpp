@@ -13,10 +13,10 @@ namespace kinemend::check {
 using feet::along, feet::BodyPoints, feet::find_up, feet::Foot, feet::Up;
 
 /// Joints with end sites, in metres. Feet are found by names and by their descendants.
-BodyPoints body_points(const Clip& clip, double metres_per_unit, const KnownNames& names = {});
+BodyPoints body_points(const Take& clip, double metres_per_unit, const KnownNames& names = {});
 /// Markers, in metres. Feet are found by the names of the marker sets in use (LTOE, RHEE, L_MT5,
 /// ...).
-BodyPoints body_points(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+BodyPoints body_points(const Take& clip, const std::vector<std::size_t>& markers,
                        double metres_per_unit, const KnownNames& names = {});
 
 /// A span in which a foot stands.

@@ -12,7 +12,7 @@ namespace kinemend::check {
 namespace {
 
 // Equal to the frame before to the precision of text.
-bool repeats(const Clip& clip, std::size_t frame) {
+bool repeats(const Take& clip, std::size_t frame) {
   constexpr double same_angle = 1e-7;  // radians
   const Vec3 step = clip.root_position(frame) - clip.root_position(frame - 1);
   if (norm(step) > 1e-9 * (1 + norm(clip.root_position(frame)))) return false;
@@ -26,7 +26,7 @@ bool repeats(const Clip& clip, std::size_t frame) {
   return true;
 }
 
-bool repeats(const MarkerClip& clip, const std::vector<std::size_t>& markers, std::size_t frame) {
+bool repeats(const Take& clip, const std::vector<std::size_t>& markers, std::size_t frame) {
   std::size_t seen = 0;
   for (const std::size_t m : markers) {
     if (clip.is_observed(frame, m) != clip.is_observed(frame - 1, m)) return false;
@@ -83,7 +83,7 @@ void report_repeats(const std::vector<std::uint8_t>& repeated, CheckReport& repo
   }
 }
 
-bool is_zero(const Clip& clip, std::size_t frame) {
+bool is_zero(const Take& clip, std::size_t frame) {
   if (norm(clip.root_position(frame)) > 0) return false;
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
     if (angle_between(clip.rotation(frame, j), {}) > 1e-9) return false;
@@ -93,7 +93,7 @@ bool is_zero(const Clip& clip, std::size_t frame) {
 
 }  // namespace
 
-void check_frames(const Clip& clip, CheckReport& report) {
+void check_frames(const Take& clip, CheckReport& report) {
   const std::size_t frames = clip.frame_count();
   if (frames < 2) return;
   std::vector<std::uint8_t> repeated(frames);
@@ -102,7 +102,7 @@ void check_frames(const Clip& clip, CheckReport& report) {
   report_repeats(repeated, report);
 }
 
-void check_zero_frames(const Clip& clip, CheckReport& report) {
+void check_zero_frames(const Take& clip, CheckReport& report) {
   const std::size_t frames = clip.frame_count();
   const std::vector<FrameSpan> zeros =
       runs_where(frames, [&](std::size_t t) { return is_zero(clip, t); });
@@ -116,8 +116,7 @@ void check_zero_frames(const Clip& clip, CheckReport& report) {
   }
 }
 
-void check_frames(const MarkerClip& clip, const std::vector<std::size_t>& markers,
-                  CheckReport& report) {
+void check_frames(const Take& clip, const std::vector<std::size_t>& markers, CheckReport& report) {
   const std::size_t frames = clip.frame_count();
   if (frames < 2) return;
   std::vector<std::uint8_t> repeated(frames);

@@ -64,7 +64,7 @@ struct RigidNeighbour {
 };
 
 // Markers at a nearly constant distance, as on the same segment.
-std::vector<RigidNeighbour> rigid_neighbours(const MarkerClip& clip,
+std::vector<RigidNeighbour> rigid_neighbours(const Take& clip,
                                              const std::vector<std::size_t>& markers,
                                              std::size_t of) {
   // Spread of a rigid distance, 10th to 90th percentile, as a share of it.
@@ -95,7 +95,7 @@ std::vector<RigidNeighbour> rigid_neighbours(const MarkerClip& clip,
 }
 
 // A marker that slips on its segment changes its distance to most neighbours; these only to it.
-std::vector<double> departures(const MarkerClip& clip, std::size_t marker,
+std::vector<double> departures(const Take& clip, std::size_t marker,
                                const std::vector<RigidNeighbour>& neighbours) {
   std::vector<double> result(clip.frame_count(), -1), now;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -113,7 +113,7 @@ std::vector<double> departures(const MarkerClip& clip, std::size_t marker,
 
 }  // namespace
 
-void check_lengths(const Clip& clip, const CheckSettings& settings, CheckReport& report) {
+void check_lengths(const Take& clip, const CheckSettings& settings, CheckReport& report) {
   const std::size_t width = clip.translated_joints.size(), frames = clip.frame_count();
   const double least_length = 0.01 * body_height(clip.skeleton);
   for (std::size_t i = 0; i < width; ++i) {
@@ -130,7 +130,7 @@ void check_lengths(const Clip& clip, const CheckSettings& settings, CheckReport&
   }
 }
 
-void check_lengths(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+void check_lengths(const Take& clip, const std::vector<std::size_t>& markers,
                    const CheckSettings& settings, CheckReport& report) {
   for (const std::size_t m : markers) {
     const std::vector<RigidNeighbour> neighbours = rigid_neighbours(clip, markers, m);

@@ -81,7 +81,7 @@ Verdict verdict_of(const TakeView& take) {
 
 }  // namespace
 
-void check_noise_and_spikes(const Clip& clip, const CheckSettings& settings, CheckReport& report) {
+void check_noise_and_spikes(const Take& clip, const CheckSettings& settings, CheckReport& report) {
   const std::size_t frames = clip.frame_count(), joints = clip.joint_count();
   if (frames == 0) return;
   const Verdict verdict = verdict_of(view_of(clip));
@@ -97,7 +97,7 @@ void check_noise_and_spikes(const Clip& clip, const CheckSettings& settings, Che
   }
 }
 
-void check_noise_and_spikes(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+void check_noise_and_spikes(const Take& clip, const std::vector<std::size_t>& markers,
                             const CheckSettings& settings, CheckReport& report) {
   const std::size_t frames = clip.frame_count();
   if (frames == 0 || markers.empty()) return;

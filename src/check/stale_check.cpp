@@ -100,7 +100,7 @@ struct HingeRange {
   double rad = 0;  // from end to end; 0: the joint stands still
 };
 
-std::optional<HingeRange> hinge_range(const Clip& clip, std::size_t joint) {
+std::optional<HingeRange> hinge_range(const Take& clip, std::size_t joint) {
   constexpr double part_about_other_axes = 0.05;  // of the whole range
   const auto farthest_from = [&](Quat from) {
     std::pair<Quat, Vec3> farthest{from, {}};
@@ -132,7 +132,7 @@ bool is_at_an_end(const HingeRange& range, Quat rotation) {
 }
 
 // A stretched knee is as still as a frozen one.
-void leave_out_hinge_ends(const Clip& clip, std::size_t joint, std::vector<FrameSpan>& frozen) {
+void leave_out_hinge_ends(const Take& clip, std::size_t joint, std::vector<FrameSpan>& frozen) {
   if (frozen.empty()) return;
   const std::optional<HingeRange> range = hinge_range(clip, joint);
   if (!range) return;
@@ -222,7 +222,7 @@ double largest_component(Vec3 v) {
 
 // Bends of a rotation: a gap is bridged along the geodesic or in the angles of the file, whichever
 // is the straighter.
-TrackChanges rotation_changes(const Clip& clip, std::size_t joint) {
+TrackChanges rotation_changes(const Take& clip, std::size_t joint) {
   const std::size_t frames = clip.frame_count();
   const RotationOrder order = clip.skeleton.rotation_order(joint);
   TrackChanges changes;
@@ -250,7 +250,7 @@ TrackChanges rotation_changes(const Clip& clip, std::size_t joint) {
   return changes;
 }
 
-TrackChanges position_changes(const MarkerClip& clip, std::size_t marker) {
+TrackChanges position_changes(const Take& clip, std::size_t marker) {
   TrackChanges changes;
   for (std::size_t t = 0; t + 1 < clip.frame_count(); ++t) {
     const bool seen = clip.is_observed(t, marker) && clip.is_observed(t + 1, marker);
@@ -266,7 +266,7 @@ TrackChanges position_changes(const MarkerClip& clip, std::size_t marker) {
 
 }  // namespace
 
-void check_stale(const Clip& clip, const CheckSettings& settings, CheckReport& report) {
+void check_stale(const Take& clip, const CheckSettings& settings, CheckReport& report) {
   const std::vector<std::size_t> joints = moving_joints(clip);
   std::vector<TrackChanges> changes(joints.size());
   for_each_parallel(joints.size(), clip.rotations.size(),
@@ -277,7 +277,7 @@ void check_stale(const Clip& clip, const CheckSettings& settings, CheckReport& r
   report_stale(spans, joints, report);
 }
 
-void check_stale(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+void check_stale(const Take& clip, const std::vector<std::size_t>& markers,
                  const CheckSettings& settings, CheckReport& report) {
   std::vector<TrackChanges> changes(markers.size());
   std::vector<std::size_t> tracks(markers.size());

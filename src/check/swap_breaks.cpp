@@ -15,7 +15,7 @@ namespace {
 
 // Velocity a frame at the end of a run of samples; `step` is -1 for the run before `frame`, 1 for
 // the one behind. Across a gap noise has more influence, so more samples are used.
-std::optional<Vec3> end_velocity(const MarkerClip& clip, std::size_t marker, std::size_t frame,
+std::optional<Vec3> end_velocity(const Take& clip, std::size_t marker, std::size_t frame,
                                  std::ptrdiff_t step, std::size_t most_frames) {
   const auto frames = static_cast<std::ptrdiff_t>(clip.frame_count());
   const auto start = static_cast<std::ptrdiff_t>(frame);
@@ -33,15 +33,14 @@ std::optional<Vec3> end_velocity(const MarkerClip& clip, std::size_t marker, std
 }
 
 // The first frame after `frame` in which the marker is seen.
-std::optional<std::size_t> next_seen(const MarkerClip& clip, std::size_t marker,
-                                     std::size_t frame) {
+std::optional<std::size_t> next_seen(const Take& clip, std::size_t marker, std::size_t frame) {
   for (std::size_t f = frame + 1; f < clip.frame_count(); ++f) {
     if (clip.is_observed(f, marker)) return f;
   }
   return std::nullopt;
 }
 
-std::optional<Exchange> exchange_of(const MarkerClip& clip, const Break& a, const Break& b) {
+std::optional<Exchange> exchange_of(const Take& clip, const Break& a, const Break& b) {
   // Mismatch as exchanged over the mismatch as labelled.
   constexpr double largest_doubt = 0.25;
   const double a_to_b = side_mismatch(clip, a.marker, a.before, b.marker, b.after);
@@ -63,7 +62,7 @@ std::optional<Exchange> exchange_of(const MarkerClip& clip, const Break& a, cons
 
 }  // namespace
 
-double side_mismatch(const MarkerClip& clip, std::size_t from, std::size_t before, std::size_t to,
+double side_mismatch(const Take& clip, std::size_t from, std::size_t before, std::size_t to,
                      std::size_t after) {
   const double half = 0.5 * static_cast<double>(after - before);
   const std::size_t reach = after - before > 5 ? 3 : 1;
@@ -75,7 +74,7 @@ double side_mismatch(const MarkerClip& clip, std::size_t from, std::size_t befor
               (clip.position(after, to) - half * *arriving));
 }
 
-std::vector<Break> find_breaks(const MarkerClip& clip, const std::vector<std::size_t>& markers) {
+std::vector<Break> find_breaks(const Take& clip, const std::vector<std::size_t>& markers) {
   constexpr double clear_ratio = 6;  // of the median mismatch from frame to frame
   std::vector<Break> breaks;
   for (const std::size_t m : markers) {
@@ -102,7 +101,7 @@ std::vector<Break> find_breaks(const MarkerClip& clip, const std::vector<std::si
   return breaks;
 }
 
-std::vector<Exchange> find_exchanges(const MarkerClip& clip, const std::vector<Break>& breaks) {
+std::vector<Exchange> find_exchanges(const Take& clip, const std::vector<Break>& breaks) {
   struct Candidate {
     Exchange exchange;
     std::size_t a = 0, b = 0;  // breaks
@@ -154,9 +153,8 @@ struct Neighbour {
 };
 
 // The markers with the least spread of their distance.
-std::vector<Neighbour> steady_neighbours(const MarkerClip& clip,
-                                         const std::vector<std::size_t>& markers, std::size_t of,
-                                         std::size_t except,
+std::vector<Neighbour> steady_neighbours(const Take& clip, const std::vector<std::size_t>& markers,
+                                         std::size_t of, std::size_t except,
                                          const std::vector<std::size_t>& frames) {
   // Neighbours that are asked, and frames in which both are seen.
   constexpr std::size_t wanted = 5, fewest_frames = 8;
@@ -182,7 +180,7 @@ std::vector<Neighbour> steady_neighbours(const MarkerClip& clip,
 
 }  // namespace
 
-NeighbourVerdict ask_neighbours(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+NeighbourVerdict ask_neighbours(const Take& clip, const std::vector<std::size_t>& markers,
                                 std::size_t first_marker, std::size_t second_marker,
                                 const std::vector<std::uint8_t>& swapped) {
   const std::vector<std::size_t> elsewhere = spread_frames(swapped, 0),

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::check {
 
@@ -20,12 +20,12 @@ struct Break {
 /// Distance of the track of `from` up to frame `before` and that of `to` from frame `after` on,
 /// both extrapolated to the middle between them with their velocities there. About half the third
 /// difference where they are successive frames of one track.
-double side_mismatch(const MarkerClip& clip, std::size_t from, std::size_t before, std::size_t to,
+double side_mismatch(const Take& clip, std::size_t from, std::size_t before, std::size_t to,
                      std::size_t after);
 
 /// All gaps between samples, and the successive samples whose mismatch is 6 times the usual one of
 /// their marker. By frame `before`. `markers` are those examined.
-std::vector<Break> find_breaks(const MarkerClip& clip, const std::vector<std::size_t>& markers);
+std::vector<Break> find_breaks(const Take& clip, const std::vector<std::size_t>& markers);
 
 /// Two breaks at which the markers exchange their labels: each track continues in the other's.
 struct Exchange {
@@ -38,7 +38,7 @@ struct Exchange {
 };
 
 /// No break is in two exchanges; the least doubtful ones are kept. By frame.
-std::vector<Exchange> find_exchanges(const MarkerClip& clip, const std::vector<Break>& breaks);
+std::vector<Exchange> find_exchanges(const Take& clip, const std::vector<Break>& breaks);
 
 /// Evidence from distances to nearby markers that two markers are exchanged in some frames: the
 /// mean departure from their usual distances as labelled, and with labels exchanged.
@@ -48,7 +48,7 @@ struct NeighbourVerdict {
   bool known = false;  ///< false where no neighbour was seen
 };
 /// `swapped[f]` is 1 in the frames in question, 0 in those that usual distances are from.
-NeighbourVerdict ask_neighbours(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+NeighbourVerdict ask_neighbours(const Take& clip, const std::vector<std::size_t>& markers,
                                 std::size_t first_marker, std::size_t second_marker,
                                 const std::vector<std::uint8_t>& swapped);
 

@@ -22,7 +22,7 @@ bool is_named(const std::string& name) {
   return !own.empty() && own.front() != '*' && own.substr(0, 5) != "uname";
 }
 
-std::vector<std::size_t> named_markers(const MarkerClip& clip) {
+std::vector<std::size_t> named_markers(const Take& clip) {
   std::vector<std::size_t> markers;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
     if ((clip.is_position.empty() || clip.is_position[m] != 0) && is_named(clip.names[m]))
@@ -47,7 +47,7 @@ std::vector<FrameSpan> swapped_spans(const std::vector<Exchange>& exchanges, std
 }
 
 // Across a gap two tracks may seem to cross by chance, so that neighbours must confirm it.
-bool neighbours_agree(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+bool neighbours_agree(const Take& clip, const std::vector<std::size_t>& markers,
                       const std::pair<std::size_t, std::size_t>& pair, const FrameSpan& span,
                       const std::vector<FrameSpan>& all_spans, std::size_t longest_gap) {
   // A gap over which an exchange is sure without neighbours.
@@ -65,7 +65,7 @@ bool neighbours_agree(const MarkerClip& clip, const std::vector<std::size_t>& ma
 
 }  // namespace
 
-std::vector<MarkerSwap> find_swaps(const MarkerClip& clip) {
+std::vector<MarkerSwap> find_swaps(const Take& clip) {
   const std::vector<std::size_t> markers = named_markers(clip);
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Exchange>> by_pair;
   for (const Exchange& e : check::find_exchanges(clip, check::find_breaks(clip, markers)))
@@ -89,7 +89,7 @@ std::vector<MarkerSwap> find_swaps(const MarkerClip& clip) {
   return swaps;
 }
 
-void undo_swaps(MarkerClip& clip, const std::vector<MarkerSwap>& swaps) {
+void undo_swaps(Take& clip, const std::vector<MarkerSwap>& swaps) {
   const std::size_t markers = clip.marker_count();
   for (auto swap = swaps.rbegin(); swap != swaps.rend(); ++swap) {
     const std::size_t a = swap->first_marker, b = swap->second_marker;
@@ -112,8 +112,7 @@ void undo_swaps(MarkerClip& clip, const std::vector<MarkerSwap>& swaps) {
 
 namespace check {
 
-void check_swaps(const MarkerClip& clip, const std::vector<std::int32_t>& track_of,
-                 CheckReport& report) {
+void check_swaps(const Take& clip, const std::vector<std::int32_t>& track_of, CheckReport& report) {
   report.swaps = find_swaps(clip);
   report.figures.swaps = report.swaps.size();
   for (const MarkerSwap& swap : report.swaps) {

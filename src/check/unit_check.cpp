@@ -18,7 +18,7 @@ std::string size_text(double metres) {
 }
 
 // The median over frames of the largest extent along an axis, file units.
-double usual_extent(const MarkerClip& clip, const std::vector<std::size_t>& markers) {
+double usual_extent(const Take& clip, const std::vector<std::size_t>& markers) {
   constexpr std::size_t looked_at = 200;  // frames, evenly over the take
   const std::size_t frames = clip.frame_count(), count = std::min(frames, looked_at);
   std::vector<double> extents;
@@ -57,7 +57,7 @@ Finding finding_of(Severity severity, double size_m, const CheckReport& report, 
 
 }  // namespace
 
-void check_unit(const Clip& clip, const CheckSettings& settings, CheckReport& report) {
+void check_unit(const Take& clip, const CheckSettings& settings, CheckReport& report) {
   const auto guess = guess_length_unit(clip.skeleton);
   const double height = body_height(clip.skeleton);
   const double declared = settings.metres_per_unit.value_or(clip.metres_per_unit);
@@ -78,7 +78,7 @@ void check_unit(const Clip& clip, const CheckSettings& settings, CheckReport& re
   }
 }
 
-void check_unit(const MarkerClip& clip, const std::vector<std::size_t>& markers,
+void check_unit(const Take& clip, const std::vector<std::size_t>& markers,
                 const CheckSettings& settings, CheckReport& report) {
   const double extent = usual_extent(clip, markers);
   const LengthUnit* guess = unit_of_extent(extent);

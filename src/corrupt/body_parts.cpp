@@ -4,7 +4,7 @@
 #include <array>
 #include <cctype>
 
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::corrupt {
 

@@ -12,14 +12,14 @@ namespace kinemend::corrupt {
 using Notes = std::vector<std::string>;
 
 /// Runs `damage` on the clip and reports what it changed.
-DamageReport measured(std::string kind, Clip& clip, const std::function<void(Notes&)>& damage);
+DamageReport measured(std::string kind, Take& clip, const std::function<void(Notes&)>& damage);
 
 DamageReport measured(std::string kind, VectorMotion& motion,
                       const std::function<void(Notes&)>& damage);
 
 /// A kind of damage is a struct with `name`, `summary`, `paper`, `Options`, `table()` and
 /// `damage(clip, random, options, notes)`. It gets its own generator, to be forked for each joint.
-/// `damage` also takes a `VectorMotion`, unless it needs a skeleton: then it takes a `Clip` only.
+/// `damage` also takes a `VectorMotion`, unless it needs a skeleton: then it takes a `Take` only.
 template <class Kind, class Motion>
 DamageReport apply_kind(Motion& motion, Random& random, const OptionValues& values) {
   const auto options = Kind::table().parse(values);
@@ -31,7 +31,7 @@ DamageReport apply_kind(Motion& motion, Random& random, const OptionValues& valu
 template <class Kind>
 Damage entry() {
   Damage damage{
-      Kind::name, Kind::summary, Kind::paper, Kind::table().specs(), &apply_kind<Kind, Clip>,
+      Kind::name, Kind::summary, Kind::paper, Kind::table().specs(), &apply_kind<Kind, Take>,
       nullptr};
   if constexpr (requires(VectorMotion & motion, const Random& random,
                          const typename Kind::Options& options,

@@ -45,12 +45,12 @@ std::vector<Span> random_spans(Random random, std::size_t first_frame, std::size
   return spans;
 }
 
-void mark_lost(Clip& clip, std::size_t frame, std::size_t joint) {
+void mark_lost(Take& clip, std::size_t frame, std::size_t joint) {
   if (clip.observed.empty()) clip.observed.assign(clip.rotations.size(), 1);
   clip.observed[frame * clip.joint_count() + joint] = 0;
 }
 
-void lose_joint(Clip& clip, std::size_t joint, const std::vector<Span>& spans, Filling filling) {
+void lose_joint(Take& clip, std::size_t joint, const std::vector<Span>& spans, Filling filling) {
   for (const Span span : spans) {
     const Quat value =
         filling.rest || span.first == 0 ? Quat{} : clip.rotation(span.first - 1, joint);
@@ -61,7 +61,7 @@ void lose_joint(Clip& clip, std::size_t joint, const std::vector<Span>& spans, F
   }
 }
 
-void lose_channel(Clip& clip, std::size_t joint, std::size_t channel,
+void lose_channel(Take& clip, std::size_t joint, std::size_t channel,
                   const std::vector<Span>& spans, Filling filling) {
   const RotationOrder order = clip.skeleton.rotation_order(joint);
   const auto track = euler_track(clip, joint);
@@ -109,7 +109,7 @@ void lose(VectorMotion& motion, const Unit& unit, const std::vector<Span>& spans
   for (const std::size_t n : unit.joints) lose_vector(motion, n, unit.channel, spans, filling);
 }
 
-void lose(Clip& clip, const Unit& unit, const std::vector<Span>& spans, Filling filling) {
+void lose(Take& clip, const Unit& unit, const std::vector<Span>& spans, Filling filling) {
   for (const std::size_t j : unit.joints) {
     if (unit.channel < 0) {
       lose_joint(clip, j, spans, filling);

@@ -78,8 +78,8 @@ bool is_a_frame(const Recipe& recipe) { return recipe.from.share == 0 && recipe.
 
 Vec3 mix_vectors(Vec3 a, Vec3 b, double share) { return a + share * (b - a); }
 
-void resample(Clip& clip, const TargetOptions& options, const std::vector<Recipe>& list) {
-  const Clip truth = clip;
+void resample(Take& clip, const TargetOptions& options, const std::vector<Recipe>& list) {
+  const Take truth = clip;
   const auto joints = target_joints(clip.skeleton, options);
   const std::size_t translated = clip.translated_joints.size();
   const bool root = !joints.empty() && joints[0] == 0;

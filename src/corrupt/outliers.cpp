@@ -98,7 +98,7 @@ struct OutlierScale {
     }();
     return options;
   }
-  static void damage(Clip& clip, const Random& random, const Options& options, Notes&) {
+  static void damage(Take& clip, const Random& random, const Options& options, Notes&) {
     if (options.value == "rotation") {
       hit_share(clip, random, options, options.share, [&](std::size_t f, std::size_t j, Random&) {
         set_rotation(clip, f, j, exp(options.factor * log(clip.rotation(f, j))));

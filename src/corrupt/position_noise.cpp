@@ -65,7 +65,7 @@ struct PositionNoise {
     }();
     return options;
   }
-  static void damage(Clip& clip, const Random& random, const Options& options, Notes& notes) {
+  static void damage(Take& clip, const Random& random, const Options& options, Notes& notes) {
     const double scale =
         options.cm_per_unit > 0 ? options.cm_per_unit : usual_cm_per_unit(clip.skeleton, notes);
     std::vector<double> deviations(clip.joint_count(), 0.0);
@@ -149,7 +149,7 @@ struct Snr {
     }();
     return options;
   }
-  static void damage(Clip& clip, const Random& random, const Options& options, Notes& notes) {
+  static void damage(Take& clip, const Random& random, const Options& options, Notes& notes) {
     const auto joints = position_joints(clip.skeleton, options);
     const std::vector<Vec3> clean = joint_positions(clip);
     const double power = signal_power(clean, clip.joint_count(), joints);

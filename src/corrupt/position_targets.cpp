@@ -14,7 +14,7 @@ std::vector<std::size_t> position_joints(const Skeleton& skeleton, const TargetO
   return target_joints(bare, options);
 }
 
-void refit_to(Clip& clip, std::span<const Vec3> targets, const TargetOptions& options) {
+void refit_to(Take& clip, std::span<const Vec3> targets, const TargetOptions& options) {
   std::vector<std::uint8_t> may_turn(clip.joint_count(), 0);
   TargetOptions all_joints;
   all_joints.root = options.root;

@@ -13,7 +13,7 @@ namespace kinemend::corrupt {
 std::vector<std::size_t> position_joints(const Skeleton& skeleton, const TargetOptions& options);
 
 /// Refits the clip to damaged positions; roots turn and move with `root` only.
-void refit_to(Clip& clip, std::span<const Vec3> targets, const TargetOptions& options);
+void refit_to(Take& clip, std::span<const Vec3> targets, const TargetOptions& options);
 
 /// Length of a file unit where nobody says: the usual unit that makes the skeleton a person, else
 /// such that it is 170 cm tall; with a note of it.

@@ -73,7 +73,7 @@ struct Bones {
   std::vector<std::int32_t> translated;  // among translated_joints, or -1
 };
 
-Bones bones_of(const Clip& clip) {
+Bones bones_of(const Take& clip) {
   Bones bones{std::vector<std::vector<std::size_t>>(clip.joint_count()),
               std::vector<std::int32_t>(clip.joint_count(), -1)};
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
@@ -87,13 +87,13 @@ Bones bones_of(const Clip& clip) {
   return bones;
 }
 
-Vec3 offset_of(const Clip& clip, const Bones& bones, std::size_t frame, std::size_t joint) {
+Vec3 offset_of(const Take& clip, const Bones& bones, std::size_t frame, std::size_t joint) {
   if (joint == 0) return clip.root_position(frame);
   if (bones.translated[joint] < 0) return clip.skeleton.offsets[joint];
   return clip.position(frame, 1 + static_cast<std::size_t>(bones.translated[joint]));
 }
 
-void refit_frame(Clip& clip, const Bones& bones, std::size_t frame, std::span<const Vec3> targets,
+void refit_frame(Take& clip, const Bones& bones, std::size_t frame, std::span<const Vec3> targets,
                  std::span<const std::uint8_t> may_turn, bool move_root) {
   constexpr double right_enough = 1e-9;
   const Pose clean = forward_kinematics(clip, frame);
@@ -145,7 +145,7 @@ Quat fit_rotation(Quat clean, std::span<const Vec3> from, std::span<const Vec3> 
   return wahba(clean, bones, aims);
 }
 
-void refit(Clip& clip, std::span<const Vec3> targets, std::span<const std::uint8_t> may_turn,
+void refit(Take& clip, std::span<const Vec3> targets, std::span<const std::uint8_t> may_turn,
            bool move_root) {
   const Bones bones = bones_of(clip);
   const std::size_t joints = clip.joint_count();

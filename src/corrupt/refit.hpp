@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::corrupt {
 
@@ -20,7 +20,7 @@ Quat fit_rotation(Quat clean, std::span<const Vec3> from, std::span<const Vec3> 
 /// targets. Bone lengths and translations stay. Joints of which `may_turn` is 0, those without such
 /// children, and joints whose rotation is right to 1e-9 rad keep theirs to the bit. `move_root`
 /// puts joint 0 at its target.
-void refit(Clip& clip, std::span<const Vec3> targets, std::span<const std::uint8_t> may_turn,
+void refit(Take& clip, std::span<const Vec3> targets, std::span<const std::uint8_t> may_turn,
            bool move_root);
 
 }  // namespace kinemend::corrupt

@@ -98,7 +98,7 @@ struct GaussianLog {
     }();
     return options;
   }
-  static void damage(Clip& clip, const Random& random, const Options& options, Notes&) {
+  static void damage(Take& clip, const Random& random, const Options& options, Notes&) {
     const double deviation = 2 * options.sigma;
     if (options.about == "sample") {
       turn_each(clip, random, options, [&](Random& own) { return deviation * normal_vector(own); });
@@ -151,7 +151,7 @@ struct GaussianChannels {
     }();
     return options;
   }
-  static void damage(Clip& clip, const Random& random, const Options& options, Notes& notes) {
+  static void damage(Take& clip, const Random& random, const Options& options, Notes& notes) {
     if (clip.frame_count() == 0) return;
     bool any = false;
     for (const std::size_t j : target_joints(clip.skeleton, options)) {
@@ -181,7 +181,7 @@ struct GaussianChannels {
     }
     if (!any) notes.emplace_back("no channel moves: nothing to scale the noise by");
   }
-  static bool damage_joint(Clip& clip, Random own, std::size_t joint, double k) {
+  static bool damage_joint(Take& clip, Random own, std::size_t joint, double k) {
     const RotationOrder order = clip.skeleton.rotation_order(joint);
     const auto track = euler_track(clip, joint);
     const auto deviations = channel_deviations(track, order.count);

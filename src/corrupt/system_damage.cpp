@@ -82,7 +82,7 @@ struct Box {
   Vec3 extent() const { return low.x > high.x ? Vec3{} : high - low; }
 };
 
-int guess_depth_axis(const Clip& clip) {
+int guess_depth_axis(const Take& clip) {
   const std::vector<Vec3> positions = joint_positions(clip);
   Vec3 extents;
   for (std::size_t first = 0; first < positions.size(); first += clip.joint_count()) {
@@ -141,7 +141,7 @@ Plan plan_of(const SystemOptions& options) {
 
 class ClipDamage {
  public:
-  ClipDamage(Clip& clip, const Random& random, const SystemOptions& options, Notes& notes)
+  ClipDamage(Take& clip, const Random& random, const SystemOptions& options, Notes& notes)
       : clip_(clip),
         truth_(clip),
         random_(random),
@@ -239,8 +239,8 @@ class ClipDamage {
     }
   }
 
-  Clip& clip_;
-  Clip truth_;
+  Take& clip_;
+  Take truth_;
   Random random_;
   Plan plan_;
   std::vector<std::size_t> joints_, limbs_;
@@ -378,7 +378,7 @@ struct System {
     }();
     return options;
   }
-  static void damage(Clip& clip, const Random& random, const Options& options, Notes& notes) {
+  static void damage(Take& clip, const Random& random, const Options& options, Notes& notes) {
     plan_of(options);
     if (options.strength > 0 && clip.frame_count() > 0)
       ClipDamage(clip, random, options, notes).run();

@@ -16,7 +16,7 @@ namespace corrupt {
 
 namespace {
 
-void measure_rotations(const Clip& before, const Clip& after, DamageReport& report) {
+void measure_rotations(const Take& before, const Take& after, DamageReport& report) {
   double sum = 0;
   const std::size_t joints = before.joint_count();
   for (std::size_t i = 0; i < before.rotations.size(); ++i) {
@@ -32,7 +32,7 @@ void measure_rotations(const Clip& before, const Clip& after, DamageReport& repo
   if (report.samples > 0) report.rms_deg = std::sqrt(sum / static_cast<double>(report.samples));
 }
 
-void measure_positions(const Clip& before, const Clip& after, DamageReport& report) {
+void measure_positions(const Take& before, const Take& after, DamageReport& report) {
   const auto old = joint_positions(before), now = joint_positions(after);
   double sum = 0;
   for (std::size_t i = 0; i < old.size(); ++i) sum += dot(now[i] - old[i], now[i] - old[i]);
@@ -41,11 +41,11 @@ void measure_positions(const Clip& before, const Clip& after, DamageReport& repo
 
 }  // namespace
 
-DamageReport measured(std::string kind, Clip& clip, const std::function<void(Notes&)>& damage) {
+DamageReport measured(std::string kind, Take& clip, const std::function<void(Notes&)>& damage) {
   DamageReport report;
   report.kind = std::move(kind);
   // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): `damage` changes `clip`
-  const Clip before = clip;
+  const Take before = clip;
   damage(report.notes);
   measure_rotations(before, clip, report);
   measure_positions(before, clip, report);
@@ -120,15 +120,13 @@ const Damage& find_damage(std::string_view name) {
   throw Error(ErrorKind::usage, fmt::format("unknown damage \"{}\"; there are {}", name, names));
 }
 
-}  // namespace
-
-DamageReport apply_damage(Clip& clip, std::string_view name, const OptionValues& values,
-                          Random& random) {
+DamageReport damage_joints(Take& clip, std::string_view name, const OptionValues& values,
+                           Random& random) {
   const Damage& damage = find_damage(name);
   const std::size_t calibration = leading_calibration_frames(clip);
   DamageReport report;
   on_motion(clip, calibration,
-            [&](Clip& motion) { report = damage.apply(motion, random, values); });
+            [&](Take& motion) { report = damage.apply(motion, random, values); });
   if (calibration == 0) return report;
   report.notes.push_back(
       fmt::format("the first {} (a calibration pose) stays as it is",
@@ -136,20 +134,8 @@ DamageReport apply_damage(Clip& clip, std::string_view name, const OptionValues&
   return report;
 }
 
-DamageReport apply_damage(VectorMotion& motion, std::string_view name, const OptionValues& values,
-                          Random& random) {
-  const Damage& damage = find_damage(name);
-  if (damage.apply_to_vectors == nullptr) {
-    throw Error(ErrorKind::usage,
-                fmt::format("damage {} turns the joints of a skeleton, and here is none", name));
-  }
-  return damage.apply_to_vectors(motion, random, values);
-}
-
-namespace {
-
 // The markers that are positions.
-std::vector<std::size_t> position_markers(const MarkerClip& clip) {
+std::vector<std::size_t> position_markers(const Take& clip) {
   std::vector<std::size_t> markers;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
     if (clip.holds_positions(m)) markers.push_back(m);
@@ -157,7 +143,7 @@ std::vector<std::size_t> position_markers(const MarkerClip& clip) {
   return markers;
 }
 
-VectorMotion vectors_of(const MarkerClip& clip, const std::vector<std::size_t>& markers) {
+VectorMotion vectors_of(const Take& clip, const std::vector<std::size_t>& markers) {
   constexpr double usual_height_cm = 170;
   const double height = body_height(clip), unit_m = metres_per_unit(clip.unit);
   VectorMotion motion;
@@ -178,8 +164,7 @@ VectorMotion vectors_of(const MarkerClip& clip, const std::vector<std::size_t>& 
   return motion;
 }
 
-void put_back(const VectorMotion& motion, const std::vector<std::size_t>& markers,
-              MarkerClip& clip) {
+void put_back(const VectorMotion& motion, const std::vector<std::size_t>& markers, Take& clip) {
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     for (std::size_t n = 0; n < markers.size(); ++n) {
       if (!clip.is_observed(f, markers[n])) continue;
@@ -192,15 +177,31 @@ void put_back(const VectorMotion& motion, const std::vector<std::size_t>& marker
   }
 }
 
-}  // namespace
-
-DamageReport apply_damage(MarkerClip& clip, std::string_view name, const OptionValues& values,
-                          Random& random) {
+DamageReport damage_markers(Take& clip, std::string_view name, const OptionValues& values,
+                            Random& random) {
   const std::vector<std::size_t> markers = position_markers(clip);
   VectorMotion motion = vectors_of(clip, markers);
   DamageReport report = apply_damage(motion, name, values, random);
   put_back(motion, markers, clip);
   return report;
+}
+
+}  // namespace
+
+DamageReport apply_damage(VectorMotion& motion, std::string_view name, const OptionValues& values,
+                          Random& random) {
+  const Damage& damage = find_damage(name);
+  if (damage.apply_to_vectors == nullptr) {
+    throw Error(ErrorKind::usage,
+                fmt::format("damage {} turns the joints of a skeleton, and here is none", name));
+  }
+  return damage.apply_to_vectors(motion, random, values);
+}
+
+DamageReport apply_damage(Take& take, std::string_view name, const OptionValues& values,
+                          Random& random) {
+  return take.has_joints() ? damage_joints(take, name, values, random)
+                           : damage_markers(take, name, values, random);
 }
 
 }  // namespace kinemend

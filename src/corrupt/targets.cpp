@@ -82,7 +82,7 @@ std::vector<std::size_t> target_joints(const Skeleton& skeleton, const TargetOpt
   return joints;
 }
 
-std::vector<std::size_t> target_tracks(const Clip& clip, const TargetOptions& options) {
+std::vector<std::size_t> target_tracks(const Take& clip, const TargetOptions& options) {
   return target_joints(clip.skeleton, options);
 }
 
@@ -130,7 +130,7 @@ std::vector<Unit> units(const Skeleton& skeleton, const TargetOptions& options,
   return result;
 }
 
-std::vector<Unit> units(const Clip& clip, const TargetOptions& options, std::string_view scope) {
+std::vector<Unit> units(const Take& clip, const TargetOptions& options, std::string_view scope) {
   return units(clip.skeleton, options, scope);
 }
 
@@ -173,7 +173,7 @@ Vec3 mean_position(const VectorMotion& motion, std::size_t frame) {
   return count > 0 ? (1 / count) * sum : sum;
 }
 
-void turn(Clip& clip, std::size_t frame, std::size_t joint, Vec3 n) {
+void turn(Take& clip, std::size_t frame, std::size_t joint, Vec3 n) {
   set_rotation(clip, frame, joint, clip.rotation(frame, joint) * exp(n));
 }
 
@@ -200,14 +200,14 @@ void turn(VectorMotion& motion, std::size_t frame, std::size_t track, Vec3 n) {
   set_vector(motion, frame, track, motion.per_radian * nearest_vector(log(exp(v) * exp(n)), v));
 }
 
-void set_rotation(Clip& clip, std::size_t frame, std::size_t joint, Quat rotation) {
+void set_rotation(Take& clip, std::size_t frame, std::size_t joint, Quat rotation) {
   const RotationOrder order = clip.skeleton.rotation_order(joint);
   const bool restricted = order.count == 1 || order.count == 2;
   clip.rotation(frame, joint) =
       restricted ? from_euler(to_euler(rotation, order), order) : normalized(rotation);
 }
 
-std::vector<std::array<double, 3>> euler_track(const Clip& clip, std::size_t joint) {
+std::vector<std::array<double, 3>> euler_track(const Take& clip, std::size_t joint) {
   const RotationOrder order = clip.skeleton.rotation_order(joint);
   std::vector<std::array<double, 3>> track(clip.frame_count());
   std::array<double, 3> previous{};

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/clip.hpp"
 #include "kinemend/experimental/corrupt.hpp"
 #include "kinemend/options.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::corrupt {
 
@@ -31,10 +31,10 @@ OptionTable<Options>& add_target_options(OptionTable<Options>& table) {
 /// for a pattern that no joint matches.
 std::vector<std::size_t> target_joints(const Skeleton& skeleton, const TargetOptions& options);
 
-std::vector<std::size_t> target_tracks(const Clip& clip, const TargetOptions& options);
+std::vector<std::size_t> target_tracks(const Take& clip, const TargetOptions& options);
 std::vector<std::size_t> target_tracks(const VectorMotion& motion, const TargetOptions& options);
 
-inline std::size_t frame_count(const Clip& clip) { return clip.frame_count(); }
+inline std::size_t frame_count(const Take& clip) { return clip.frame_count(); }
 inline std::size_t frame_count(const VectorMotion& motion) { return motion.values.frames; }
 
 /// The limb of each joint, as consecutive numbers: roots alone, then the chains between branchings.
@@ -51,15 +51,15 @@ struct Unit {
 inline const std::vector<std::string> scopes{"channel", "joint", "limb", "all"};
 std::vector<Unit> units(const Skeleton& skeleton, const TargetOptions& options,
                         std::string_view scope);
-std::vector<Unit> units(const Clip& clip, const TargetOptions& options, std::string_view scope);
+std::vector<Unit> units(const Take& clip, const TargetOptions& options, std::string_view scope);
 std::vector<Unit> units(const VectorMotion& motion, const TargetOptions& options,
                         std::string_view scope);
 
 /// Sets the rotation of a sample, to the nearest that the joint's channels can express.
-void set_rotation(Clip& clip, std::size_t frame, std::size_t joint, Quat rotation);
+void set_rotation(Take& clip, std::size_t frame, std::size_t joint, Quat rotation);
 
 /// q Exp(n), or p + n as an arc; missing vectors are not changed.
-void turn(Clip& clip, std::size_t frame, std::size_t joint, Vec3 n);
+void turn(Take& clip, std::size_t frame, std::size_t joint, Vec3 n);
 void turn(VectorMotion& motion, std::size_t frame, std::size_t track, Vec3 n);
 
 /// A sample of vectors.
@@ -70,6 +70,6 @@ bool is_observed(const VectorMotion& motion, std::size_t frame, std::size_t trac
 Vec3 mean_position(const VectorMotion& motion, std::size_t frame);
 
 /// Euler angles (radians) of a joint over the whole clip, continued from frame to frame.
-std::vector<std::array<double, 3>> euler_track(const Clip& clip, std::size_t joint);
+std::vector<std::array<double, 3>> euler_track(const Take& clip, std::size_t joint);
 
 }  // namespace kinemend::corrupt

@@ -43,12 +43,6 @@ void check_settings(const FeetSettings& settings) {
   check("soft_reach", settings.soft_reach, 0.001, 0.2);
 }
 
-double metres_per_unit(const Clip& clip) {
-  if (clip.metres_per_unit > 0) return clip.metres_per_unit;
-  const std::optional<LengthUnit> unit = guess_length_unit(clip.skeleton);
-  return unit ? unit->metres : 0;
-}
-
 bool may_turn(const LegModel& model, const FeetLimits& limits) {
   return limits.joints.empty() ||
          (limits.joints[model.hip.index] != 0 && limits.joints[model.knee.index] != 0 &&
@@ -58,7 +52,7 @@ bool may_turn(const LegModel& model, const FeetLimits& limits) {
 // Cleans one motion; the steps in the order of the paper.
 class FeetCleaning {
  public:
-  FeetCleaning(Clip& motion, const FeetSettings& settings, const FeetLimits& limits)
+  FeetCleaning(Take& motion, const FeetSettings& settings, const FeetLimits& limits)
       : clip_(motion), settings_(settings), limits_(limits) {}
 
   FeetReport run() {
@@ -85,7 +79,7 @@ class FeetCleaning {
   bool find_feet() {
     found_ = find_legs(clip_.skeleton);
     for (const Leg& leg : found_) report_.sides.push_back(leg.side);
-    report_.metres_per_unit = metres_per_unit(clip_);
+    report_.metres_per_unit = likely_metres_per_unit(clip_);
     legs_ = leg_motion(clip_, found_);
     if (settings_.contacts) check_contacts(*settings_.contacts, legs_, 0);
     if (found_.empty()) {
@@ -304,7 +298,7 @@ class FeetCleaning {
                     frames == 1 ? "" : "s", length));
   }
 
-  Clip& clip_;
+  Take& clip_;
   const FeetSettings& settings_;
   const FeetLimits& limits_;
   std::vector<Leg> found_;
@@ -334,7 +328,7 @@ class Renamed {
 
 }  // namespace
 
-FeetReport clean_legs(Clip& motion, const FeetSettings& settings, const FeetLimits& limits) {
+FeetReport clean_legs(Take& motion, const FeetSettings& settings, const FeetLimits& limits) {
   check_settings(settings);
   if (settings.names.empty()) return FeetCleaning(motion, settings, limits).run();
   const Renamed renamed(motion.skeleton, known_names(motion.skeleton.names, settings.names));
@@ -355,13 +349,13 @@ void shift_contacts(std::vector<FootContact>& contacts, std::size_t from, std::s
 
 }  // namespace feet
 
-FeetReport clean_feet(Clip& clip, const FeetSettings& settings) {
+FeetReport clean_feet(Take& clip, const FeetSettings& settings) {
   const std::size_t first = leading_calibration_frames(clip);
   if (first == 0) return feet::clean_legs(clip, settings);
   FeetSettings own = settings;
   if (own.contacts) feet::shift_contacts(*own.contacts, first, 0);
   FeetReport report;
-  on_motion(clip, first, [&](Clip& motion) { report = feet::clean_legs(motion, own); });
+  on_motion(clip, first, [&](Take& motion) { report = feet::clean_legs(motion, own); });
   feet::shift_contacts(report.contacts, 0, first);
   report.changed.insert(report.changed.begin(), first * clip.joint_count(), 0);
   report.root_changed.insert(report.root_changed.begin(), first, 0);

@@ -23,7 +23,7 @@ struct FeetLimits {
 
 /// `clean_feet` of a clip of which every frame is motion. Frames of settings and report count from
 /// the first frame of the motion.
-FeetReport clean_legs(Clip& motion, const FeetSettings& settings, const FeetLimits& limits = {});
+FeetReport clean_legs(Take& motion, const FeetSettings& settings, const FeetLimits& limits = {});
 
 /// Contacts counted from frame `from` are counted from frame `to`. Errors: `ErrorKind::usage` for
 /// one that begins before `from`.

@@ -41,7 +41,7 @@ std::vector<Leg> legs_of(Skeleton skeleton, const KnownNames& names) {
 
 class ContactReader {
  public:
-  ContactReader(std::string_view name, const Clip& clip, const KnownNames& names)
+  ContactReader(std::string_view name, const Take& clip, const KnownNames& names)
       : name_(name),
         frames_(static_cast<std::int64_t>(clip.frame_count())),
         first_frame_(first_frame_number(clip)),
@@ -150,7 +150,7 @@ class ContactReader {
 
 }  // namespace
 
-std::string contacts_text(const Clip& clip, const std::vector<FootContact>& contacts) {
+std::string contacts_text(const Take& clip, const std::vector<FootContact>& contacts) {
   const std::vector<Leg> legs = find_legs(clip.skeleton);
   std::string text(heading);
   for (const FootContact& contact : contacts)
@@ -158,7 +158,7 @@ std::string contacts_text(const Clip& clip, const std::vector<FootContact>& cont
   return text;
 }
 
-std::string contacts_text(const Clip& clip, const FeetReport& report) {
+std::string contacts_text(const Take& clip, const FeetReport& report) {
   std::string text(heading);
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {
     const std::string line =
@@ -171,7 +171,7 @@ std::string contacts_text(const Clip& clip, const FeetReport& report) {
 }
 
 std::vector<FootContact> parse_contacts(std::string_view text, std::string_view name,
-                                        const Clip& clip, const KnownNames& names) {
+                                        const Take& clip, const KnownNames& names) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (text.substr(0, byte_order_mark.size()) == byte_order_mark)
     text.remove_prefix(byte_order_mark.size());

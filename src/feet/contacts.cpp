@@ -222,11 +222,11 @@ void sort_contacts(std::vector<FootContact>& contacts) {
 
 }  // namespace feet
 
-std::vector<FootContact> find_contacts(const Clip& clip, const ContactSettings& settings) {
+std::vector<FootContact> find_contacts(const Take& clip, const ContactSettings& settings) {
   feet::check_settings(settings);
   const std::size_t first = leading_calibration_frames(clip);
-  std::optional<Clip> part;
-  const Clip& motion = frames_from(clip, first, part);
+  std::optional<Take> part;
+  const Take& motion = frames_from(clip, first, part);
   feet::LegMotion legs = feet::leg_motion(motion, find_legs(clip.skeleton));
   const std::optional<feet::Up> up = feet::up_of(legs, settings.up);
   if (!up) return {};

@@ -78,10 +78,10 @@ FeetFigures figures_of(const LegMotion& motion, const std::vector<FootContact>& 
 
 }  // namespace feet
 
-FeetFigures feet_figures(const Clip& clip, const std::vector<FootContact>& contacts) {
+FeetFigures feet_figures(const Take& clip, const std::vector<FootContact>& contacts) {
   const std::size_t first = leading_calibration_frames(clip);
-  std::optional<Clip> part;
-  const Clip& motion = frames_from(clip, first, part);
+  std::optional<Take> part;
+  const Take& motion = frames_from(clip, first, part);
   feet::LegMotion legs = feet::leg_motion(motion, find_legs(clip.skeleton));
   feet::check_contacts(contacts, legs, first);
   const std::optional<feet::Up> up = feet::up_of(legs, std::nullopt);

@@ -26,21 +26,21 @@ LegJoint leg_joint(const Skeleton& skeleton, std::int32_t joint) {
 }
 
 // -1 where the joint has a fixed offset.
-std::vector<std::int32_t> translation_tracks(const Clip& clip) {
+std::vector<std::int32_t> translation_tracks(const Take& clip) {
   std::vector<std::int32_t> tracks(clip.joint_count(), -1);
   for (std::size_t k = 0; k < clip.translated_joints.size(); ++k)
     tracks[index_of(clip.translated_joints[k])] = static_cast<std::int32_t>(k);
   return tracks;
 }
 
-Vec3 mean_translation(const Clip& clip, std::size_t track) {
+Vec3 mean_translation(const Take& clip, std::size_t track) {
   Vec3 sum;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) sum += clip.position(f, 1 + track);
   return (1.0 / static_cast<double>(std::max<std::size_t>(clip.frame_count(), 1))) * sum;
 }
 
 // A joint's place in its parent's frame, in all frames alike.
-Vec3 offset_of(const Clip& clip, std::size_t joint) {
+Vec3 offset_of(const Take& clip, std::size_t joint) {
   const std::int32_t track = translation_tracks(clip)[joint];
   return track < 0 ? clip.skeleton.offsets[joint] : mean_translation(clip, index_of(track));
 }
@@ -52,7 +52,7 @@ bool is_named_heel(const std::string& name) {
   return lower.find("heel") != std::string::npos;
 }
 
-void set_sole(const Clip& clip, const Leg& leg, LegModel& model) {
+void set_sole(const Take& clip, const Leg& leg, LegModel& model) {
   const Skeleton& skeleton = clip.skeleton;
   model.has = {false, leg.toe >= 0};
   if (leg.toe >= 0) model.sole[toe] = offset_of(clip, index_of(leg.toe));
@@ -80,7 +80,7 @@ bool is_above(const Skeleton& skeleton, std::size_t joint, std::int32_t below) {
   return false;
 }
 
-Carrier find_carrier(const Clip& clip, const std::vector<Leg>& legs) {
+Carrier find_carrier(const Take& clip, const std::vector<Leg>& legs) {
   Carrier carrier;
   if (legs.empty()) return carrier;
   const std::vector<std::int32_t> tracks = translation_tracks(clip);
@@ -166,10 +166,10 @@ std::optional<Vec3> heel_of_flat_foot(const LegMotion& motion, std::size_t leg, 
 }
 
 // The same of the rest pose, if the toes point ahead in it; else the ankle itself.
-Vec3 heel_at_rest(const Clip& clip, const LegModel& model, Up up) {
+Vec3 heel_at_rest(const Take& clip, const LegModel& model, Up up) {
   // As above; and the level share of the way from ankle to toe of a foot that points ahead.
   constexpr double behind = 0.25, least_ahead = 0.5;
-  Clip rest;
+  Take rest;
   rest.skeleton = clip.skeleton;
   rest.positions.resize(1);
   rest.rotations.resize(clip.joint_count());
@@ -182,7 +182,7 @@ Vec3 heel_at_rest(const Clip& clip, const LegModel& model, Up up) {
 
 }  // namespace
 
-void update_poses(const Clip& clip, const std::vector<Leg>& legs, LegMotion& motion) {
+void update_poses(const Take& clip, const std::vector<Leg>& legs, LegMotion& motion) {
   const Skeleton& skeleton = clip.skeleton;
   const std::vector<std::size_t> joints = needed_joints(skeleton, legs);
   const std::vector<std::int32_t> tracks = translation_tracks(clip);
@@ -228,7 +228,7 @@ void update_poses(const Clip& clip, const std::vector<Leg>& legs, LegMotion& mot
   });
 }
 
-LegMotion leg_motion(const Clip& clip, const std::vector<Leg>& legs) {
+LegMotion leg_motion(const Take& clip, const std::vector<Leg>& legs) {
   LegMotion motion;
   motion.frames = clip.frame_count();
   motion.frame_rate_hz = clip.frame_rate_hz;
@@ -266,7 +266,7 @@ std::optional<Up> up_of(const LegMotion& motion, std::optional<Axis> wanted) {
   return find_up(body);
 }
 
-void set_heels(const Clip& clip, Up up, LegMotion& motion) {
+void set_heels(const Take& clip, Up up, LegMotion& motion) {
   for (std::size_t l = 0; l < motion.legs(); ++l) {
     LegModel& model = motion.models[l];
     if (model.has[heel]) continue;

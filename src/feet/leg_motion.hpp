@@ -62,14 +62,14 @@ struct LegMotion {
 };
 
 /// All but the heels of feet that have none in the skeleton, which need `set_heels`.
-LegMotion leg_motion(const Clip& clip, const std::vector<Leg>& legs);
+LegMotion leg_motion(const Take& clip, const std::vector<Leg>& legs);
 /// Poses anew, with the models as they are.
-void update_poses(const Clip& clip, const std::vector<Leg>& legs, LegMotion& motion);
+void update_poses(const Take& clip, const std::vector<Leg>& legs, LegMotion& motion);
 
 /// The axis along which the body is above its feet; `wanted` if given.
 std::optional<Up> up_of(const LegMotion& motion, std::optional<Axis> wanted);
 /// Puts a heel where the skeleton has none, from the frames in which the foot stands flat.
-void set_heels(const Clip& clip, Up up, LegMotion& motion);
+void set_heels(const Take& clip, Up up, LegMotion& motion);
 
 /// Heel and toe of each leg, points 2 l and 2 l + 1; a missing toe is represented by the heel.
 BodyPoints sole_points(const LegMotion& motion);

@@ -203,4 +203,13 @@ FillReport report_of(const std::vector<FilledGap>& gaps, const std::vector<std::
   return report;
 }
 
+std::vector<FilledGap> fill_asked(Take& clip, const RequestOf& request_of, const Check& check) {
+  return clip.has_joints() ? fill_asked_joints(clip, request_of, check)
+                           : fill_asked_markers(clip, request_of, check);
+}
+
+std::vector<OpenGap> open_gaps(const Take& clip) {
+  return clip.has_joints() ? open_joint_gaps(clip) : open_marker_gaps(clip);
+}
+
 }  // namespace kinemend::fill

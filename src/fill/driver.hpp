@@ -76,16 +76,19 @@ using RequestOf = std::function<const GapRequest*(const Gap& gap, bool is_positi
 
 /// The gaps of a take for which something is asked. Those in the calibration pose are gaps of their
 /// own, which nothing fills.
-std::vector<FilledGap> fill_asked(Clip& clip, const RequestOf& request_of, const Check& check);
-std::vector<FilledGap> fill_asked(MarkerClip& clip, const RequestOf& request_of,
-                                  const Check& check);
+std::vector<FilledGap> fill_asked(Take& clip, const RequestOf& request_of, const Check& check);
+std::vector<FilledGap> fill_asked_joints(Take& clip, const RequestOf& request_of,
+                                         const Check& check);
+std::vector<FilledGap> fill_asked_markers(Take& clip, const RequestOf& request_of,
+                                          const Check& check);
 /// All gaps of a take with the frames as it counts them, in the order in which they are filled; the
 /// track among tracks and the request are not set.
-std::vector<OpenGap> open_gaps(const Clip& clip);
-std::vector<OpenGap> open_gaps(const MarkerClip& clip);
+std::vector<OpenGap> open_gaps(const Take& clip);
+std::vector<OpenGap> open_joint_gaps(const Take& clip);
+std::vector<OpenGap> open_marker_gaps(const Take& clip);
 /// The donor's marker, by its name or a shell pattern; `no_marker` for an empty name. Errors:
 /// `ErrorKind::usage` where there is none.
-std::size_t donor_of(const MarkerClip& clip, const std::string& name);
+std::size_t donor_of(const Take& clip, const std::string& name);
 
 inline bool lies_within(const Gap& gap, const FillSettings& settings) {
   return !settings.range ||

@@ -4,14 +4,9 @@
 #include <cstddef>
 #include <tuple>
 
-#include "kinemend/clip.hpp"
 #include "kinemend/gaps.hpp"
-#include "kinemend/marker_clip.hpp"
 
 namespace kinemend::fill {
-
-constexpr bool is_joints(const Clip& /*clip*/) { return true; }
-constexpr bool is_joints(const MarkerClip& /*clip*/) { return false; }
 
 /// What tells a gap of a take from its others.
 using GapKey = std::tuple<std::size_t, bool, std::size_t, std::size_t>;

@@ -40,7 +40,7 @@ struct JointGaps {
 };
 
 // `first`: the frame of the take that the clip begins with.
-JointGaps gaps_of(const Clip& clip, const RequestOf& request_of, std::size_t first) {
+JointGaps gaps_of(const Take& clip, const RequestOf& request_of, std::size_t first) {
   JointGaps found;
   const auto append = [&](const std::vector<Gap>& gaps, bool is_position) {
     const std::size_t own = found.sources.size();
@@ -68,7 +68,7 @@ JointGaps gaps_of(const Clip& clip, const RequestOf& request_of, std::size_t fir
 // What each model that is to fill some of the gaps makes of the whole take.
 using LearnedFillings = std::map<const LearnedFill*, LearnedFilling>;
 
-LearnedFillings fillings_of(const Clip& clip, const std::vector<OpenGap>& gaps) {
+LearnedFillings fillings_of(const Take& clip, const std::vector<OpenGap>& gaps) {
   LearnedFillings found;
   for (const OpenGap& gap : gaps) {
     const GapRequest& request = *gap.request;
@@ -82,7 +82,7 @@ LearnedFillings fillings_of(const Clip& clip, const std::vector<OpenGap>& gaps) 
 // Each gap is filled by itself, from what was observed.
 class JointTake : public GappedTake {
  public:
-  JointTake(Clip& clip, const std::vector<Source>& sources, LearnedFillings learned)
+  JointTake(Take& clip, const std::vector<Source>& sources, LearnedFillings learned)
       : clip_(clip),
         sources_(sources),
         poses_(clip),
@@ -179,7 +179,7 @@ class JointTake : public GappedTake {
     const auto around = static_cast<std::size_t>(around_model_s * frame_rate_hz) + 1;
     const std::size_t first = span.first - std::min(span.first, around);
     const std::size_t last = std::min(frames - 1, span.last + around);
-    Clip part = slice(clip_, first, last + 1);
+    Take part = slice(clip_, first, last + 1);
     for (std::size_t f = span.first; f <= span.last; ++f)
       part.observed[(f - first) * clip_.joint_count() + joint] = 0;
     const Track other = without_span(own, span, frame_rate_hz);
@@ -280,7 +280,7 @@ class JointTake : public GappedTake {
     return is_position ? largest_error_of_height * context_.height : largest_error_deg;
   }
 
-  Clip& clip_;
+  Take& clip_;
   const std::vector<Source>& sources_;
   PoseRegression poses_;
   JointContext context_;
@@ -289,7 +289,7 @@ class JointTake : public GappedTake {
   LearnedFillings learned_;
 };
 
-std::vector<FilledGap> fill_motion(Clip& clip, const RequestOf& request_of, std::size_t first,
+std::vector<FilledGap> fill_motion(Take& clip, const RequestOf& request_of, std::size_t first,
                                    const Check& check) {
   const JointGaps found = gaps_of(clip, request_of, first);
   if (found.gaps.empty()) return {};
@@ -299,29 +299,30 @@ std::vector<FilledGap> fill_motion(Clip& clip, const RequestOf& request_of, std:
 
 }  // namespace
 
-std::vector<OpenGap> open_gaps(const Clip& clip) {
+std::vector<OpenGap> open_joint_gaps(const Take& clip) {
   const GapRequest any;
   const auto ask = [&](const Gap&, bool) { return &any; };
   const std::size_t calibration = leading_calibration_frames(clip);
   std::vector<OpenGap> gaps;
-  const auto append = [&](const Clip& part, std::size_t first) {
+  const auto append = [&](const Take& part, std::size_t first) {
     for (OpenGap open : gaps_of(part, ask, first).gaps) {
       open.gap.first_frame += first;
       open.gap.last_frame += first;
       gaps.push_back({open.gap, open.is_position});
     }
   };
-  std::optional<Clip> sliced;
+  std::optional<Take> sliced;
   if (calibration > 0) append(slice(clip, 0, calibration), 0);
   append(frames_from(clip, calibration, sliced), calibration);
   return gaps;
 }
 
-std::vector<FilledGap> fill_asked(Clip& clip, const RequestOf& request_of, const Check& check) {
+std::vector<FilledGap> fill_asked_joints(Take& clip, const RequestOf& request_of,
+                                         const Check& check) {
   const std::size_t calibration = leading_calibration_frames(clip);
   std::vector<FilledGap> found;
   on_motion(clip, calibration,
-            [&](Clip& motion) { found = fill_motion(motion, request_of, calibration, check); });
+            [&](Take& motion) { found = fill_motion(motion, request_of, calibration, check); });
   if (calibration > 0) {
     for (FilledGap& filled : found) {
       filled.outcome.gap.first_frame += calibration;

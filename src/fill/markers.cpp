@@ -21,7 +21,7 @@ constexpr double spike_share = 0.1;
 constexpr std::size_t steadiest = 8;
 
 // `unlabelled`: such markers are evidence.
-Samples samples_of(const MarkerClip& clip, const std::vector<std::uint8_t>& seen, bool unlabelled) {
+Samples samples_of(const Take& clip, const std::vector<std::uint8_t>& seen, bool unlabelled) {
   Samples samples;
   samples.frames = clip.frame_count();
   samples.markers = clip.marker_count();
@@ -42,7 +42,7 @@ Samples samples_of(const MarkerClip& clip, const std::vector<std::uint8_t>& seen
 // What one round fills is evidence for the next.
 class MarkerTake : public GappedTake {
  public:
-  MarkerTake(MarkerClip& clip, const std::vector<OpenGap>& gaps)
+  MarkerTake(Take& clip, const std::vector<OpenGap>& gaps)
       : clip_(clip), gaps_(gaps), seen_(clip.observed) {
     frames = clip.frame_count();
     frame_rate_hz = clip.frame_rate_hz;
@@ -113,7 +113,7 @@ class MarkerTake : public GappedTake {
   }
 
  private:
-  MarkerClip& clip_;
+  Take& clip_;
   const std::vector<OpenGap>& gaps_;
   std::vector<std::uint8_t> seen_;  // F x M: observed, or filled in an earlier round
   Samples samples_;
@@ -122,7 +122,7 @@ class MarkerTake : public GappedTake {
 
 }  // namespace
 
-std::size_t donor_of(const MarkerClip& clip, const std::string& name) {
+std::size_t donor_of(const Take& clip, const std::string& name) {
   if (name.empty()) return MarkerRequest::no_marker;
   std::int32_t donor = clip.find(name);
   if (donor < 0) {
@@ -137,14 +137,14 @@ std::size_t donor_of(const MarkerClip& clip, const std::string& name) {
   return static_cast<std::size_t>(donor);
 }
 
-std::vector<OpenGap> open_gaps(const MarkerClip& clip) {
+std::vector<OpenGap> open_marker_gaps(const Take& clip) {
   std::vector<OpenGap> gaps;
   for (const Gap& gap : find_gaps(clip)) gaps.push_back({gap});
   return gaps;
 }
 
-std::vector<FilledGap> fill_asked(MarkerClip& clip, const RequestOf& request_of,
-                                  const Check& check) {
+std::vector<FilledGap> fill_asked_markers(Take& clip, const RequestOf& request_of,
+                                          const Check& check) {
   std::vector<OpenGap> gaps;
   for (const Gap& gap : find_gaps(clip)) {
     if (const GapRequest* request = request_of(gap, false))

@@ -17,20 +17,15 @@ namespace {
 
 using fill::FilledGap, fill::GapRequest;
 
-const std::vector<std::string>& names_of(const Clip& clip) { return clip.skeleton.names; }
-const std::vector<std::string>& names_of(const MarkerClip& clip) { return clip.names; }
-
-std::size_t donor_for(const Clip& /*clip*/, const FillSettings& /*settings*/) {
-  return fill::MarkerRequest::no_marker;
-}
-std::size_t donor_for(const MarkerClip& clip, const FillSettings& settings) {
+std::size_t donor_for(const Take& clip, const FillSettings& settings) {
+  if (clip.has_joints()) return fill::MarkerRequest::no_marker;
   if (settings.donor.empty() && settings.method == "pattern")
     throw Error(ErrorKind::usage, "fill: the method pattern needs a donor");
   return fill::donor_of(clip, settings.donor);
 }
 
-void leave_unlabelled(const Clip& /*clip*/, std::vector<std::uint8_t>& /*chosen*/) {}
-void leave_unlabelled(const MarkerClip& clip, std::vector<std::uint8_t>& chosen) {
+void leave_unlabelled(const Take& clip, std::vector<std::uint8_t>& chosen) {
+  if (clip.has_joints()) return;
   for (std::size_t m = 0; m < chosen.size(); ++m) {
     if (is_unlabelled(clip.names[m])) chosen[m] = 0;
   }
@@ -50,17 +45,16 @@ struct FilledBySettings {
   std::size_t unlabelled = 0;
 };
 
-template <class AnyClip>
-FilledBySettings fill_by_settings(AnyClip& clip, const FillSettings& settings,
+FilledBySettings fill_by_settings(Take& clip, const FillSettings& settings,
                                   const FillCheck& check) {
   clip.validate();
   check_limits(settings);
   GapRequest request;
-  request.method = &fill::find_method(settings.method, fill::is_joints(clip));
+  request.method = &fill::find_method(settings.method, clip.has_joints());
   fill::check_model(*request.method, settings.models);
   request.learned = fill::model_of(*request.method, settings.models);
   const std::vector<std::uint8_t> named =
-      names_meant(names_of(clip), settings.names, fill::is_joints(clip) ? "joint" : "marker");
+      names_meant(clip.owner_names(), settings.names, clip.has_joints() ? "joint" : "marker");
   std::vector<std::uint8_t> chosen = named;
   if (!settings.unlabelled) leave_unlabelled(clip, chosen);
   request.donor = donor_for(clip, settings);
@@ -80,14 +74,6 @@ FilledBySettings fill_by_settings(AnyClip& clip, const FillSettings& settings,
   return filled;
 }
 
-template <class AnyClip>
-FillReport report_by_settings(AnyClip& clip, const FillSettings& settings) {
-  const FilledBySettings filled = fill_by_settings(clip, settings, {});
-  FillReport report = fill::report_of(filled.gaps, names_of(clip));
-  report.unlabelled = filled.unlabelled;
-  return report;
-}
-
 // What a run found of the gap that the row asks for.
 void tell_found(const FilledGap& filled, const std::vector<std::string>& names, PlannedGap& row) {
   row.filled_by = filled.outcome.method;
@@ -95,48 +81,6 @@ void tell_found(const FilledGap& filled, const std::vector<std::string>& names, 
   row.reason = filled.outcome.reason;
   row.evidence.clear();
   for (const std::size_t marker : filled.markers_used) row.evidence.push_back(names[marker]);
-}
-
-template <class AnyClip>
-PlannedFill plan_by_settings(AnyClip& clip, const FillSettings& settings, const FillCheck& check) {
-  const auto [gaps, unlabelled] = fill_by_settings(clip, settings, check);
-  PlannedFill made{fill::report_of(gaps, names_of(clip)), {}};
-  made.report.unlabelled = unlabelled;
-  for (const FilledGap& filled : gaps) {
-    PlannedGap row;
-    row.gap = filled.outcome.gap;
-    row.is_position = filled.outcome.is_position;
-    row.verdict = !filled.outcome.filled ? GapVerdict::refuse
-                  : settings.fill_all    ? GapVerdict::force
-                                         : GapVerdict::fill;
-    row.method = settings.method;
-    row.donor = settings.donor;
-    row.longest_gap_s = settings.longest_gap_s;
-    tell_found(filled, names_of(clip), row);
-    made.plan.push_back(std::move(row));
-  }
-  return made;
-}
-
-template <class AnyClip>
-PlannedFill apply_plan(AnyClip& clip, std::span<const PlannedGap> plan, const FillCheck& check,
-                       const FillModels& models) {
-  clip.validate();
-  fill::PlanRows rows(clip, &models);
-  std::map<fill::GapKey, const PlannedGap*> by_gap;
-  for (std::size_t i = 0; i < plan.size(); ++i) {
-    if (const std::string problem = rows.add(plan[i]); !problem.empty())
-      throw Error(ErrorKind::usage, fmt::format("fill: gap {} of the plan: {}", i + 1, problem));
-    by_gap.emplace(fill::key_of(plan[i].gap, plan[i].is_position), &plan[i]);
-  }
-  const std::vector<FilledGap> gaps = fill::fill_asked(clip, rows.request_of(), check);
-  PlannedFill made{fill::report_of(gaps, names_of(clip)), {}};
-  for (const FilledGap& filled : gaps) {
-    PlannedGap row = *by_gap.at(fill::key_of(filled.outcome.gap, filled.outcome.is_position));
-    tell_found(filled, names_of(clip), row);
-    made.plan.push_back(std::move(row));
-  }
-  return made;
 }
 
 }  // namespace
@@ -153,26 +97,51 @@ std::string_view to_string(GapVerdict verdict) {
   return "refuse";
 }
 
-FillReport fill_gaps(MarkerClip& clip, const FillSettings& settings) {
-  return report_by_settings(clip, settings);
-}
-FillReport fill_gaps(Clip& clip, const FillSettings& settings) {
-  return report_by_settings(clip, settings);
+FillReport fill_gaps(Take& clip, const FillSettings& settings) {
+  const FilledBySettings filled = fill_by_settings(clip, settings, {});
+  FillReport report = fill::report_of(filled.gaps, clip.owner_names());
+  report.unlabelled = filled.unlabelled;
+  return report;
 }
 
-PlannedFill fill_with_plan(Clip& clip, const FillSettings& settings, const FillCheck& check) {
-  return plan_by_settings(clip, settings, check);
+PlannedFill fill_with_plan(Take& clip, const FillSettings& settings, const FillCheck& check) {
+  const auto [gaps, unlabelled] = fill_by_settings(clip, settings, check);
+  PlannedFill made{fill::report_of(gaps, clip.owner_names()), {}};
+  made.report.unlabelled = unlabelled;
+  for (const FilledGap& filled : gaps) {
+    PlannedGap row;
+    row.gap = filled.outcome.gap;
+    row.is_position = filled.outcome.is_position;
+    row.verdict = !filled.outcome.filled ? GapVerdict::refuse
+                  : settings.fill_all    ? GapVerdict::force
+                                         : GapVerdict::fill;
+    row.method = settings.method;
+    row.donor = settings.donor;
+    row.longest_gap_s = settings.longest_gap_s;
+    tell_found(filled, clip.owner_names(), row);
+    made.plan.push_back(std::move(row));
+  }
+  return made;
 }
-PlannedFill fill_with_plan(MarkerClip& clip, const FillSettings& settings, const FillCheck& check) {
-  return plan_by_settings(clip, settings, check);
-}
-PlannedFill fill_with_plan(Clip& clip, std::span<const PlannedGap> plan, const FillCheck& check,
+
+PlannedFill fill_with_plan(Take& clip, std::span<const PlannedGap> plan, const FillCheck& check,
                            const FillModels& models) {
-  return apply_plan(clip, plan, check, models);
-}
-PlannedFill fill_with_plan(MarkerClip& clip, std::span<const PlannedGap> plan,
-                           const FillCheck& check) {
-  return apply_plan(clip, plan, check, {});
+  clip.validate();
+  fill::PlanRows rows(clip, &models);
+  std::map<fill::GapKey, const PlannedGap*> by_gap;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    if (const std::string problem = rows.add(plan[i]); !problem.empty())
+      throw Error(ErrorKind::usage, fmt::format("fill: gap {} of the plan: {}", i + 1, problem));
+    by_gap.emplace(fill::key_of(plan[i].gap, plan[i].is_position), &plan[i]);
+  }
+  const std::vector<FilledGap> gaps = fill::fill_asked(clip, rows.request_of(), check);
+  PlannedFill made{fill::report_of(gaps, clip.owner_names()), {}};
+  for (const FilledGap& filled : gaps) {
+    PlannedGap row = *by_gap.at(fill::key_of(filled.outcome.gap, filled.outcome.is_position));
+    tell_found(filled, clip.owner_names(), row);
+    made.plan.push_back(std::move(row));
+  }
+  return made;
 }
 
 }  // namespace kinemend

@@ -22,21 +22,12 @@ std::string told(const Error& error) {
 
 }  // namespace
 
-PlanRows::PlanRows(const Clip& clip, const FillModels* models)
-    : models_(models), names_(clip.skeleton.names), first_number_(first_frame_number(clip)) {
-  add_gaps(open_gaps(clip));
-}
-
-PlanRows::PlanRows(const MarkerClip& clip, const FillModels* models)
-    : markers_(&clip),
+PlanRows::PlanRows(const Take& take, const FillModels* models)
+    : take_(take),
       models_(models),
-      names_(clip.names),
-      first_number_(first_frame_number(clip)) {
-  add_gaps(open_gaps(clip));
-}
-
-void PlanRows::add_gaps(const std::vector<OpenGap>& gaps) {
-  for (const OpenGap& open : gaps)
+      names_(take.owner_names()),
+      first_number_(first_frame_number(take)) {
+  for (const OpenGap& open : open_gaps(take))
     requests_.emplace(key_of(open.gap, open.is_position), std::nullopt);
 }
 
@@ -49,8 +40,8 @@ std::string PlanRows::add(const PlannedGap& row) {
   }
   GapRequest request;
   try {
-    request.method = &find_method(row.method, markers_ == nullptr);
-    if (markers_ != nullptr) request.donor = donor_of(*markers_, row.donor);
+    request.method = &find_method(row.method, take_.has_joints());
+    if (!take_.has_joints()) request.donor = donor_of(take_, row.donor);
     if (models_ != nullptr && row.verdict != GapVerdict::refuse)
       check_model(*request.method, *models_);
   } catch (const Error& error) {

@@ -18,8 +18,7 @@ namespace kinemend::fill {
 class PlanRows {
  public:
   /// `models`: of rows with a learned method; null: they are read, not run.
-  explicit PlanRows(const Clip& clip, const FillModels* models = nullptr);
-  explicit PlanRows(const MarkerClip& clip, const FillModels* models = nullptr);
+  explicit PlanRows(const Take& take, const FillModels* models = nullptr);
 
   /// Takes a row up. Says what is wrong with it; empty: nothing.
   std::string add(const PlannedGap& row);
@@ -35,9 +34,7 @@ class PlanRows {
   std::string frames_text(const Gap& gap) const;
 
  private:
-  void add_gaps(const std::vector<OpenGap>& gaps);
-
-  const MarkerClip* markers_ = nullptr;  // of a take of markers
+  const Take& take_;
   const FillModels* models_;
   const std::vector<std::string>& names_;
   std::int64_t first_number_;

@@ -26,24 +26,18 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view schema = "kinemend.gap-plan/1";
 constexpr std::string_view preview_prefix = "preview_";
 
-const std::vector<std::string>& track_names_of(const Clip& clip) { return clip.skeleton.names; }
-const std::vector<std::string>& track_names_of(const MarkerClip& clip) { return clip.names; }
-
-std::string_view quantity_of(const Clip& /*clip*/, const PlannedGap& row) {
-  return row.is_position ? "position" : "rotation";
-}
-std::string_view quantity_of(const MarkerClip& /*clip*/, const PlannedGap& /*row*/) {
-  return "position";
-}
-
-std::string unit_of(const Clip& /*clip*/, const PlannedGap& row) {
-  return row.is_position ? "" : "deg";
-}
-std::string unit_of(const MarkerClip& clip, const PlannedGap& /*row*/) { return clip.unit; }
-
 // Markers' gaps are of positions, and are not marked as such.
-constexpr bool has_rotations(const Clip& /*clip*/) { return true; }
-constexpr bool has_rotations(const MarkerClip& /*clip*/) { return false; }
+bool is_of_rotation(const Take& take, const PlannedGap& row) {
+  return take.has_joints() && !row.is_position;
+}
+
+std::string_view quantity_of(const Take& take, const PlannedGap& row) {
+  return is_of_rotation(take, row) ? "rotation" : "position";
+}
+
+std::string unit_of(const Take& take, const PlannedGap& row) {
+  return is_of_rotation(take, row) ? "deg" : take.unit;
+}
 
 // ---- writing
 
@@ -54,38 +48,9 @@ std::string preview_cell(const GapPreview& preview) {
   return preview.distance ? fmt::format("{:.6g}", *preview.distance) : "fills";
 }
 
-template <class AnyClip>
-std::string csv_of(const AnyClip& clip, std::span<const PlannedGap> plan) {
-  std::string text =
-      "name,quantity,first_frame,last_frame,length_frames,length_s,verdict,method,donor,"
-      "longest_gap_s,filled_by,evidence,expected_error,unit,reason";
-  if (!plan.empty()) {
-    for (const GapPreview& preview : plan.front().previews)
-      text += fmt::format(",{}{}", preview_prefix, preview.method);
-  }
-  text += "\n";
+Json json_of(const Take& clip, const PlannedGap& row) {
   const std::int64_t first = first_frame_number(clip);
-  const auto cell = [](std::string_view words) { return words.empty() ? "" : cell_of(words); };
-  for (const PlannedGap& row : plan) {
-    text += fmt::format("{},{},{},{},{},{:.6g},{},{},{},{},{},{},{},{},{}",
-                        cell_of(track_names_of(clip)[row.gap.track]), quantity_of(clip, row),
-                        frame_number(row.gap.first_frame, first),
-                        frame_number(row.gap.last_frame, first), row.gap.length(),
-                        static_cast<double>(row.gap.length()) / clip.frame_rate_hz,
-                        to_string(row.verdict), cell(row.method), cell(row.donor),
-                        row.longest_gap_s > 0 ? fmt::format("{}", row.longest_gap_s) : "",
-                        cell(row.filled_by), cell(fmt::format("{}", fmt::join(row.evidence, ";"))),
-                        number(row.expected_error), cell(unit_of(clip, row)), cell(row.reason));
-    for (const GapPreview& preview : row.previews) text.append(",").append(preview_cell(preview));
-    text += "\n";
-  }
-  return text;
-}
-
-template <class AnyClip>
-Json json_of(const AnyClip& clip, const PlannedGap& row) {
-  const std::int64_t first = first_frame_number(clip);
-  Json entry = {{"name", track_names_of(clip)[row.gap.track]},
+  Json entry = {{"name", clip.owner_names()[row.gap.track]},
                 {"quantity", quantity_of(clip, row)},
                 {"first_frame", frame_number(row.gap.first_frame, first)},
                 {"last_frame", frame_number(row.gap.last_frame, first)},
@@ -113,14 +78,6 @@ Json json_of(const AnyClip& clip, const PlannedGap& row) {
     entry["previews"].push_back(std::move(shown));
   }
   return entry;
-}
-
-template <class AnyClip>
-std::string document_of(const AnyClip& clip, std::span<const PlannedGap> plan) {
-  Json gaps = Json::array();
-  for (const PlannedGap& row : plan) gaps.push_back(json_of(clip, row));
-  const Json document = {{"schema", schema}, {"gaps", std::move(gaps)}};
-  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 // ---- reading
@@ -188,6 +145,9 @@ std::vector<Row> rows_of_json(std::string_view text, std::string_view name) {
   Json document;
   try {
     document = parse_json<Json>(text);
+  } catch (const Json::out_of_range&) {
+    throw Error(ErrorKind::unreadable_input,
+                fmt::format("{}: a number is too large for JSON", name));
   } catch (const Json::parse_error& error) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
     throw Error::at_line(name, 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n')),
@@ -259,13 +219,12 @@ bool is_of_position(const Row& row, bool of_joints) {
                        of_joints ? "rotation or position" : "position", quote(word)));
 }
 
-template <class AnyClip>
-PlannedGap planned(const Row& row, const fill::PlanRows& rows, const AnyClip& clip) {
-  const std::string_view kind = has_rotations(clip) ? "joint" : "marker";
+PlannedGap planned(const Row& row, const fill::PlanRows& rows, const Take& clip) {
+  const std::string_view kind = clip.has_joints() ? "joint" : "marker";
   const std::string_view name = row.at("name");
   if (!rows.knows(name)) row.fail(fmt::format("the take has no {} {}", kind, quote(name)));
   PlannedGap planned;
-  planned.is_position = is_of_position(row, has_rotations(clip));
+  planned.is_position = is_of_position(row, clip.has_joints());
   const std::int64_t first_number = first_frame_number(clip);
   const Gap asked{0, frame_of(row, "first_frame", first_number),
                   frame_of(row, "last_frame", first_number)};
@@ -287,8 +246,43 @@ PlannedGap planned(const Row& row, const fill::PlanRows& rows, const AnyClip& cl
   return planned;
 }
 
-template <class AnyClip>
-std::vector<PlannedGap> plan_of(std::string_view text, std::string_view name, const AnyClip& clip) {
+}  // namespace
+
+std::string plan_csv(const Take& clip, std::span<const PlannedGap> plan) {
+  std::string text =
+      "name,quantity,first_frame,last_frame,length_frames,length_s,verdict,method,donor,"
+      "longest_gap_s,filled_by,evidence,expected_error,unit,reason";
+  if (!plan.empty()) {
+    for (const GapPreview& preview : plan.front().previews)
+      text += fmt::format(",{}{}", preview_prefix, preview.method);
+  }
+  text += "\n";
+  const std::int64_t first = first_frame_number(clip);
+  const auto cell = [](std::string_view words) { return words.empty() ? "" : cell_of(words); };
+  for (const PlannedGap& row : plan) {
+    text += fmt::format("{},{},{},{},{},{:.6g},{},{},{},{},{},{},{},{},{}",
+                        cell_of(clip.owner_names()[row.gap.track]), quantity_of(clip, row),
+                        frame_number(row.gap.first_frame, first),
+                        frame_number(row.gap.last_frame, first), row.gap.length(),
+                        static_cast<double>(row.gap.length()) / clip.frame_rate_hz,
+                        to_string(row.verdict), cell(row.method), cell(row.donor),
+                        row.longest_gap_s > 0 ? fmt::format("{}", row.longest_gap_s) : "",
+                        cell(row.filled_by), cell(fmt::format("{}", fmt::join(row.evidence, ";"))),
+                        number(row.expected_error), cell(unit_of(clip, row)), cell(row.reason));
+    for (const GapPreview& preview : row.previews) text.append(",").append(preview_cell(preview));
+    text += "\n";
+  }
+  return text;
+}
+
+std::string plan_json(const Take& clip, std::span<const PlannedGap> plan) {
+  Json gaps = Json::array();
+  for (const PlannedGap& row : plan) gaps.push_back(json_of(clip, row));
+  const Json document = {{"schema", schema}, {"gaps", std::move(gaps)}};
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::vector<PlannedGap> parse_plan(std::string_view text, std::string_view name, const Take& clip) {
   const std::string_view content = without_byte_order_mark(text);
   const std::size_t begin = content.find_first_not_of(" \t\r\n");
   const bool is_json = begin != std::string_view::npos && content[begin] == '{';
@@ -299,29 +293,6 @@ std::vector<PlannedGap> plan_of(std::string_view text, std::string_view name, co
     if (const std::string problem = rows.add(plan.back()); !problem.empty()) row.fail(problem);
   }
   return plan;
-}
-
-}  // namespace
-
-std::string plan_csv(const Clip& clip, std::span<const PlannedGap> plan) {
-  return csv_of(clip, plan);
-}
-std::string plan_csv(const MarkerClip& clip, std::span<const PlannedGap> plan) {
-  return csv_of(clip, plan);
-}
-std::string plan_json(const Clip& clip, std::span<const PlannedGap> plan) {
-  return document_of(clip, plan);
-}
-std::string plan_json(const MarkerClip& clip, std::span<const PlannedGap> plan) {
-  return document_of(clip, plan);
-}
-
-std::vector<PlannedGap> parse_plan(std::string_view text, std::string_view name, const Clip& clip) {
-  return plan_of(text, name, clip);
-}
-std::vector<PlannedGap> parse_plan(std::string_view text, std::string_view name,
-                                   const MarkerClip& clip) {
-  return plan_of(text, name, clip);
 }
 
 }  // namespace kinemend

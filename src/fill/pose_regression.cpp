@@ -24,7 +24,7 @@ Eigen::Index as_index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 }  // namespace
 
-PoseRegression::PoseRegression(const Clip& clip) : clip_(clip) {
+PoseRegression::PoseRegression(const Take& clip) : clip_(clip) {
   const std::size_t frames = clip.frame_count(), joints = clip.joint_count();
   step_ = std::max<std::size_t>(1, (frames + most_frames - 1) / most_frames);
   means_.resize(joints);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fill/ridge.hpp"
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::fill {
 
@@ -16,7 +16,7 @@ namespace kinemend::fill {
 class PoseRegression {
  public:
   /// At most 1500 of the clip's frames, evenly chosen, are learned from.
-  explicit PoseRegression(const Clip& clip);
+  explicit PoseRegression(const Take& clip);
 
   /// Rotations of `joint` in the frames [first, last], predicted from the joints that are observed
   /// in all of these frames; no rotation of the joint inside the span is looked at. None where too
@@ -30,7 +30,7 @@ class PoseRegression {
   std::vector<std::size_t> predictors_of(std::size_t joint, std::size_t first,
                                          std::size_t last) const;
 
-  const Clip& clip_;
+  const Take& clip_;
   std::size_t step_ = 1;                // between frames learned from
   std::vector<Quat> means_;             // J
   std::vector<std::uint8_t> usable_;    // J: its rotations are near enough to their mean

@@ -18,28 +18,25 @@ namespace {
 
 fill::GapKey key_of(const PlannedGap& row) { return fill::key_of(row.gap, row.is_position); }
 
-// Which of the clip's positions is that of the joint: 0 of joint 0, k + 1 of translated joint k.
-std::size_t position_index(const Clip& clip, std::size_t joint) {
+// Which of the take's positions is that of the track: of joints 0 is joint 0, k + 1 translated
+// joint k.
+std::size_t position_index(const Take& clip, std::size_t joint) {
+  if (!clip.has_joints()) return joint;
   for (std::size_t k = 0; joint > 0 && k < clip.translated_joints.size(); ++k) {
     if (static_cast<std::size_t>(clip.translated_joints[k]) == joint) return k + 1;
   }
   return 0;
 }
 
-double distance_in(const Clip& a, const Clip& b, const PlannedGap& row, std::size_t frame) {
+double distance_in(const Take& a, const Take& b, const PlannedGap& row, std::size_t frame) {
   const std::size_t joint = row.gap.track;
-  if (!row.is_position)
+  if (a.has_joints() && !row.is_position)
     return angle_between(a.rotation(frame, joint), b.rotation(frame, joint)) * degrees_per_radian;
   const std::size_t index = position_index(a, joint);
   return norm(a.position(frame, index) - b.position(frame, index));
 }
-double distance_in(const MarkerClip& a, const MarkerClip& b, const PlannedGap& row,
-                   std::size_t frame) {
-  return norm(a.position(frame, row.gap.track) - b.position(frame, row.gap.track));
-}
 
-template <class AnyClip>
-double rms_distance(const AnyClip& a, const AnyClip& b, const PlannedGap& row) {
+double rms_distance(const Take& a, const Take& b, const PlannedGap& row) {
   double sum = 0;
   for (std::size_t f = row.gap.first_frame; f <= row.gap.last_frame; ++f) {
     const double distance = distance_in(a, b, row, f);
@@ -62,11 +59,10 @@ PlannedGap with_method(const PlannedGap& row, std::string_view method) {
   return asked;
 }
 
-template <class AnyClip>
-std::vector<std::string> methods_of(const AnyClip& clip, const FillModels& models) {
+std::vector<std::string> methods_of(const Take& clip, const FillModels& models) {
   std::vector<std::string> names;
   for (const FillMethod& method : fill_methods()) {
-    if (!(fill::is_joints(clip) ? method.joints : method.markers)) continue;
+    if (!(clip.has_joints() ? method.joints : method.markers)) continue;
     const LearnedFill* model =
         method.learned ? fill::model_of(fill::find_method(method.name, true), models) : nullptr;
     if (!method.learned || *model) names.emplace_back(method.name);
@@ -74,32 +70,21 @@ std::vector<std::string> methods_of(const AnyClip& clip, const FillModels& model
   return names;
 }
 
-PlannedFill filled_as_planned(Clip& clip, std::span<const PlannedGap> plan, const FillCheck& check,
-                              const FillModels& models) {
-  return fill_with_plan(clip, plan, check, models);
-}
-PlannedFill filled_as_planned(MarkerClip& clip, std::span<const PlannedGap> plan,
-                              const FillCheck& check, const FillModels& /*models*/) {
-  return fill_with_plan(clip, plan, check);
-}
-
 // A take that was filled, and what became of each gap.
-template <class AnyClip>
 struct Tried {
-  AnyClip clip;
+  Take clip;
   std::map<fill::GapKey, GapOutcome> outcomes = {};
 
-  Tried(const AnyClip& gapped, std::span<const PlannedGap> plan, const FillCheck& check,
+  Tried(const Take& gapped, std::span<const PlannedGap> plan, const FillCheck& check,
         const FillModels& models)
       : clip(gapped) {
-    for (GapOutcome& gap : filled_as_planned(clip, plan, check, models).report.gaps)
+    for (GapOutcome& gap : fill_with_plan(clip, plan, check, models).report.gaps)
       outcomes.emplace(fill::key_of(gap.gap, gap.is_position), std::move(gap));
   }
 };
 
 // What `other` made of the row's gap, beside what the row's own method does.
-template <class AnyClip>
-GapPreview compared(std::string_view method, const Tried<AnyClip>& own, const Tried<AnyClip>& other,
+GapPreview compared(std::string_view method, const Tried& own, const Tried& other,
                     const PlannedGap& row) {
   const GapOutcome& outcome = other.outcomes.at(key_of(row));
   GapPreview preview{std::string(method), outcome.filled, outcome.reason, std::nullopt};
@@ -108,40 +93,23 @@ GapPreview compared(std::string_view method, const Tried<AnyClip>& own, const Tr
   return preview;
 }
 
-template <class AnyClip>
-void preview(const AnyClip& clip, std::vector<PlannedGap>& plan, const FillCheck& check,
-             const FillModels& models) {
-  for (PlannedGap& row : plan) row.previews.clear();
-  const Tried own(clip, plan, check, models);
-  for (const std::string& method : methods_of(clip, models)) {
-    std::vector<PlannedGap> asked;
-    asked.reserve(plan.size());
-    for (const PlannedGap& row : plan) asked.push_back(with_method(row, method));
-    const Tried other(clip, asked, check, models);
-    for (PlannedGap& row : plan) row.previews.push_back(compared(method, own, other, row));
-  }
-}
-
 // ---- curves of one gap
 
 using Values = std::vector<std::optional<Vec3>>;
 
-RotationOrder order_of(const Clip& clip, std::size_t joint) {
+RotationOrder order_of(const Take& clip, std::size_t joint) {
   const RotationOrder order = clip.skeleton.rotation_order(joint);
   return order.count > 0 ? order : parse_rotation_order("ZXY");
 }
 
-std::vector<std::string> axes_of(const Clip& clip, const PlannedGap& row) {
-  if (row.is_position) return {"X", "Y", "Z"};
+std::vector<std::string> axes_of(const Take& clip, const PlannedGap& row) {
+  if (!clip.has_joints() || row.is_position) return {"X", "Y", "Z"};
   std::vector<std::string> axes;
   for (const char axis : to_string(order_of(clip, row.gap.track))) axes.emplace_back(1, axis);
   return axes;
 }
-std::vector<std::string> axes_of(const MarkerClip& /*clip*/, const PlannedGap& /*row*/) {
-  return {"X", "Y", "Z"};
-}
 
-Values values_of(const Clip& clip, const PlannedGap& row, std::size_t first, std::size_t last) {
+Values joint_values(const Take& clip, const PlannedGap& row, std::size_t first, std::size_t last) {
   Values values;
   const std::size_t joint = row.gap.track, index = position_index(clip, joint);
   const RotationOrder order = order_of(clip, joint);
@@ -160,8 +128,9 @@ Values values_of(const Clip& clip, const PlannedGap& row, std::size_t first, std
   }
   return values;
 }
-Values values_of(const MarkerClip& clip, const PlannedGap& row, std::size_t first,
-                 std::size_t last) {
+
+Values values_of(const Take& clip, const PlannedGap& row, std::size_t first, std::size_t last) {
+  if (clip.has_joints()) return joint_values(clip, row, first, last);
   Values values;
   for (std::size_t f = first; f <= last; ++f) {
     values.emplace_back();
@@ -170,9 +139,23 @@ Values values_of(const MarkerClip& clip, const PlannedGap& row, std::size_t firs
   return values;
 }
 
-template <class AnyClip>
-GapCurves curves_of(const AnyClip& clip, std::span<const PlannedGap> plan, std::size_t row,
-                    const FillCheck& check, const FillModels& models) {
+}  // namespace
+
+void preview_methods(const Take& clip, std::vector<PlannedGap>& plan, const FillCheck& check,
+                     const FillModels& models) {
+  for (PlannedGap& row : plan) row.previews.clear();
+  const Tried own(clip, plan, check, models);
+  for (const std::string& method : methods_of(clip, models)) {
+    std::vector<PlannedGap> asked;
+    asked.reserve(plan.size());
+    for (const PlannedGap& row : plan) asked.push_back(with_method(row, method));
+    const Tried other(clip, asked, check, models);
+    for (PlannedGap& row : plan) row.previews.push_back(compared(method, own, other, row));
+  }
+}
+
+GapCurves preview_curves(const Take& clip, std::span<const PlannedGap> plan, std::size_t row,
+                         const FillCheck& check, const FillModels& models) {
   constexpr double around_s = 0.5;         // shown on either side
   constexpr std::size_t least_around = 8;  // frames
   if (row >= plan.size())
@@ -186,7 +169,7 @@ GapCurves curves_of(const AnyClip& clip, std::span<const PlannedGap> plan, std::
   made.axes = axes_of(clip, plan[row]);
   const Tried own(clip, plan, check, models);
   std::vector<PlannedGap> asked(plan.begin(), plan.end());
-  const auto add = [&](const Tried<AnyClip>& other, GapPreview preview) {
+  const auto add = [&](const Tried& other, GapPreview preview) {
     made.curves.push_back({std::move(preview), other.outcomes.at(key_of(plan[row])).expected_error,
                            values_of(other.clip, plan[row], made.first_frame, made.last_frame)});
   };
@@ -205,26 +188,6 @@ GapCurves curves_of(const AnyClip& clip, std::span<const PlannedGap> plan, std::
     add(is_own ? forced : other, std::move(preview));
   }
   return made;
-}
-
-}  // namespace
-
-void preview_methods(const Clip& clip, std::vector<PlannedGap>& plan, const FillCheck& check,
-                     const FillModels& models) {
-  preview(clip, plan, check, models);
-}
-void preview_methods(const MarkerClip& clip, std::vector<PlannedGap>& plan,
-                     const FillCheck& check) {
-  preview(clip, plan, check, {});
-}
-
-GapCurves preview_curves(const Clip& clip, std::span<const PlannedGap> plan, std::size_t row,
-                         const FillCheck& check, const FillModels& models) {
-  return curves_of(clip, plan, row, check, models);
-}
-GapCurves preview_curves(const MarkerClip& clip, std::span<const PlannedGap> plan, std::size_t row,
-                         const FillCheck& check) {
-  return curves_of(clip, plan, row, check, {});
 }
 
 }  // namespace kinemend

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fill/track.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::fill {
 

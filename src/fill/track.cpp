@@ -109,7 +109,7 @@ RotationChart make_rotation_chart(std::span<const Quat> rotations,
   return chart;
 }
 
-Track rotation_track(const Clip& clip, std::size_t joint) {
+Track rotation_track(const Take& clip, std::size_t joint) {
   Track track;
   track.is_position = false;
   track.joint = joint;
@@ -125,7 +125,7 @@ Track rotation_track(const Clip& clip, std::size_t joint) {
   return track;
 }
 
-Track position_track(const Clip& clip, std::size_t position) {
+Track position_track(const Take& clip, std::size_t position) {
   const std::size_t frames = clip.frame_count();
   Track track{std::vector<Vec3>(frames), std::vector<std::uint8_t>(frames)};
   if (position > 0) track.joint = static_cast<std::size_t>(clip.translated_joints[position - 1]);

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/frame_span.hpp"
-#include "kinemend/clip.hpp"
 #include "kinemend/rotation.hpp"
+#include "kinemend/take.hpp"
 #include "rotation/rotation_chart.hpp"
 
 namespace kinemend::fill {
@@ -62,9 +62,9 @@ inline std::vector<Vec3> values_in(const Track& track, FrameSpan span) {
   return {first, first + static_cast<std::ptrdiff_t>(span.length())};
 }
 
-Track rotation_track(const Clip& clip, std::size_t joint);
+Track rotation_track(const Take& clip, std::size_t joint);
 /// `position`: 0 for joint 0, k + 1 for translated joint k.
-Track position_track(const Clip& clip, std::size_t position);
+Track position_track(const Take& clip, std::size_t position);
 
 /// Whether a span is filled as if the take started or ended with it.
 struct TakeEnds {

@@ -70,7 +70,7 @@ void note_extension(const Format& format, std::string_view name, bool strict,
 }
 
 // Of what a C3D file can hold, in a format that has a place for points only.
-Diagnostics lost_beside_points(const MarkerClip& clip, std::string_view format) {
+Diagnostics lost_beside_points(const Take& clip, std::string_view format) {
   std::vector<std::string> parts = c3d_beside_points(clip.source);
   if (!clip.events.empty() && format != "tsv") {
     parts.push_back(
@@ -100,12 +100,25 @@ const Format& format_to_write(const SourceInfo& source, std::string_view asked,
   return format_called(source.format.empty() ? usual : source.format);
 }
 
-ReadResult clip_of(TakeResult result) {
-  if (Clip* clip = std::get_if<Clip>(&result.take)) {
-    return {std::move(*clip), std::move(result.diagnostics)};
-  }
+TakeResult with_joints(TakeResult result) {
+  if (result.take.has_joints()) return result;
   throw Error(ErrorKind::usage, fmt::format("{}: holds markers; a take of joints is needed here",
-                                            source_of(result.take).name));
+                                            result.take.source.name));
+}
+
+std::string write_markers(const Take& take, const Format& format) {
+  if (format.write_markers == nullptr)
+    throw Error(ErrorKind::usage, fmt::format("{} files hold joints, not markers", format.name));
+  if (format.name == "c3d" || take.position_count() == take.marker_count())
+    return format.write_markers(take);
+  const Take markers = positions_only(take);
+  if (markers.marker_count() == 0) {
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("none of the points is a position of a marker; {} files hold nothing else",
+                    format.name));
+  }
+  return format.write_markers(markers);
 }
 
 }  // namespace
@@ -172,14 +185,6 @@ const Format* format_of_content(std::string_view head) {
   return best;
 }
 
-const SourceInfo& source_of(const AnyTake& take) {
-  return std::visit([](const auto& clip) -> const SourceInfo& { return clip.source; }, take);
-}
-
-SourceInfo& source_of(AnyTake& take) {
-  return std::visit([](auto& clip) -> SourceInfo& { return clip.source; }, take);
-}
-
 TakeResult read_take(const std::filesystem::path& path, const ReadOptions& options) {
   return read_take(read_file(path), path == "-" ? "standard input" : path.string(), options);
 }
@@ -200,54 +205,33 @@ TakeResult read_take(std::string bytes, std::string_view name, const ReadOptions
   return result;
 }
 
-ReadResult read_clip(const std::filesystem::path& path, const ReadOptions& options) {
-  return clip_of(read_take(path, options));
+TakeResult read_joints(const std::filesystem::path& path, const ReadOptions& options) {
+  return with_joints(read_take(path, options));
 }
 
-ReadResult read_clip(std::string bytes, std::string_view name, const ReadOptions& options) {
-  return clip_of(read_take(std::move(bytes), name, options));
+TakeResult read_joints(std::string bytes, std::string_view name, const ReadOptions& options) {
+  return with_joints(read_take(std::move(bytes), name, options));
 }
 
-std::string write_clip(const Clip& clip, std::string_view format) {
-  const Format& found = format_to_write(clip.source, format, "bvh");
-  if (found.write != nullptr) return found.write(clip);
+std::string write_take(const Take& take, std::string_view format) {
+  const Format& found = format_to_write(take.source, format, take.has_joints() ? "bvh" : "c3d");
+  if (!take.has_joints()) return write_markers(take, found);
+  if (found.write != nullptr) return found.write(take);
   throw Error(ErrorKind::usage, fmt::format("{} files hold markers, not joints", found.name));
 }
 
-std::string write_markers(const MarkerClip& clip, std::string_view format) {
-  const Format& found = format_to_write(clip.source, format, "c3d");
-  if (found.write_markers == nullptr)
-    throw Error(ErrorKind::usage, fmt::format("{} files hold joints, not markers", found.name));
-  if (found.name == "c3d" || clip.position_count() == clip.marker_count())
-    return found.write_markers(clip);
-  const MarkerClip markers = positions_only(clip);
-  if (markers.marker_count() == 0) {
-    throw Error(
-        ErrorKind::usage,
-        fmt::format("none of the points is a position of a marker; {} files hold nothing else",
-                    found.name));
-  }
-  return found.write_markers(markers);
-}
-
-std::string write_take(const AnyTake& take, std::string_view format) {
-  if (const Clip* clip = std::get_if<Clip>(&take)) return write_clip(*clip, format);
-  return write_markers(std::get<MarkerClip>(take), format);
-}
-
-Diagnostics lost_in_writing(const AnyTake& take, std::string_view format) {
+Diagnostics lost_in_writing(const Take& take, std::string_view format) {
   const Format& found = format_called(format);
-  const auto* const clip = std::get_if<MarkerClip>(&take);
-  if (clip == nullptr) return {};
+  if (take.has_joints()) return {};
   Diagnostics losses =
-      found.name == "c3d" ? lost_in_c3d(*clip) : lost_beside_points(*clip, found.name);
-  const std::string rest = csv_beside_markers(*clip, found.name == "csv");
+      found.name == "c3d" ? lost_in_c3d(take) : lost_beside_points(take, found.name);
+  const std::string rest = csv_beside_markers(take, found.name == "csv");
   if (!rest.empty()) losses.add("rest_lost", rest + " are left out");
   return losses;
 }
 
-std::optional<SideFile> side_file(const AnyTake& take, std::string_view bytes,
-                                  std::string_view format, const std::filesystem::path& output) {
+std::optional<SideFile> side_file(const Take& take, std::string_view bytes, std::string_view format,
+                                  const std::filesystem::path& output) {
   if (format != "amc") return std::nullopt;
   return amc_side_file(take, bytes, output);
 }

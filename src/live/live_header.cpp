@@ -7,7 +7,6 @@
 
 #include "io/bvh/bvh_hierarchy.hpp"
 #include "io/bvh/bvh_text.hpp"
-#include "kinemend/diagnostics.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 

@@ -5,14 +5,14 @@
 #include <cmath>
 #include <utility>
 
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
 namespace {
 
-Clip clip_like(const LiveHeader& header) {
-  Clip clip;
+Take clip_like(const LiveHeader& header) {
+  Take clip;
   clip.skeleton = header.skeleton;
   clip.frame_rate_hz = header.frame_rate_hz;
   const MotionColumns columns(header.skeleton);
@@ -36,7 +36,7 @@ std::unique_ptr<FrameWriter> writer_of(const LiveHeader& header, LiveFormat form
 std::unique_ptr<Stream> stream_of(const Cleaner& cleaner, const LiveHeader& header,
                                   const LiveOptions& options) {
   if (header.markers.empty()) return make_stream(cleaner, clip_like(header));
-  const MarkerClip like = make_marker_clip(header.markers, 0, header.frame_rate_hz);
+  const Take like = make_marker_take(header.markers, 0, header.frame_rate_hz);
   return make_stream(cleaner, like, options.body_height);
 }
 

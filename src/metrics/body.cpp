@@ -57,7 +57,7 @@ std::vector<std::size_t> foot_joints(const Skeleton& skeleton) {
   return found;
 }
 
-FootSlide foot_slide(const Clip& reference, const Clip& other, const FootSlideSettings& settings,
+FootSlide foot_slide(const Take& reference, const Take& other, const FootSlideSettings& settings,
                      std::size_t first_frame) {
   metrics::check_pair(reference, other, first_frame);
   const auto joints = settings.joints.empty() ? foot_joints(reference.skeleton) : settings.joints;

@@ -12,7 +12,7 @@ namespace kinemend {
 
 namespace {
 
-std::vector<Quat> rotations_of(const Clip& clip, std::size_t joint, std::size_t first_frame) {
+std::vector<Quat> rotations_of(const Take& clip, std::size_t joint, std::size_t first_frame) {
   std::vector<Quat> track;
   track.reserve(clip.frame_count() - first_frame);
   for (std::size_t f = first_frame; f < clip.frame_count(); ++f)
@@ -29,7 +29,7 @@ Peaks peaks_of(const std::vector<Quat>& reference, const std::vector<Quat>& othe
   return measure_peaks(reference, other, std::move(spikes), {noise, noise}, frame_rate_hz);
 }
 
-void fill_joints(const Clip& reference, const Clip& other, std::size_t first_frame,
+void fill_joints(const Take& reference, const Take& other, std::size_t first_frame,
                  Comparison& result) {
   const std::size_t joints = reference.joint_count();
   if (joints == 0) return;
@@ -53,7 +53,7 @@ void fill_joints(const Clip& reference, const Clip& other, std::size_t first_fra
 
 }  // namespace
 
-Comparison compare_clips(const Clip& reference, const Clip& other,
+Comparison compare_clips(const Take& reference, const Take& other,
                          const ComparisonSettings& settings) {
   const std::size_t first = settings.first_frame;
   metrics::check_pair(reference, other, first);

@@ -182,8 +182,7 @@ double percentile_99(const Errors& errors) {
 }
 
 // Mean square of the difference of steps from frame to frame, gains and offsets set apart.
-double disagreement(const MarkerClip& reference, const MarkerClip& other, std::ptrdiff_t lag,
-                    MarkerFit fit) {
+double disagreement(const Take& reference, const Take& other, std::ptrdiff_t lag, MarkerFit fit) {
   const MarkerPair pair = metrics::pair_markers(reference, other, lag);
   const std::vector<FittedMarker> fitted = metrics::fit_markers(pair, fit);
   Squares squares;
@@ -198,7 +197,7 @@ double disagreement(const MarkerClip& reference, const MarkerClip& other, std::p
 }
 
 // So many frames from the middle of a take.
-MarkerClip middle_of(const MarkerClip& clip) {
+Take middle_of(const Take& clip) {
   constexpr std::size_t most_frames = 4000;
   const std::size_t frames = clip.frame_count(), kept = std::min(frames, most_frames);
   const std::size_t first = (frames - kept) / 2;
@@ -206,7 +205,7 @@ MarkerClip middle_of(const MarkerClip& clip) {
 }
 
 // The least of the disagreements, between frames by a parabola.
-double lag_of(const MarkerClip& reference, const MarkerClip& other, MarkerFit fit) {
+double lag_of(const Take& reference, const Take& other, MarkerFit fit) {
   const auto frames = static_cast<std::ptrdiff_t>(reference.frame_count());
   const double rate_hz = reference.frame_rate_hz;
   const auto most =
@@ -230,10 +229,10 @@ double lag_of(const MarkerClip& reference, const MarkerClip& other, MarkerFit fi
 
 }  // namespace
 
-MarkerComparison compare_markers(const MarkerClip& reference, const MarkerClip& other,
+MarkerComparison compare_markers(const Take& reference, const Take& other,
                                  const MarkerComparisonSettings& settings) {
   const MarkerPair pair = metrics::pair_markers(reference, other, settings.lag_frames);
-  const MarkerClip& shown = settings.fit_to != nullptr ? *settings.fit_to : other;
+  const Take& shown = settings.fit_to != nullptr ? *settings.fit_to : other;
   const MarkerPair fitting = metrics::pair_markers(reference, shown, settings.lag_frames);
   if (fitting.reference_markers != pair.reference_markers)
     throw Error(ErrorKind::usage,

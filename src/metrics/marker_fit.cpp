@@ -16,7 +16,7 @@ namespace {
 
 constexpr double rate_tolerance = 1e-3;  // relative: 29.97 and 30 are not the same
 
-double scale_between(const MarkerClip& reference, const MarkerClip& other) {
+double scale_between(const Take& reference, const Take& other) {
   const double of_reference = metres_per_unit(reference.unit);
   const double of_other = metres_per_unit(other.unit);
   return of_reference > 0 && of_other > 0 ? of_other / of_reference : 1;
@@ -116,8 +116,7 @@ Vec3 MarkerPair::other_at(std::size_t frame, std::size_t marker) const {
          other.position(first_frame + frame + static_cast<std::size_t>(lag), other_markers[marker]);
 }
 
-MarkerPair pair_markers(const MarkerClip& reference, const MarkerClip& other,
-                        std::ptrdiff_t lag_frames) {
+MarkerPair pair_markers(const Take& reference, const Take& other, std::ptrdiff_t lag_frames) {
   const std::size_t frames = reference.frame_count();
   if (frames != other.frame_count())
     throw Error(ErrorKind::usage, fmt::format("the reference has {} frames, the other take {}",

@@ -10,8 +10,8 @@ namespace kinemend::metrics {
 
 /// Markers that two takes share, one behind the other in time.
 struct MarkerPair {
-  const MarkerClip& reference;
-  const MarkerClip& other;
+  const Take& reference;
+  const Take& other;
   std::vector<std::size_t> reference_markers, other_markers;  ///< the same length
   std::size_t first_frame = 0;                                ///< of the reference
   std::size_t frames = 0;
@@ -25,8 +25,7 @@ struct MarkerPair {
 };
 
 /// Errors: as of `compare_markers`.
-MarkerPair pair_markers(const MarkerClip& reference, const MarkerClip& other,
-                        std::ptrdiff_t lag_frames);
+MarkerPair pair_markers(const Take& reference, const Take& other, std::ptrdiff_t lag_frames);
 
 /// Of each marker, from the reference to what the other system shows: p' = turn p + shift, or
 /// gain p + shift along each axis.

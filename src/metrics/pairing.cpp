@@ -10,7 +10,7 @@
 
 namespace kinemend::metrics {
 
-void check_pair(const Clip& reference, const Clip& other, std::size_t first_frame) {
+void check_pair(const Take& reference, const Take& other, std::size_t first_frame) {
   const auto refuse = [](const std::string& message) { throw Error(ErrorKind::usage, message); };
   if (reference.joint_count() != other.joint_count()) {
     refuse(fmt::format("the clips differ in joints: {} and {}", reference.joint_count(),
@@ -32,7 +32,7 @@ void check_pair(const Clip& reference, const Clip& other, std::size_t first_fram
   }
 }
 
-std::vector<double> geodesic_angles(const Clip& reference, const Clip& other,
+std::vector<double> geodesic_angles(const Take& reference, const Take& other,
                                     std::size_t first_frame) {
   std::vector<double> angles;
   const std::size_t first = first_frame * reference.joint_count();

@@ -13,7 +13,7 @@ namespace kinemend {
 namespace {
 
 // Joint positions from `first_frame` on.
-std::vector<Vec3> positions_from(const Clip& clip, std::size_t first_frame) {
+std::vector<Vec3> positions_from(const Take& clip, std::size_t first_frame) {
   std::vector<Vec3> positions = joint_positions(clip);
   positions.erase(positions.begin(), positions.begin() + static_cast<std::ptrdiff_t>(
                                                              first_frame * clip.joint_count()));
@@ -34,7 +34,7 @@ MeanAndDeviation mean_and_deviation(const std::vector<double>& values) {
 
 }  // namespace
 
-double mpjpe(const Clip& reference, const Clip& other, std::size_t first_frame, double scale) {
+double mpjpe(const Take& reference, const Take& other, std::size_t first_frame, double scale) {
   metrics::check_pair(reference, other, first_frame);
   const auto wanted = positions_from(reference, first_frame);
   const auto found = positions_from(other, first_frame);
@@ -43,7 +43,7 @@ double mpjpe(const Clip& reference, const Clip& other, std::size_t first_frame, 
   return scale * sum / static_cast<double>(wanted.size());
 }
 
-double accel_error(const Clip& reference, const Clip& other, std::size_t first_frame) {
+double accel_error(const Take& reference, const Take& other, std::size_t first_frame) {
   metrics::check_pair(reference, other, first_frame);
   if (reference.frame_count() - first_frame < 3) return 0;
   std::vector<Vec3> difference = positions_from(other, first_frame);
@@ -82,7 +82,7 @@ MeanAndDeviation rmse_per_marker(std::span<const Vec3> reference, std::span<cons
   return mean_and_deviation(figures);
 }
 
-MeanAndDeviation rmse_per_marker_m(const Clip& reference, const Clip& other, double metres_per_unit,
+MeanAndDeviation rmse_per_marker_m(const Take& reference, const Take& other, double metres_per_unit,
                                    std::size_t first_frame) {
   metrics::check_pair(reference, other, first_frame);
   const auto figure = rmse_per_marker(positions_from(reference, first_frame),

@@ -25,7 +25,7 @@ bool counts_in_rms(const Skeleton& skeleton, std::size_t joint) {
 
 // Squared differences (wrapped, as the other clip's angles are the nearest) of one joint's moving
 // channels, added to `sums` frame by frame. Returns the channels.
-std::size_t add_channel_errors(const Clip& reference, const Clip& other, std::size_t joint,
+std::size_t add_channel_errors(const Take& reference, const Take& other, std::size_t joint,
                                std::size_t first_frame, std::vector<double>& sums) {
   const RotationOrder order = reference.skeleton.rotation_order(joint);
   const std::size_t frames = sums.size();
@@ -68,7 +68,7 @@ double sum_of_squares(const std::vector<double>& values) {
 
 }  // namespace
 
-std::vector<double> rms_deg_per_frame(const Clip& reference, const Clip& other,
+std::vector<double> rms_deg_per_frame(const Take& reference, const Take& other,
                                       std::size_t first_frame) {
   metrics::check_pair(reference, other, first_frame);
   std::vector<double> figures(reference.frame_count() - first_frame, 0.0);
@@ -83,11 +83,11 @@ std::vector<double> rms_deg_per_frame(const Clip& reference, const Clip& other,
   return figures;
 }
 
-double rms_deg(const Clip& reference, const Clip& other, std::size_t first_frame) {
+double rms_deg(const Take& reference, const Take& other, std::size_t first_frame) {
   return mean_of(rms_deg_per_frame(reference, other, first_frame));
 }
 
-double geodesic_rms_deg(const Clip& reference, const Clip& other, std::size_t first_frame) {
+double geodesic_rms_deg(const Take& reference, const Take& other, std::size_t first_frame) {
   metrics::check_pair(reference, other, first_frame);
   const auto angles = metrics::geodesic_angles(reference, other, first_frame);
   if (angles.empty()) return 0;
@@ -95,7 +95,7 @@ double geodesic_rms_deg(const Clip& reference, const Clip& other, std::size_t fi
          std::sqrt(sum_of_squares(angles) / static_cast<double>(angles.size()));
 }
 
-std::vector<double> geodesic_rms_deg_per_joint(const Clip& reference, const Clip& other,
+std::vector<double> geodesic_rms_deg_per_joint(const Take& reference, const Take& other,
                                                std::size_t first_frame) {
   metrics::check_pair(reference, other, first_frame);
   const auto angles = metrics::geodesic_angles(reference, other, first_frame);
@@ -107,7 +107,7 @@ std::vector<double> geodesic_rms_deg_per_joint(const Clip& reference, const Clip
   return figures;
 }
 
-double geodesic_percentile_deg(const Clip& reference, const Clip& other, double percentile,
+double geodesic_percentile_deg(const Take& reference, const Take& other, double percentile,
                                std::size_t first_frame) {
   metrics::check_pair(reference, other, first_frame);
   if (!(percentile >= 0 && percentile <= 100)) {
@@ -118,7 +118,7 @@ double geodesic_percentile_deg(const Clip& reference, const Clip& other, double 
                                 percentile);
 }
 
-double psnr_db(const Clip& reference, const Clip& other, std::size_t first_frame, double peak) {
+double psnr_db(const Take& reference, const Take& other, std::size_t first_frame, double peak) {
   metrics::check_pair(reference, other, first_frame);
   if (!(peak > 0)) {
     throw Error(ErrorKind::usage, fmt::format("PSNR peak {} is not positive", peak));
@@ -144,7 +144,7 @@ double mse_rad2(std::span<const Quat> reference, std::span<const Quat> other) {
   return reference.size() > 1 ? sum / static_cast<double>(reference.size() - 1) : sum;
 }
 
-double mse_rad2(const Clip& reference, const Clip& other, std::size_t first_frame) {
+double mse_rad2(const Take& reference, const Take& other, std::size_t first_frame) {
   metrics::check_pair(reference, other, first_frame);
   const std::size_t frames = reference.frame_count() - first_frame;
   const double terms = static_cast<double>(std::max<std::size_t>(frames - 1, 1)) *
@@ -152,7 +152,7 @@ double mse_rad2(const Clip& reference, const Clip& other, std::size_t first_fram
   return sum_of_squares(metrics::geodesic_angles(reference, other, first_frame)) / terms;
 }
 
-std::vector<double> peak_angular_speed_deg_s(const Clip& clip, std::size_t first_frame) {
+std::vector<double> peak_angular_speed_deg_s(const Take& clip, std::size_t first_frame) {
   std::vector<double> peaks(clip.joint_count(), 0.0);
   for (std::size_t f = first_frame + 1; f < clip.frame_count(); ++f) {
     for (std::size_t j = 0; j < clip.joint_count(); ++j) {

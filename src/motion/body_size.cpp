@@ -7,8 +7,8 @@
 
 #include "base/quantiles.hpp"
 #include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/marker_clip.hpp"
 #include "kinemend/skeleton.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -61,6 +61,13 @@ double body_height(const Take& clip) {
   if (!(quartile > 0)) return unit_m > 0 ? usual_m / unit_m : 1.0;
   const double height = heights_per_quartile * quartile;
   return unit_m > 0 ? std::min(height, tallest_m / unit_m) : height;
+}
+
+double likely_metres_per_unit(const Take& take) {
+  if (!take.has_joints()) return metres_per_unit(take.unit);
+  if (take.metres_per_unit > 0) return take.metres_per_unit;
+  const auto guess = guess_length_unit(take.skeleton);
+  return guess ? guess->metres : 0;
 }
 
 }  // namespace kinemend

@@ -1,7 +1,7 @@
 // Notes the number that a file gives to its first frame.
 #pragma once
 
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

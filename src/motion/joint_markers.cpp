@@ -72,7 +72,7 @@ Take joint_markers(const Take& clip, bool with_end_sites) {
     }
   }
   const std::size_t joints = clip.joint_count(), frames = clip.frame_count();
-  Take result = make_marker_clip(std::move(names), frames, clip.frame_rate_hz);
+  Take result = make_marker_take(std::move(names), frames, clip.frame_rate_hz);
   result.unit = unit_name(clip.metres_per_unit);
   result.source.name = clip.source.name;
   result.positions = joint_positions(clip, with_end_sites);

@@ -1,5 +1,5 @@
 // Renames joints or markers by a map of names.
-#include "kinemend/known_names.hpp"
+#include "kinemend/skeleton.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/text.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 #include "motion/name_pattern.hpp"
 
 namespace kinemend {

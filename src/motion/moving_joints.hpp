@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

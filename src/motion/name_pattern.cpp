@@ -9,7 +9,7 @@
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/text.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

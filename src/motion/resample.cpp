@@ -153,7 +153,7 @@ Take resample_markers(const Take& clip, double frame_rate_hz) {
   const std::vector<Place> at = places(frames, markers, clip.frame_rate_hz, frame_rate_hz);
   // A file of analog samples alone has no motion to bring to another rate.
   if (markers == 0 || is_own_rate(clip.frame_rate_hz, frame_rate_hz)) return clip;
-  Take result = make_marker_clip(clip.names, at.size(), frame_rate_hz);
+  Take result = make_marker_take(clip.names, at.size(), frame_rate_hz);
   result.is_position = clip.is_position;
   result.unit = clip.unit;
   result.events = clip.events;

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "kinemend/error.hpp"
-#include "motion/clip_checks.hpp"
+#include "motion/take_checks.hpp"
 
 namespace kinemend {
 

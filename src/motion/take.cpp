@@ -1,5 +1,4 @@
 // The rules of a take, slices of its frames, and its markers by name.
-#include "kinemend/take.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +7,8 @@
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
-#include "kinemend/marker_clip.hpp"
-#include "motion/clip_checks.hpp"
+#include "kinemend/take.hpp"
+#include "motion/take_checks.hpp"
 
 namespace kinemend {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <memory>
 
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

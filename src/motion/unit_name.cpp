@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

@@ -13,7 +13,7 @@
 
 #include "kinemend/clean.hpp"
 #include "kinemend/cleaner.hpp"
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

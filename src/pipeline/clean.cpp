@@ -64,10 +64,9 @@ struct Work {
 };
 
 // The cleaner's tracks one by one, each in the place of its input as soon as it is there.
-template <class AnyClip>
 class Finisher {
  public:
-  Finisher(const Work& work, const TakeView& take, AnyClip& clip)
+  Finisher(const Work& work, const TakeView& take, Take& clip)
       : work_(work),
         take_(take),
         clip_(clip),
@@ -129,7 +128,7 @@ class Finisher {
     const TrackChanges changes =
         blend(edit, order, work_.settings.max_change_deg * radians_per_degree,
               may_turn ? work_.weights : nothing_);
-    put_back(joint, edit.after, changes);
+    set_track(clip_, joint, edit.after);
     reports_[joint] = report_track(take_.joints->skeleton.names[joint], joint, edit, changes,
                                    cleaned.noise, work_.scale);
   }
@@ -148,34 +147,27 @@ class Finisher {
       limits.most = work_.settings.max_change;
     }
     const TrackChanges changes = blend(edit, limits, track.selected ? work_.weights : nothing_);
-    put_back(number, edit.after, changes);
     if (take_.markers) {
+      put_back_marker(number, edit.after, changes);
       reports_[number] = report_track(take_.markers->names[number], number, edit, changes,
                                       cleaned.noise, work_.scale);
-    } else if (number == take_.root_track()) {
-      root_ = changes;
+      return;
     }
+    set_track(clip_, number, edit.after);
+    if (number == take_.root_track()) root_ = changes;
   }
 
-  void put_back(std::size_t track, const std::vector<Quat>& samples,
-                const TrackChanges&) requires std::is_same_v<AnyClip, Clip> {
-    set_track(clip_, track, samples);
-  }
-  void put_back(std::size_t, const std::vector<Quat>&,
-                const TrackChanges&) requires std::is_same_v<AnyClip, MarkerClip> {}
-  void put_back(std::size_t track, const std::vector<Vec3>& samples, const TrackChanges& changes) {
-    if constexpr (std::is_same_v<AnyClip, Clip>) {
-      set_track(clip_, track, samples);
-    } else {
-      for (std::size_t f = 0; f < samples.size(); ++f) {
-        const std::size_t sample = f * take_.owners + track;
-        const bool filled = changes.actions[f] == Action::filled && clip_.observed[sample] == 0;
-        if (clip_.observed[sample] == 0 && !filled) continue;
-        clip_.positions[sample] = samples[f];
-        if (!filled) continue;
-        clip_.observed[sample] = 1;
-        if (!clip_.residuals.empty()) clip_.residuals[sample] = 0;
-      }
+  // A missing sample stays missing unless it was filled.
+  void put_back_marker(std::size_t marker, const std::vector<Vec3>& samples,
+                       const TrackChanges& changes) {
+    for (std::size_t f = 0; f < samples.size(); ++f) {
+      const std::size_t sample = f * take_.owners + marker;
+      const bool filled = changes.actions[f] == Action::filled && clip_.observed[sample] == 0;
+      if (clip_.observed[sample] == 0 && !filled) continue;
+      clip_.positions[sample] = samples[f];
+      if (!filled) continue;
+      clip_.observed[sample] = 1;
+      if (!clip_.residuals.empty()) clip_.residuals[sample] = 0;
     }
   }
 
@@ -199,7 +191,7 @@ class Finisher {
 
   const Work& work_;
   const TakeView& take_;
-  AnyClip& clip_;
+  Take& clip_;
   std::vector<double> nothing_;
   std::vector<TrackReport> reports_;  // of joints' rotations and markers
   TrackChanges root_;
@@ -217,7 +209,7 @@ void state_filled(const TakeView& measured, const TakeView& filled, InPlaceTrace
   }
 }
 
-void hold_feet(const Work& work, Clip& cleaned, InPlaceTrace& trace, CleanReport& report) {
+void hold_feet(const Work& work, Take& cleaned, InPlaceTrace& trace, CleanReport& report) {
   const Stage stage(work.settings, "feet");
   report.feet = feet_step(cleaned, work.selection, *work.settings.feet, work.first, trace);
   report.warnings.insert(report.warnings.end(), report.feet->warnings.begin(),
@@ -225,21 +217,12 @@ void hold_feet(const Work& work, Clip& cleaned, InPlaceTrace& trace, CleanReport
   stage.finish();
 }
 
-void hold_feet(const Work&, MarkerClip&, InPlaceTrace&, CleanReport&) {}
-
-void keep_observed(const Clip& cleaned, Clip& motion) {
-  motion.observed = cleaned.observed;
-  motion.observed_positions = cleaned.observed_positions;
-}
-void keep_observed(const MarkerClip&, MarkerClip&) {}
-
 // Filling and holding feet look at many tracks at once: the whole motion is cleaned beside the
 // input.
-template <class AnyClip>
-void clean_whole(AnyClip& motion, const Cleaner& cleaner, const Work& work, CleanReport& report) {
+void clean_whole(Take& motion, const Cleaner& cleaner, const Work& work, CleanReport& report) {
   const CleanSettings& settings = work.settings;
   const TakeView take = view_of(motion, work.selection);
-  AnyClip cleaned = motion;
+  Take cleaned = motion;
   const Stage cleaning(settings, "cleaning");
   InPlaceTrace trace = clean_in_place(cleaner, cleaned, work.selection, cleaning.shares());
   report.warnings.insert(report.warnings.end(), trace.warnings.begin(), trace.warnings.end());
@@ -267,22 +250,23 @@ void clean_whole(AnyClip& motion, const Cleaner& cleaner, const Work& work, Clea
   }
   if (settings.feet) hold_feet(work, cleaned, trace, report);
   const TakeView result = view_of(cleaned);
-  Finisher<AnyClip> finisher(work, take, motion);
+  Finisher finisher(work, take, motion);
   for_each_parallel(take.tracks.size(), take.tracks.size() * take.frames, [&](std::size_t n) {
     finisher.finish(n, {rotations_of(result.tracks[n]), positions_of(result.tracks[n]),
                         std::move(trace.actions[n]), trace.coloured[n]});
   });
   finisher.report(trace, report);
-  keep_observed(cleaned, motion);
+  if (!motion.has_joints()) return;
+  motion.observed = cleaned.observed;
+  motion.observed_positions = cleaned.observed_positions;
 }
 
 // Each track takes the place of its input as soon as it is cleaned, so that there is one copy of
 // the take.
-template <class AnyClip>
-void clean_track_by_track(AnyClip& motion, const Cleaner& cleaner, const Work& work,
+void clean_track_by_track(Take& motion, const Cleaner& cleaner, const Work& work,
                           CleanReport& report) {
   const TakeView take = view_of(motion, work.selection);
-  Finisher<AnyClip> finisher(work, take, motion);
+  Finisher finisher(work, take, motion);
   const Stage stage(work.settings, "cleaning");
   const CleanTrace trace = cleaner.clean(
       take,
@@ -296,12 +280,11 @@ void clean_track_by_track(AnyClip& motion, const Cleaner& cleaner, const Work& w
   stage.finish();
 }
 
-template <class AnyClip>
-void clean_motion(AnyClip& motion, const Cleaner& cleaner, Work work, CleanReport& report) {
+void clean_motion(Take& motion, const Cleaner& cleaner, Work work, CleanReport& report) {
   work.scale.first_frame = work.first;
   work.scale.frame_rate_hz = motion.frame_rate_hz;
   work.scale.peak_loss_limit = work.settings.peak_loss_limit;
-  const bool holds_feet = work.settings.feet && std::is_same_v<AnyClip, Clip>;
+  const bool holds_feet = work.settings.feet && motion.has_joints();
   if (work.settings.fill || holds_feet) {
     clean_whole(motion, cleaner, work, report);
   } else {
@@ -319,58 +302,61 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+CleanReport report_for(const Take& take, const Cleaner& cleaner) {
+  CleanReport report;
+  report.method = cleaner.name();
+  report.frames = take.frame_count();
+  report.frame_rate_hz = take.frame_rate_hz;
+  if (take.has_joints()) {
+    report.unit = "deg";
+    report.calibration_frames = leading_calibration_frames(take);
+  } else {
+    report.kind = TakeKind::markers;
+    report.unit = take.unit;
+    report.body_height = body_height(take);
+  }
+  return report;
+}
+
+void warn_of_feet(const CleanSettings& settings, CleanReport& report) {
+  if (!settings.feet || settings.feet->mode == FeetMode::off) return;
+  report.warnings.emplace_back(
+      "feet: markers are measured points and stay where they are; feet are held in takes of "
+      "joints");
+}
+
+// Changes below rounding are none: the limit follows from the size of the body.
+Work work_of(const Take& take, const CleanSettings& settings, const CleanReport& report) {
+  constexpr double rounding_of_bone = 1e-11, rounding_of_body = 1e-13;
+  const bool joints = take.has_joints();
+  const std::size_t first = report.calibration_frames;
+  return {settings,
+          selection_of(take, settings),
+          first,
+          frame_weights(settings, report.frames, first, take.frame_rate_hz),
+          joints ? joint_scale() : marker_scale(take.unit, report.body_height),
+          joints ? rounding_of_bone * typical_bone_length(take.skeleton)
+                 : rounding_of_body * report.body_height};
+}
+
 }  // namespace
 
-CleanResult clean_clip(const Clip& clip, const Cleaner& cleaner, const CleanSettings& settings) {
-  return clean_clip(Clip(clip), cleaner, settings);
+CleanResult clean_take(const Take& take, const Cleaner& cleaner, const CleanSettings& settings) {
+  return clean_take(Take(take), cleaner, settings);
 }
 
-CleanResult clean_clip(Clip&& clip, const Cleaner& cleaner, const CleanSettings& settings) {
+CleanResult clean_take(Take&& take, const Cleaner& cleaner, const CleanSettings& settings) {
   const Stopwatch stopwatch;
-  const std::size_t frames = clip.frame_count();
-  check_settings(settings, frames);
-  CleanResult result;
+  check_settings(settings, take.frame_count());
+  CleanResult result{{}, report_for(take, cleaner)};
   CleanReport& report = result.report;
-  report.method = cleaner.name();
-  report.unit = "deg";
-  report.frames = frames;
-  report.frame_rate_hz = clip.frame_rate_hz;
-  report.calibration_frames = leading_calibration_frames(clip);
-  const std::size_t first = report.calibration_frames;
-  const Work work{settings,      selection_of(clip, settings),
-                  first,         frame_weights(settings, frames, first, clip.frame_rate_hz),
-                  joint_scale(), 1e-11 * typical_bone_length(clip.skeleton)};
-  result.clip = std::move(clip);
-  on_motion(result.clip, first, [&](Clip& motion) { clean_motion(motion, cleaner, work, report); });
+  if (!take.has_joints()) warn_of_feet(settings, report);
+  const Work work = work_of(take, settings, report);
+  result.take = std::move(take);
+  on_motion(result.take, work.first,
+            [&](Take& motion) { clean_motion(motion, cleaner, work, report); });
   if (report.feet && takes_part_only(settings) && !report.feet->contacts.empty())
-    report.feet->after = feet_figures(result.clip, report.feet->contacts);
-  report.seconds = stopwatch.seconds();
-  return result;
-}
-
-MarkerResult clean_markers(const MarkerClip& clip, const Cleaner& cleaner,
-                           const CleanSettings& settings) {
-  const Stopwatch stopwatch;
-  const std::size_t frames = clip.frame_count();
-  check_settings(settings, frames);
-  MarkerResult result{clip, {}};
-  CleanReport& report = result.report;
-  report.kind = TakeKind::markers;
-  report.method = cleaner.name();
-  report.unit = clip.unit;
-  report.frames = frames;
-  report.frame_rate_hz = clip.frame_rate_hz;
-  report.body_height = body_height(clip);
-  if (settings.feet && settings.feet->mode != FeetMode::off) {
-    report.warnings.emplace_back(
-        "feet: markers are measured points and stay where they are; feet are held in takes of "
-        "joints");
-  }
-  clean_motion(result.clip, cleaner,
-               {settings, selection_of(clip, settings), 0,
-                frame_weights(settings, frames, 0, clip.frame_rate_hz),
-                marker_scale(clip.unit, report.body_height), 1e-13 * report.body_height},
-               report);
+    report.feet->after = feet_figures(result.take, report.feet->contacts);
   report.seconds = stopwatch.seconds();
   return result;
 }

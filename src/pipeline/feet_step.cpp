@@ -23,7 +23,7 @@ void state_adjusted(const std::vector<std::uint8_t>& changed, std::size_t width,
 
 }  // namespace
 
-FeetReport feet_step(Clip& motion, const Selection& selection, const FeetSettings& settings,
+FeetReport feet_step(Take& motion, const Selection& selection, const FeetSettings& settings,
                      std::size_t first, InPlaceTrace& trace) {
   FeetSettings own = settings;
   if (own.contacts) feet::shift_contacts(*own.contacts, first, 0);

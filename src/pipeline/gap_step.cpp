@@ -23,22 +23,16 @@ bool holds_more_spikes(const InPlaceTrace& found, const InPlaceTrace& repaired) 
   return false;
 }
 
-void keep_gaps(const Clip& measured, Clip& clip) {
-  clip.observed = measured.observed;
-  clip.observed_positions = measured.observed_positions;
-}
-void keep_gaps(const MarkerClip& measured, MarkerClip& clip) { clip.observed = measured.observed; }
-
 // What the gaps are filled from: the cleaned take, or one that was cleaned without its spikes.
-template <class AnyClip>
-AnyClip evidence_of(const AnyClip& measured, const Cleaner& cleaner, const Selection& selection,
-                    const InPlaceTrace& trace, const AnyClip& cleaned) {
-  AnyClip evidence = measured;
+Take evidence_of(const Take& measured, const Cleaner& cleaner, const Selection& selection,
+                 const InPlaceTrace& trace, const Take& cleaned) {
+  Take evidence = measured;
   if (holds_more_spikes(clean_in_place(*make_despiker(), evidence), trace))
     clean_in_place(cleaner, evidence, selection);
   else
     evidence = cleaned;
-  keep_gaps(measured, evidence);
+  evidence.observed = measured.observed;
+  evidence.observed_positions = measured.observed_positions;
   return evidence;
 }
 
@@ -55,9 +49,9 @@ void for_each_filled(const std::vector<std::uint8_t>& measured,
 }
 
 // The same of the root position and the translations, which are selected with their joints.
-void take_over_positions(const Clip& measured, const Clip& filled,
+void take_over_positions(const Take& measured, const Take& filled,
                          const std::vector<std::uint8_t>& selected,
-                         const std::vector<double>& weights, Clip& clip) {
+                         const std::vector<double>& weights, Take& clip) {
   std::vector<std::uint8_t> tracks{selected[0]};
   for (const auto joint : clip.translated_joints)
     tracks.push_back(selected[static_cast<std::size_t>(joint)]);
@@ -76,35 +70,24 @@ void drop_unselected(FillReport& report, const std::vector<std::uint8_t>& select
 
 }  // namespace
 
-FillReport fill_step(const Clip& measured, const Cleaner& cleaner, const Selection& selection,
+FillReport fill_step(const Take& measured, const Cleaner& cleaner, const Selection& selection,
                      const std::vector<double>& weights, const FillSettings& settings,
-                     const InPlaceTrace& trace, Clip& cleaned, const FillCheck& check) {
+                     const InPlaceTrace& trace, Take& cleaned, const FillCheck& check) {
+  const bool joints = measured.has_joints();
   if (find_gaps(measured).empty() && find_position_gaps(measured).empty()) return {};
-  Clip filled = evidence_of(measured, cleaner, selection, trace, cleaned);
+  Take filled = evidence_of(measured, cleaner, selection, trace, cleaned);
   FillReport report = fill_with_plan(filled, settings, check).report;
   drop_unselected(report, selection.owners);
   for_each_filled(measured.observed, filled.observed, selection.owners, weights,
                   [&](std::size_t i) {
-                    cleaned.rotations[i] = filled.rotations[i];
-                    cleaned.observed[i] = 1;
-                  });
-  take_over_positions(measured, filled, selection.owners, weights, cleaned);
-  return report;
-}
-
-FillReport fill_step(const MarkerClip& measured, const Cleaner& cleaner, const Selection& selection,
-                     const std::vector<double>& weights, const FillSettings& settings,
-                     const InPlaceTrace& trace, MarkerClip& cleaned, const FillCheck& check) {
-  if (find_gaps(measured).empty()) return {};
-  MarkerClip filled = evidence_of(measured, cleaner, selection, trace, cleaned);
-  FillReport report = fill_with_plan(filled, settings, check).report;
-  drop_unselected(report, selection.owners);
-  for_each_filled(measured.observed, filled.observed, selection.owners, weights,
-                  [&](std::size_t i) {
-                    cleaned.positions[i] = filled.positions[i];
+                    if (joints)
+                      cleaned.rotations[i] = filled.rotations[i];
+                    else
+                      cleaned.positions[i] = filled.positions[i];
                     cleaned.observed[i] = 1;
                     if (!cleaned.residuals.empty()) cleaned.residuals[i] = 0;
                   });
+  if (joints) take_over_positions(measured, filled, selection.owners, weights, cleaned);
   return report;
 }
 

@@ -4,10 +4,9 @@
 #include <vector>
 
 #include "kinemend/cleaner.hpp"
-#include "kinemend/clip.hpp"
 #include "kinemend/experimental/gap_plan.hpp"
 #include "kinemend/fill.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -17,11 +16,8 @@ namespace kinemend {
 /// has left spikes, as `auto` finds them, they are filled from a take that was cleaned without
 /// them. A gap that is refused stays as the cleaner has left it. The report lists the gaps of what
 /// is selected.
-FillReport fill_step(const Clip& measured, const Cleaner& cleaner, const Selection& selection,
+FillReport fill_step(const Take& measured, const Cleaner& cleaner, const Selection& selection,
                      const std::vector<double>& weights, const FillSettings& settings,
-                     const InPlaceTrace& trace, Clip& cleaned, const FillCheck& check = {});
-FillReport fill_step(const MarkerClip& measured, const Cleaner& cleaner, const Selection& selection,
-                     const std::vector<double>& weights, const FillSettings& settings,
-                     const InPlaceTrace& trace, MarkerClip& cleaned, const FillCheck& check = {});
+                     const InPlaceTrace& trace, Take& cleaned, const FillCheck& check = {});
 
 }  // namespace kinemend

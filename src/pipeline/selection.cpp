@@ -58,23 +58,20 @@ void check_settings(const CleanSettings& settings, std::size_t frames) {
   }
 }
 
-Selection selection_of(const Clip& clip, const CleanSettings& settings) {
+Selection selection_of(const Take& take, const CleanSettings& settings) {
   Selection selection;
-  selection.owners = select_names(clip.skeleton.names, settings, "joint");
-  selection.root_position = settings.root_position && clip.joint_count() > 0 &&
-                            selection.owners[0] != 0 && clip.skeleton.has_position_channels(0);
-  selection.noise = noise_of(clip.skeleton.names, settings);
-  return selection;
-}
-
-Selection selection_of(const MarkerClip& clip, const CleanSettings& settings) {
-  Selection selection;
-  selection.owners = select_names(clip.names, settings, "marker");
-  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
-    if (!clip.holds_positions(m)) selection.owners[m] = 0;
+  const std::vector<std::string>& names = take.owner_names();
+  selection.owners = select_names(names, settings, take.has_joints() ? "joint" : "marker");
+  selection.noise = noise_of(names, settings);
+  if (take.has_joints()) {
+    selection.root_position = settings.root_position && selection.owners[0] != 0 &&
+                              take.skeleton.has_position_channels(0);
+    return selection;
   }
-  selection.body_height = body_height(clip);
-  selection.noise = noise_of(clip.names, settings);
+  for (std::size_t m = 0; m < take.marker_count(); ++m) {
+    if (!take.holds_positions(m)) selection.owners[m] = 0;
+  }
+  selection.body_height = body_height(take);
   return selection;
 }
 

@@ -14,10 +14,9 @@ namespace kinemend {
 /// Errors: `ErrorKind::usage` for a number or range that is out of range.
 void check_settings(const CleanSettings& settings, std::size_t frames);
 
-/// What the settings select: of joints the root position with joint 0, where it has channels.
-/// Errors: `ErrorKind::usage` for a pattern that matches nothing.
-Selection selection_of(const Clip& clip, const CleanSettings& settings);
-Selection selection_of(const MarkerClip& clip, const CleanSettings& settings);
+/// What the settings select: of joints the root position with joint 0, where it has channels; of
+/// markers those that are positions. Errors: `ErrorKind::usage` for a pattern that matches nothing.
+Selection selection_of(const Take& clip, const CleanSettings& settings);
 
 /// 1 for each of `names` that `settings.joints` means and `settings.exclude` does not. `kind`
 /// ("joint", "marker") stands in messages. Errors: `ErrorKind::usage` for a pattern that matches

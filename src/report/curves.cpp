@@ -15,8 +15,7 @@ namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-template <class AnyTake>
-void check_lengths(const AnyTake& before, const AnyTake& after) {
+void check_lengths(const Take& before, const Take& after) {
   if (before.frame_count() != after.frame_count()) {
     throw Error(ErrorKind::usage, fmt::format("curves: {} frames before and {} after",
                                               before.frame_count(), after.frame_count()));
@@ -45,7 +44,7 @@ void put(Vec3 position, std::size_t frame, std::vector<std::vector<double>>& cur
 
 }  // namespace
 
-TrackCurves rotation_curves(const Clip& before, const Clip& after, std::size_t joint) {
+TrackCurves rotation_curves(const Take& before, const Take& after, std::size_t joint) {
   check_lengths(before, after);
   check_track(joint, before.joint_count(), after.joint_count());
   RotationOrder order = before.skeleton.rotation_order(joint);
@@ -77,7 +76,7 @@ TrackCurves rotation_curves(const Clip& before, const Clip& after, std::size_t j
   return curves;
 }
 
-TrackCurves root_curves(const Clip& before, const Clip& after) {
+TrackCurves root_curves(const Take& before, const Take& after) {
   check_lengths(before, after);
   check_track(0, before.joint_count(), after.joint_count());
   TrackCurves curves = empty_curves({"X", "Y", "Z"}, before.frame_count());
@@ -97,7 +96,7 @@ TrackCurves root_curves(const Clip& before, const Clip& after) {
   return curves;
 }
 
-TrackCurves marker_curves(const MarkerClip& before, const MarkerClip& after, std::size_t marker) {
+TrackCurves marker_curves(const Take& before, const Take& after, std::size_t marker) {
   check_lengths(before, after);
   check_track(marker, before.marker_count(), after.marker_count());
   TrackCurves curves = empty_curves({"X", "Y", "Z"}, before.frame_count());

@@ -31,7 +31,7 @@ struct Poses {
   std::vector<std::pair<std::size_t, std::size_t>> bones;
 };
 
-Poses poses_of(const Clip& clip, const std::vector<std::size_t>& frames) {
+Poses poses_of_joints(const Take& clip, const std::vector<std::size_t>& frames) {
   Poses poses;
   const Skeleton& skeleton = clip.skeleton;
   for (std::size_t j = 1; j < skeleton.joint_count(); ++j) {
@@ -53,7 +53,8 @@ Poses poses_of(const Clip& clip, const std::vector<std::size_t>& frames) {
   return poses;
 }
 
-Poses poses_of(const MarkerClip& clip, const std::vector<std::size_t>& frames) {
+Poses poses_of(const Take& clip, const std::vector<std::size_t>& frames) {
+  if (clip.has_joints()) return poses_of_joints(clip, frames);
   Poses poses;
   for (const std::size_t frame : frames) {
     auto& points = poses.moments.emplace_back();
@@ -145,9 +146,10 @@ std::vector<std::size_t> moments_of(std::size_t frame_count, FrameSpanToDraw spa
   return frames;
 }
 
-template <class AnyTake>
-std::string film_strip(const AnyTake& before, const AnyTake* after, FrameSpanToDraw span,
-                       std::size_t count) {
+}  // namespace
+
+std::string film_strip_svg(const Take& before, const Take* after, FrameSpanToDraw span,
+                           std::size_t count) {
   if (after != nullptr && before.frame_count() != after->frame_count()) {
     throw Error(ErrorKind::usage, fmt::format("film strip: {} frames before and {} after",
                                               before.frame_count(), after->frame_count()));
@@ -161,7 +163,7 @@ std::string film_strip(const AnyTake& before, const AnyTake* after, FrameSpanToD
              fmt::format("text-anchor=\"middle\" fill=\"{}\"", inks::quiet), "no frames");
   } else {
     const double slot = (strip_width - 40) / static_cast<double>(frames.size());
-    const AnyTake& last = after != nullptr ? *after : before;
+    const Take& last = after != nullptr ? *after : before;
     const Poses poses = poses_of(last, frames);
     const Poses old_poses = after != nullptr ? poses_of(before, frames) : Poses();
     const View view = view_of(poses, static_cast<std::size_t>(guess_up_axis(last)), slot);
@@ -177,18 +179,6 @@ std::string film_strip(const AnyTake& before, const AnyTake* after, FrameSpanToD
   }
   svg.close_group();
   return std::move(svg).finish();
-}
-
-}  // namespace
-
-std::string film_strip_svg(const Clip& before, const Clip* after, FrameSpanToDraw frames,
-                           std::size_t poses) {
-  return film_strip(before, after, frames, poses);
-}
-
-std::string film_strip_svg(const MarkerClip& before, const MarkerClip* after,
-                           FrameSpanToDraw frames, std::size_t poses) {
-  return film_strip(before, after, frames, poses);
 }
 
 }  // namespace kinemend

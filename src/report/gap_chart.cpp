@@ -54,16 +54,9 @@ void draw_row(Svg& svg, const Row& row, std::size_t frames, bool two, double y) 
            fmt::format("{:.1f} %", share));
 }
 
-std::size_t count_tracks(const Clip& clip) { return clip.joint_count(); }
-// Points that are angles or forces have no gaps.
-std::size_t count_tracks(const MarkerClip& clip) {
-  std::size_t count = 0;
-  for (std::size_t m = 0; m < clip.marker_count(); ++m) count += clip.holds_positions(m) ? 1 : 0;
-  return count;
-}
+}  // namespace
 
-template <class AnyTake>
-std::string gap_chart(const AnyTake& before, const AnyTake* after) {
+std::string gap_chart_svg(const Take& before, const Take* after) {
   const TakeFacts facts = take_facts(before);
   std::vector<Row> rows(facts.tracks.size());
   for (const Gap& gap : find_gaps(before)) rows[gap.track].before.push_back(gap);
@@ -73,7 +66,8 @@ std::string gap_chart(const AnyTake& before, const AnyTake* after) {
     }
   }
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].name = facts.tracks[i];
-  const std::size_t all = count_tracks(before);
+  // Points that are angles or forces have no gaps.
+  const std::size_t all = before.has_joints() ? rows.size() : before.position_count();
   rows.erase(std::remove_if(rows.begin(), rows.end(),
                             [](const Row& row) { return row.before.empty() && row.after.empty(); }),
              rows.end());
@@ -95,15 +89,6 @@ std::string gap_chart(const AnyTake& before, const AnyTake* after) {
   }
   svg.close_group();
   return std::move(svg).finish();
-}
-
-}  // namespace
-
-std::string gap_chart_svg(const Clip& before, const Clip* after) {
-  return gap_chart(before, after);
-}
-std::string gap_chart_svg(const MarkerClip& before, const MarkerClip* after) {
-  return gap_chart(before, after);
 }
 
 }  // namespace kinemend

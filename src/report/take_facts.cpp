@@ -26,7 +26,7 @@ bool places_are_bytes(std::string_view format) { return format == "c3d"; }
 
 }  // namespace
 
-std::string contents_without_markers(const MarkerClip& clip) {
+std::string contents_without_markers(const Take& clip) {
   if (clip.marker_count() > 0) return "";
   for (const SourceFact& fact : clip.source.facts) {
     if (fact.name == "analog frames")
@@ -36,29 +36,22 @@ std::string contents_without_markers(const MarkerClip& clip) {
   return "no points";
 }
 
-TakeFacts take_facts(const Clip& clip) {
+TakeFacts take_facts(const Take& take) {
   TakeFacts facts;
-  facts.format = clip.source.format;
-  facts.unit = unit_name(clip.metres_per_unit);
-  facts.metres_per_unit = clip.metres_per_unit;
-  facts.tracks = clip.skeleton.names;
-  facts.frames = clip.frame_count();
-  facts.first_frame = first_frame_number(clip);
-  facts.frame_rate_hz = clip.frame_rate_hz;
-  return facts;
-}
-
-TakeFacts take_facts(const MarkerClip& clip) {
-  TakeFacts facts;
-  facts.kind = TakeKind::markers;
-  facts.format = clip.source.format;
-  facts.unit = clip.unit;
-  facts.metres_per_unit = metres_per_unit(clip.unit);
-  facts.tracks = clip.names;
-  facts.frames = clip.frame_count();
-  facts.first_frame = first_frame_number(clip);
-  facts.frame_rate_hz = clip.frame_rate_hz;
-  facts.contents = contents_without_markers(clip);
+  facts.format = take.source.format;
+  facts.tracks = take.owner_names();
+  facts.frames = take.frame_count();
+  facts.first_frame = first_frame_number(take);
+  facts.frame_rate_hz = take.frame_rate_hz;
+  if (take.has_joints()) {
+    facts.unit = unit_name(take.metres_per_unit);
+    facts.metres_per_unit = take.metres_per_unit;
+  } else {
+    facts.kind = TakeKind::markers;
+    facts.unit = take.unit;
+    facts.metres_per_unit = metres_per_unit(take.unit);
+    facts.contents = contents_without_markers(take);
+  }
   return facts;
 }
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::synth {
 

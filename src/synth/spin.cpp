@@ -28,11 +28,11 @@ struct Link {
 
 }  // namespace
 
-Clip spin(const SynthOptions& options, std::size_t frames) {
+Take spin(const SynthOptions& options, std::size_t frames) {
   Random random(options.seed);
   const RotationOrder order = parse_rotation_order("ZYX");
   std::array<Link, links> chain;
-  Clip clip;
+  Take clip;
   for (std::size_t i = 0; i < links; ++i) {
     const double direction = i % 2 == 0 ? 1 : -1;
     chain[i] = {direction * random.uniform(0.25, 0.4), random.uniform(0.2, 0.35), random.uniform(),

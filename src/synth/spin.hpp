@@ -10,6 +10,6 @@ namespace kinemend::synth {
 /// A chain of five joints whose first Euler angle (yaw) goes round and round while the second
 /// (pitch) swings to 88 degrees either way: rotations that turn smoothly where Euler angles are
 /// nearly locked.
-Clip spin(const SynthOptions& options, std::size_t frames);
+Take spin(const SynthOptions& options, std::size_t frames);
 
 }  // namespace kinemend::synth

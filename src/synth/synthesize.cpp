@@ -38,15 +38,15 @@ void check(const SynthOptions& options) {
               fmt::format("unknown motion {}; there are {}", options.motion, known));
 }
 
-void append(Clip& clip, const synth::BodyPose& pose) {
+void append(Take& clip, const synth::BodyPose& pose) {
   clip.positions.push_back(pose.root);
   clip.rotations.insert(clip.rotations.end(), pose.rotations.begin(), pose.rotations.end());
 }
 
-Clip humanoid(const SynthOptions& options, std::size_t frames) {
+Take humanoid(const SynthOptions& options, std::size_t frames) {
   Random random(options.seed);
   const synth::Body body(172 + 6 * std::clamp(random.normal(), -2.0, 2.0));
-  Clip clip;
+  Take clip;
   clip.skeleton = body.skeleton;
   if (options.t_pose_first) append(clip, {{0, body.straight_height(), 0}, {}});
   const synth::Motion motion =
@@ -61,11 +61,11 @@ Clip humanoid(const SynthOptions& options, std::size_t frames) {
 
 std::span<const std::string_view> synth_motions() { return motion_names; }
 
-Clip synthesize(const SynthOptions& options) {
+Take synthesize(const SynthOptions& options) {
   check(options);
   const auto frames = static_cast<std::size_t>(
       std::max(1.0, std::round(options.duration_s * options.frame_rate_hz)));
-  Clip clip = options.motion == "spin" ? synth::spin(options, frames) : humanoid(options, frames);
+  Take clip = options.motion == "spin" ? synth::spin(options, frames) : humanoid(options, frames);
   clip.frame_rate_hz = options.frame_rate_hz;
   clip.source.name = options.motion;
   const std::size_t joints = clip.joint_count();

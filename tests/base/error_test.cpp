@@ -4,7 +4,6 @@
 
 #include <string>
 
-#include "kinemend/diagnostics.hpp"
 #include "kinemend/experimental/version.hpp"
 
 namespace kinemend {

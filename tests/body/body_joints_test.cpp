@@ -14,10 +14,10 @@ namespace {
 using namespace body_test;
 
 // What decoding makes of a copy of which all that the layout knows is destroyed.
-Clip decoded(const Clip& clip, const BodyLayout& layout) {
+Take decoded(const Take& clip, const BodyLayout& layout) {
   const BodyMatch match = match_body(layout, clip);
   const BodyChannels channels = encode_body(clip, layout, match);
-  Clip copy = clip;
+  Take copy = clip;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     for (const std::int32_t joint : match.tracks) {
       if (joint >= 0) copy.rotation(f, static_cast<std::size_t>(joint)) = exp({0.3, -1.2, 0.7});
@@ -28,14 +28,14 @@ Clip decoded(const Clip& clip, const BodyLayout& layout) {
   return copy;
 }
 
-double largest_turn(const Clip& a, const Clip& b) {
+double largest_turn(const Take& a, const Take& b) {
   double largest = 0;
   for (std::size_t i = 0; i < a.rotations.size(); ++i)
     largest = std::max(largest, angle_between(a.rotations[i], b.rotations[i]));
   return largest;
 }
 
-double largest_shift(const Clip& a, const Clip& b) {
+double largest_shift(const Take& a, const Take& b) {
   double largest = 0;
   for (std::size_t f = 0; f < a.frame_count(); ++f)
     largest = std::max(largest, norm(a.root_position(f) - b.root_position(f)));
@@ -44,15 +44,15 @@ double largest_shift(const Clip& a, const Clip& b) {
 
 TEST(BodyOfJoints, DecodesWhatItEncodes) {
   for (const char* motion : {"walk", "turn", "stroll", "jump", "punch"}) {
-    const Clip clip = walk(motion);
-    const Clip back = decoded(clip, layout_of(clip));
+    const Take clip = walk(motion);
+    const Take back = decoded(clip, layout_of(clip));
     EXPECT_LT(largest_turn(clip, back), 1e-9) << motion;
     EXPECT_LT(largest_shift(clip, back), 1e-9) << motion;
   }
 }
 
 TEST(BodyOfJoints, DoesNotSeeWhereAPersonStandsOrFaces) {
-  const Clip clip = walk("stroll");
+  const Take clip = walk("stroll");
   const BodyLayout layout = layout_of(clip);
   const BodyChannels expected = channels_of(layout, clip);
   for (const double heading : {0.4, 2.0, -3.1}) {
@@ -62,7 +62,7 @@ TEST(BodyOfJoints, DoesNotSeeWhereAPersonStandsOrFaces) {
 }
 
 TEST(BodyOfJoints, DoesNotSeeAxesAndUnits) {
-  const Clip clip = walk("stroll");
+  const Take clip = walk("stroll");
   const BodyLayout layout = layout_of(clip);
   const PoseMatrix expected = channels_of(layout, clip).poses;
   EXPECT_LT(
@@ -73,10 +73,10 @@ TEST(BodyOfJoints, DoesNotSeeAxesAndUnits) {
 }
 
 TEST(BodyOfJoints, DoesNotSeeHowFramesAreTurnedAtRest) {
-  const Clip clip = walk();
+  const Take clip = walk();
   const BodyLayout layout = layout_of(clip);
   // The same motion in frames that are turned at rest: rest' = a_parent^-1 rest a, q' = a^-1 q a.
-  Clip turned = clip;
+  Take turned = clip;
   Random random(5);
   std::vector<Quat> frames;
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
@@ -99,8 +99,8 @@ TEST(BodyOfJoints, DoesNotSeeHowFramesAreTurnedAtRest) {
 }
 
 // The same motion of a skeleton whose arms hang at rest, by 50 degrees.
-Clip with_hanging_arms(const Clip& clip) {
-  Clip result = clip;
+Take with_hanging_arms(const Take& clip) {
+  Take result = clip;
   Skeleton& skeleton = result.skeleton;
   for (const auto& [name, sign] : {std::pair("LeftArm", -1.0), std::pair("RightArm", 1.0)}) {
     const Quat hang = exp({0, 0, sign * 50 * radians_per_degree});
@@ -128,21 +128,21 @@ Clip with_hanging_arms(const Clip& clip) {
 }
 
 TEST(BodyOfJoints, DoesNotSeeWhetherArmsHangAtRest) {
-  const Clip clip = walk();
-  const Clip hanging = with_hanging_arms(clip);
+  const Take clip = walk();
+  const Take hanging = with_hanging_arms(clip);
   ASSERT_LT(norm(forward_kinematics(clip, 50).positions.back() -
                  forward_kinematics(hanging, 50).positions.back()),
             1e-9);
   const BodyLayout layout = layout_of(clip);
   const BodyChannels expected = channels_of(layout, clip), found = channels_of(layout, hanging);
   EXPECT_LT(largest_difference(expected.poses, found.poses), 0.05);
-  const Clip back = decoded(hanging, layout);
+  const Take back = decoded(hanging, layout);
   EXPECT_LT(largest_turn(hanging, back), 1e-9);
 }
 
 TEST(BodyOfJoints, MeasuresFromAStandingFrameWhereTheRestPoseStandsNoPerson) {
-  const Clip clip = walk();
-  Clip odd = clip;
+  const Take clip = walk();
+  Take odd = clip;
   // Bones whose frames point anywhere when nothing is turned: q' = a_parent^-1 q a with rest kept.
   Random random(8);
   std::vector<Quat> frames;
@@ -169,10 +169,10 @@ TEST(BodyOfJoints, MeasuresFromAStandingFrameWhereTheRestPoseStandsNoPerson) {
 }
 
 TEST(BodyOfJoints, KeepsItsFrameUnderNoise) {
-  const Clip clip = walk("stroll");
+  const Take clip = walk("stroll");
   const BodyLayout layout = layout_of(clip);
   const BodyChannels clean = channels_of(layout, clip);
-  Clip noisy = clip;
+  Take noisy = clip;
   Random random(1);
   for (Quat& q : noisy.rotations)
     q = normalized(q * exp(normal_vector(random, 2 * radians_per_degree)));
@@ -190,10 +190,10 @@ TEST(BodyOfJoints, KeepsItsFrameUnderNoise) {
 }
 
 TEST(BodyOfJoints, KeepsItsFrameUnderSpikes) {
-  const Clip clip = walk("stroll");
+  const Take clip = walk("stroll");
   const BodyLayout layout = layout_of(clip);
   const BodyChannels clean = channels_of(layout, clip);
-  Clip spiked = clip;
+  Take spiked = clip;
   for (std::size_t f = 10; f < clip.frame_count(); f += 37) {
     spiked.rotation(f, 0) = normalized(exp({0.5, 2.5, -1}) * spiked.rotation(f, 0));
     spiked.root_position(f) += Vec3{80, 50, -100};
@@ -209,7 +209,7 @@ TEST(BodyOfJoints, KeepsItsFrameUnderSpikes) {
 }
 
 TEST(BodyOfJoints, FollowsASteadyTurnToTheEnds) {
-  Clip clip = slice(walk("still"), 0, 1);
+  Take clip = slice(walk("still"), 0, 1);
   const std::size_t frames = 240;
   const Vec3 still = clip.root_position(0);
   const Quat facing = clip.rotation(0, 0);
@@ -233,7 +233,7 @@ TEST(BodyOfJoints, FollowsASteadyTurnToTheEnds) {
 }
 
 TEST(BodyOfJoints, KeepsItsHeadingThroughACartwheel) {
-  Clip clip = walk("still");
+  Take clip = walk("still");
   const BodyLayout layout = layout_of(walk());
   const std::size_t frames = clip.frame_count();
   for (std::size_t f = 0; f < frames; ++f) {
@@ -245,7 +245,7 @@ TEST(BodyOfJoints, KeepsItsHeadingThroughACartwheel) {
 }
 
 TEST(BodyOfJoints, MarksWhatWasNotMeasuredAndHoldsTheLastSeen) {
-  Clip clip = walk();
+  Take clip = walk();
   const BodyLayout layout = layout_of(clip);
   const BodyChannels whole = channels_of(layout, clip);
   const auto arm = static_cast<std::size_t>(clip.skeleton.find("LeftArm"));
@@ -271,14 +271,14 @@ TEST(BodyOfJoints, MarksWhatWasNotMeasuredAndHoldsTheLastSeen) {
 }
 
 TEST(BodyOfJoints, WritesTheChosenTracksOnly) {
-  const Clip clip = walk();
+  const Take clip = walk();
   const BodyLayout layout = layout_of(clip);
   const BodyMatch match = match_body(layout, clip);
   BodyChannels channels = encode_body(clip, layout, match);
   for (double& v : channels.poses.values) v += 5;
   std::vector<std::uint8_t> chosen(layout.track_count() + 1);
   chosen[track_named(layout, "LeftLeg")] = 1;
-  Clip changed = clip;
+  Take changed = clip;
   decode_body(channels, layout, match, changed, chosen);
   const auto leg = static_cast<std::size_t>(clip.skeleton.find("LeftLeg"));
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
@@ -294,11 +294,11 @@ TEST(BodyOfJoints, WritesTheChosenTracksOnly) {
 }
 
 TEST(BodyOfJoints, EncodesInTheFrameOfAGuide) {
-  const Clip clip = walk("stroll");
+  const Take clip = walk("stroll");
   const BodyLayout layout = layout_of(clip);
   const BodyMatch match = match_body(layout, clip);
   const BodyChannels guide = encode_body(clip, layout, match);
-  Clip spiked = clip;
+  Take spiked = clip;
   spiked.rotation(100, 0) = normalized(exp({0, 1, 0}) * clip.rotation(100, 0));
   spiked.root_position(50) += Vec3{0, 100, 0};
   const BodyChannels found = encode_body(spiked, layout, match, guide);
@@ -315,11 +315,11 @@ TEST(BodyOfJoints, EncodesInTheFrameOfAGuide) {
                         found.poses(100, 1) - guide.poses(100, 1),
                         found.poses(100, 2) - guide.poses(100, 2)}),
               degrees_per_radian, 3);
-  EXPECT_THROW(encode_body(Clip(slice(clip, 0, 9)), layout, match, guide), Error);
+  EXPECT_THROW(encode_body(Take(slice(clip, 0, 9)), layout, match, guide), Error);
 }
 
 TEST(BodyOfJoints, ContinuesRotationVectorsPastHalfATurn) {
-  Clip clip = walk("still");
+  Take clip = walk("still");
   const auto arm = static_cast<std::size_t>(clip.skeleton.find("LeftArm"));
   for (std::size_t f = 0; f < clip.frame_count(); ++f)
     clip.rotation(f, arm) = exp({2.8 + 0.8 * std::sin(0.0125 * static_cast<double>(f)), 0, 0});
@@ -339,7 +339,7 @@ TEST(BodyOfJoints, ContinuesRotationVectorsPastHalfATurn) {
 }
 
 TEST(BodyOfJoints, ForgetsWholeTurns) {
-  Clip clip = walk("still", 6);
+  Take clip = walk("still", 6);
   const auto hand = static_cast<std::size_t>(clip.skeleton.find("LeftHand"));
   // Once round in two seconds.
   const auto angle = [](std::size_t f) {
@@ -361,9 +361,9 @@ TEST(BodyOfJoints, ForgetsWholeTurns) {
 }
 
 TEST(BodyOfJoints, LeavesAloneWhatHoldsUpTheHips) {
-  const Clip clip = walk("stroll");
+  const Take clip = walk("stroll");
   // The same under a joint that turns and travels by itself.
-  Clip carried;
+  Take carried;
   carried.frame_rate_hz = clip.frame_rate_hz;
   carried.skeleton.add_joint("Reference", -1, {}, clip.skeleton.channels[0]);
   for (std::size_t j = 0; j < clip.joint_count(); ++j)
@@ -388,7 +388,7 @@ TEST(BodyOfJoints, LeavesAloneWhatHoldsUpTheHips) {
   const BodyMatch match = match_body(layout, carried);
   const BodyChannels channels = encode_body(carried, layout, match);
   EXPECT_LT(largest_difference(channels.poses, channels_of(layout, clip).poses), 1e-8);
-  Clip back = carried;
+  Take back = carried;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     back.rotation(f, 1) = {};
     back.position(f, 1) = {};
@@ -401,16 +401,16 @@ TEST(BodyOfJoints, LeavesAloneWhatHoldsUpTheHips) {
 }
 
 TEST(BodyOfJoints, TakesAnyNumberOfFrames) {
-  const Clip clip = walk();
+  const Take clip = walk();
   const BodyLayout layout = layout_of(clip);
   for (const std::size_t frames : {0, 1, 2, 3, 5}) {
-    const Clip few = slice(clip, 10, 10 + frames);
+    const Take few = slice(clip, 10, 10 + frames);
     const BodyMatch match = match_body(layout, few);
     const BodyChannels channels = encode_body(few, layout, match);
     EXPECT_EQ(channels.poses.frames, frames);
     EXPECT_EQ(channels.headings.size(), frames);
     for (const double v : channels.poses.values) EXPECT_TRUE(std::isfinite(v));
-    Clip back = few;
+    Take back = few;
     decode_body(channels, layout, match, back);
     EXPECT_LT(largest_turn(few, back), 1e-9);
   }

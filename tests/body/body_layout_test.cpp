@@ -71,7 +71,7 @@ TEST(BodyLayout, SaysWhichTrackBreaksARule) {
 }
 
 TEST(BodyLayoutBuilder, LearnsWhatMovesWithTheRootForemost) {
-  Clip clip = walk("wave");
+  Take clip = walk("wave");
   const auto knee = static_cast<std::size_t>(clip.skeleton.find("LeftLeg"));
   for (std::size_t f = 0; f < clip.frame_count(); ++f) clip.rotation(f, knee) = exp({0.2, 0, 0});
   const BodyLayout layout = layout_of(clip);
@@ -84,13 +84,13 @@ TEST(BodyLayoutBuilder, LearnsWhatMovesWithTheRootForemost) {
 }
 
 TEST(BodyLayoutBuilder, ReferencesAreMeansOverAllTakes) {
-  const Clip a = slice(walk(), 0, 100), b = slice(walk("stroll"), 30, 230);
+  const Take a = slice(walk(), 0, 100), b = slice(walk("stroll"), 30, 230);
   BodyLayoutBuilder builder;
   builder.add(a);
   builder.add(b);
   const BodyLayout layout = builder.finish();
   std::vector<Quat> rotations;
-  for (const Clip* clip : {&a, &b}) {
+  for (const Take* clip : {&a, &b}) {
     const auto arm = static_cast<std::size_t>(clip->skeleton.find("RightArm"));
     for (std::size_t f = 0; f < clip->frame_count(); ++f)
       rotations.push_back(clip->rotation(f, arm));
@@ -109,8 +109,8 @@ TEST(BodyLayoutBuilder, LearnsTheNamesAskedForAndTheRoot) {
 }
 
 TEST(BodyLayoutBuilder, DropsWhatMostTakesLack) {
-  const Clip clip = walk();
-  const Clip other = renamed(clip, {{"LeftHandThumb1", "Prop"}, {"LeftHandThumb2", "Prop2"}});
+  const Take clip = walk();
+  const Take other = renamed(clip, {{"LeftHandThumb1", "Prop"}, {"LeftHandThumb2", "Prop2"}});
   BodyLayoutBuilder builder;
   builder.add(clip);
   builder.add(other);
@@ -127,19 +127,19 @@ TEST(BodyLayoutBuilder, RefusesTakesThatItCannotLearnFrom) {
   builder.add(walk());
   EXPECT_THAT(usage_error_of([&] { builder.add(joint_markers(walk())); }),
               HasSubstr("takes of different kinds"));
-  const Clip chain = synthesize({"spin", 2, 60, 1, false});
+  const Take chain = synthesize({"spin", 2, 60, 1, false});
   EXPECT_THAT(usage_error_of([&] { builder.add(chain); }), HasSubstr("of which the take lacks"));
-  Clip still = slice(walk(), 0, 1);
+  Take still = slice(walk(), 0, 1);
   EXPECT_THAT(usage_error_of([&] { layout_of(still); }), HasSubstr("nothing moves"));
 }
 
 TEST(BodyLayoutBuilder, LearnsChainsThatAreNoBody) {
-  const Clip chain = synthesize({"spin", 4, 60, 1, false});
+  const Take chain = synthesize({"spin", 4, 60, 1, false});
   const BodyLayout layout = layout_of(chain);
   EXPECT_GE(layout.track_count(), 3U);
   const BodyMatch match = match_body(layout, chain);
   const BodyChannels channels = encode_body(chain, layout, match);
-  Clip back = chain;
+  Take back = chain;
   for (Quat& q : back.rotations) q = normalized(q * exp({0.1, 0.2, 0.3}));
   const std::vector<Quat> shaken = back.rotations;
   decode_body(channels, layout, match, back);
@@ -150,7 +150,7 @@ TEST(BodyLayoutBuilder, LearnsChainsThatAreNoBody) {
 }
 
 TEST(BodyLayoutBuilder, MarkersOfOneTakeAreThoseOfManyCopies) {
-  const MarkerClip clip = joint_markers(walk(), true);
+  const Take clip = joint_markers(walk(), true);
   BodyLayoutBuilder builder;
   builder.add(clip);
   builder.add(moved(clip, 2, {100, 30, 0}));

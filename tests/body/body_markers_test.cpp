@@ -12,11 +12,11 @@ namespace {
 using namespace body_test;
 using testing::HasSubstr;
 
-MarkerClip marker_walk(std::string motion = "walk") {
+Take marker_walk(std::string motion = "walk") {
   return joint_markers(walk(std::move(motion)), true);
 }
 
-double largest_shift(const MarkerClip& a, const MarkerClip& b) {
+double largest_shift_of_markers(const Take& a, const Take& b) {
   double largest = 0;
   for (std::size_t i = 0; i < a.positions.size(); ++i) {
     if (a.observed[i] != 0) largest = std::max(largest, norm(a.positions[i] - b.positions[i]));
@@ -30,13 +30,13 @@ bool is_of_an_arm(std::string_view name) {
 
 TEST(BodyOfMarkers, DecodesWhatItEncodes) {
   for (const char* motion : {"walk", "turn", "stroll", "jump"}) {
-    const MarkerClip clip = marker_walk(motion);
+    const Take clip = marker_walk(motion);
     const BodyLayout layout = layout_of(clip);
     const BodyMatch match = match_body(layout, clip);
-    MarkerClip back = clip;
+    Take back = clip;
     for (Vec3& p : back.positions) p = {1, 2, 3};
     decode_body(encode_body(clip, layout, match), layout, match, back);
-    EXPECT_LT(largest_shift(clip, back), 1e-9) << motion;
+    EXPECT_LT(largest_shift_of_markers(clip, back), 1e-9) << motion;
     EXPECT_EQ(clip.observed, back.observed);
   }
 }
@@ -54,11 +54,11 @@ TEST(BodyOfMarkers, StandsUprightAndFacesAhead) {
 }
 
 TEST(BodyOfMarkers, DoesNotSeePlaceHeadingAxesAndUnits) {
-  const MarkerClip clip = marker_walk("stroll");
+  const Take clip = marker_walk("stroll");
   const BodyLayout layout = layout_of(clip);
   const PoseMatrix expected = channels_of(layout, clip).poses;
   for (const double heading : {0.4, 2.0, -3.1}) {
-    const MarkerClip other = moved(clip, heading, {300, 20, -1000});
+    const Take other = moved(clip, heading, {300, 20, -1000});
     EXPECT_LT(largest_difference(expected, channels_of(layout, other).poses), 1e-7) << heading;
   }
   EXPECT_LT(
@@ -69,7 +69,7 @@ TEST(BodyOfMarkers, DoesNotSeePlaceHeadingAxesAndUnits) {
 }
 
 TEST(BodyOfMarkers, MeansAreZeroWhereTheyWereLearned) {
-  const MarkerClip clip = marker_walk();
+  const Take clip = marker_walk();
   const BodyLayout layout = layout_of(clip);
   const BodyChannels channels = channels_of(layout, clip);
   for (std::size_t c = 0; c < layout.channel_count(); ++c) {
@@ -80,10 +80,10 @@ TEST(BodyOfMarkers, MeansAreZeroWhereTheyWereLearned) {
 }
 
 TEST(BodyOfMarkers, KeepsItsFrameUnderNoiseAndSpikes) {
-  const MarkerClip clip = marker_walk("stroll");
+  const Take clip = marker_walk("stroll");
   const BodyLayout layout = layout_of(clip);
   const BodyChannels clean = channels_of(layout, clip);
-  MarkerClip noisy = clip;
+  Take noisy = clip;
   Random random(1);
   for (Vec3& p : noisy.positions) p += normal_vector(random, 1);
   for (std::size_t f = 10; f < clip.frame_count(); f += 37) {
@@ -102,10 +102,10 @@ TEST(BodyOfMarkers, KeepsItsFrameUnderNoiseAndSpikes) {
 }
 
 TEST(BodyOfMarkers, HeedsNoAnchorThatLiesFarOff) {
-  const MarkerClip clip = marker_walk("stroll");
+  const Take clip = marker_walk("stroll");
   const BodyLayout layout = layout_of(clip);
   const BodyChannels clean = channels_of(layout, clip);
-  MarkerClip odd = clip;
+  Take odd = clip;
   const auto shoulder = static_cast<std::size_t>(clip.find("LeftArm"));
   ASSERT_NE(layout.anchors[track_named(layout, "LeftArm")], 0);
   for (std::size_t f = 40; f < 120; ++f) odd.position(f, shoulder) += Vec3{60, 0, 40};
@@ -117,10 +117,10 @@ TEST(BodyOfMarkers, HeedsNoAnchorThatLiesFarOff) {
 }
 
 TEST(BodyOfMarkers, HardlyMissesBothArms) {
-  const MarkerClip clip = marker_walk("stroll");
+  const Take clip = marker_walk("stroll");
   const BodyLayout layout = layout_of(clip);
   const BodyChannels whole = channels_of(layout, clip);
-  MarkerClip armless = clip;
+  Take armless = clip;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
     if (!is_of_an_arm(clip.names[m])) continue;
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -140,7 +140,7 @@ TEST(BodyOfMarkers, HardlyMissesBothArms) {
       EXPECT_LT(rms_difference(whole.poses, channels.poses, i), 1.5) << layout.names[i];
   }
   // As another body, whose layout does not know arms.
-  MarkerClip without = make_marker_clip({}, 0, clip.frame_rate_hz);
+  Take without = make_marker_take({}, 0, clip.frame_rate_hz);
   for (const std::string& name : clip.names) {
     if (!is_of_an_arm(name)) without.names.push_back(name);
   }
@@ -157,10 +157,10 @@ TEST(BodyOfMarkers, HardlyMissesBothArms) {
 }
 
 TEST(BodyOfMarkers, BridgesFramesWithoutAnchors) {
-  const MarkerClip clip = marker_walk();
+  const Take clip = marker_walk();
   const BodyLayout layout = layout_of(clip);
   const BodyChannels whole = channels_of(layout, clip);
-  MarkerClip gappy = clip;
+  Take gappy = clip;
   for (std::size_t f = 60; f < 90; ++f) {
     for (std::size_t m = 0; m < clip.marker_count(); ++m)
       gappy.observed[f * clip.marker_count() + m] = 0;
@@ -174,31 +174,31 @@ TEST(BodyOfMarkers, BridgesFramesWithoutAnchors) {
   EXPECT_EQ(channels.observed[75 * layout.channel_count()], 0);
 }
 
-MarkerClip of_subject(MarkerClip clip, const std::string& prefix) {
+Take of_subject(Take clip, const std::string& prefix) {
   for (std::string& name : clip.names) name = prefix + name;
   return clip;
 }
 
 TEST(BodyOfMarkers, FindsNamesInAnyCaseAndOfAnySubject) {
-  const MarkerClip clip = joint_markers(walk());
+  const Take clip = joint_markers(walk());
   const BodyLayout layout = layout_of(clip);
   const auto tracks = match_body(layout, clip).tracks;
   for (const char* prefix : {"Ann:", "Subject36_"}) {
-    const MarkerClip ann = of_subject(clip, prefix);
+    const Take ann = of_subject(clip, prefix);
     EXPECT_EQ(match_body(layout, ann).tracks, tracks) << prefix;
     EXPECT_EQ(match_body(layout_of(ann), clip).tracks, tracks) << prefix;
   }
-  MarkerClip upper = clip;
+  Take upper = clip;
   for (std::string& name : upper.names)
     std::transform(name.begin(), name.end(), name.begin(), ::toupper);
   EXPECT_EQ(match_body(layout, upper).tracks, tracks);
 }
 
 TEST(BodyOfMarkers, DoesNotMixTwoPeople) {
-  const MarkerClip clip = joint_markers(walk());
+  const Take clip = joint_markers(walk());
   const BodyLayout layout = layout_of(clip);
   const std::size_t count = clip.marker_count();
-  MarkerClip two = of_subject(clip, "Ann:");
+  Take two = of_subject(clip, "Ann:");
   for (const std::string& name : clip.names) two.names.push_back("Bob:" + name);
   two.names[3] = "Ann:lost";
   two.positions.clear();
@@ -220,9 +220,9 @@ TEST(BodyOfMarkers, DoesNotMixTwoPeople) {
 }
 
 TEST(BodyOfMarkers, RefusesWhatItDoesNotKnow) {
-  const MarkerClip clip = marker_walk();
+  const Take clip = marker_walk();
   const BodyLayout layout = layout_of(clip);
-  MarkerClip other = clip;
+  Take other = clip;
   for (std::size_t m = 3; m < clip.marker_count(); ++m) other.names[m] = "x" + std::to_string(m);
   try {
     match_body(layout, other);
@@ -242,10 +242,10 @@ TEST(BodyOfMarkers, RefusesWhatItDoesNotKnow) {
 }
 
 TEST(BodyOfMarkers, TakesAnyNumberOfFrames) {
-  const MarkerClip clip = marker_walk();
+  const Take clip = marker_walk();
   const BodyLayout layout = layout_of(clip);
   for (const std::size_t frames : {0, 1, 2, 3}) {
-    MarkerClip few = slice(clip, 10, 10 + frames);
+    Take few = slice(clip, 10, 10 + frames);
     const BodyMatch match = match_body(layout, few);
     const BodyChannels channels = encode_body(few, layout, match);
     EXPECT_EQ(channels.poses.frames, frames);

@@ -16,7 +16,7 @@ using testing::IsEmpty;
 using testing::Not;
 
 // The take's name for a track of the layout; "-": none.
-std::string matched(const BodyLayout& layout, const Clip& clip, std::string_view track,
+std::string matched(const BodyLayout& layout, const Take& clip, std::string_view track,
                     const NameMap& names = {}) {
   const std::int32_t joint = match_body(layout, clip, names).tracks[track_named(layout, track)];
   return joint < 0 ? "-" : clip.skeleton.names[static_cast<std::size_t>(joint)];
@@ -58,10 +58,10 @@ const std::map<std::string, std::string>& cmu_names() {
 }
 
 TEST(MatchBody, FindsTheUsualSpellings) {
-  const Clip clip = walk();
+  const Take clip = walk();
   const BodyLayout layout = layout_of(clip);
   const auto expect_same = [&](const std::map<std::string, std::string>& names) {
-    const Clip other = renamed(clip, names);
+    const Take other = renamed(clip, names);
     for (const auto& [from, to] : names) {
       if (track_named(layout, from) == layout.track_count()) continue;
       EXPECT_EQ(matched(layout, other, from), to);
@@ -106,10 +106,10 @@ TEST(MatchBody, FindsTheUsualSpellings) {
 }
 
 // The clip without a joint: its children hang on its parent, turned and placed as they were.
-Clip without_joint(const Clip& clip, std::string_view name) {
+Take without_joint(const Take& clip, std::string_view name) {
   const auto gone = static_cast<std::size_t>(clip.skeleton.find(name));
   const std::int32_t above = clip.skeleton.parents[gone];
-  Clip result;
+  Take result;
   result.frame_rate_hz = clip.frame_rate_hz;
   result.positions = clip.positions;
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
@@ -135,19 +135,19 @@ Clip without_joint(const Clip& clip, std::string_view name) {
 }
 
 TEST(MatchBody, TellsTrunksOfOtherLengthsByTheirEnds) {
-  const Clip clip = walk();
+  const Take clip = walk();
   const BodyLayout layout = layout_of(clip);
-  const Clip two =
+  const Take two =
       renamed(without_joint(clip, "Spine1"), {{"Spine", "Abdomen"}, {"Spine2", "Chest"}});
   EXPECT_EQ(matched(layout, two, "Spine"), "Abdomen");
   EXPECT_EQ(matched(layout, two, "Spine1"), "-");
   EXPECT_EQ(matched(layout, two, "Spine2"), "Chest");
   EXPECT_EQ(matched(layout, two, "LeftArm"), "LeftArm");
-  const Clip one =
+  const Take one =
       renamed(without_joint(without_joint(clip, "Spine1"), "Spine"), {{"Spine2", "Torso"}});
   EXPECT_EQ(matched(layout, one, "Spine"), "-");
   EXPECT_EQ(matched(layout, one, "Spine2"), "Torso");
-  const Clip neckless = without_joint(clip, "Neck1");
+  const Take neckless = without_joint(clip, "Neck1");
   EXPECT_EQ(matched(layout, neckless, "Neck"), "Neck");
   EXPECT_EQ(matched(layout, neckless, "Neck1"), "-");
   EXPECT_EQ(matched(layout, neckless, "Head"), "Head");
@@ -158,9 +158,9 @@ TEST(MatchBody, TellsTrunksOfOtherLengthsByTheirEnds) {
 }
 
 TEST(MatchBody, FindsByTopologyWhatHasAnotherName) {
-  const Clip clip = walk();
+  const Take clip = walk();
   const BodyLayout layout = layout_of(clip);
-  const Clip odd = renamed(clip, {{"Hips", "XYZ"}, {"LeftLeg", "Knie"}, {"RightForeArm", "Q7"}});
+  const Take odd = renamed(clip, {{"Hips", "XYZ"}, {"LeftLeg", "Knie"}, {"RightForeArm", "Q7"}});
   EXPECT_EQ(matched(layout, odd, "Hips"), "XYZ");
   EXPECT_EQ(matched(layout, odd, "LeftLeg"), "Knie");
   EXPECT_EQ(matched(layout, odd, "RightForeArm"), "Q7");
@@ -169,10 +169,10 @@ TEST(MatchBody, FindsByTopologyWhatHasAnotherName) {
 }
 
 TEST(MatchBody, LetsGoOfJointsThatHangElsewhere) {
-  const Clip clip = walk();
+  const Take clip = walk();
   const BodyLayout layout = layout_of(clip);
   // An arm on the hips.
-  Clip odd = renamed(clip, {{"Head", "Skull"}});
+  Take odd = renamed(clip, {{"Head", "Skull"}});
   odd.skeleton.parents[static_cast<std::size_t>(odd.skeleton.find("LeftArm"))] = 0;
   const BodyMatch match = match_body(layout, odd);
   EXPECT_EQ(matched(layout, odd, "LeftArm"), "-");
@@ -182,7 +182,7 @@ TEST(MatchBody, LetsGoOfJointsThatHangElsewhere) {
 }
 
 TEST(MatchBody, ListsWhatIsMissingAndUnknown) {
-  const Clip clip = walk();
+  const Take clip = walk();
   const BodyLayout layout = layout_of(clip);
   const BodyMatch match =
       match_body(layout, without_joint(renamed(clip, {{"Head", "Lamp"}}), "LeftToeBase"));
@@ -206,7 +206,7 @@ TEST(MatchBody, RefusesAStrangerWithTheJointsNamed) {
 }
 
 TEST(MatchBody, TakesTheWordOfANameMap) {
-  const Clip clip = walk();
+  const Take clip = walk();
   const BodyLayout layout = layout_of(clip);
   std::map<std::string, std::string> numbers;
   NameMap map;
@@ -215,7 +215,7 @@ TEST(MatchBody, TakesTheWordOfANameMap) {
     numbers[name] = "bone-" + std::to_string(j) + "x";
     if (track_named(layout, name) < layout.track_count()) map[name] = numbers[name];
   }
-  const Clip other = renamed(clip, numbers);
+  const Take other = renamed(clip, numbers);
   EXPECT_THROW(match_body(layout, other), Error);
   EXPECT_THAT(match_body(layout, other, map).missing, IsEmpty());
   // Body height, floor and axes are told as well as by usual names.
@@ -227,7 +227,7 @@ TEST(MatchBody, TakesTheWordOfANameMap) {
 }
 
 TEST(MatchBody, RefusesNamesOfAMapThatThereAreNot) {
-  const Clip clip = walk();
+  const Take clip = walk();
   const BodyLayout layout = layout_of(clip);
   const auto message = [&](const NameMap& map) -> std::string {
     try {
@@ -243,7 +243,7 @@ TEST(MatchBody, RefusesNamesOfAMapThatThereAreNot) {
 }
 
 TEST(MatchBody, MeasuresBodyHeightWhateverTheRestPose) {
-  const Clip clip = walk();
+  const Take clip = walk();
   const BodyLayout layout = layout_of(clip);
   const double body_height = match_body(layout, clip).body_height;
   EXPECT_NEAR(body_height, 172, 10);
@@ -251,7 +251,7 @@ TEST(MatchBody, MeasuresBodyHeightWhateverTheRestPose) {
 }
 
 TEST(MatchBody, IsExactForTheSameSkeleton) {
-  const Clip clip = walk();
+  const Take clip = walk();
   const BodyMatch match = match_body(layout_of(clip), clip);
   EXPECT_EQ(match.upright, Quat{});
   for (std::size_t i = 0; i < match.tracks.size(); ++i) {
@@ -262,8 +262,8 @@ TEST(MatchBody, IsExactForTheSameSkeleton) {
 
 TEST(MatchBody, FindsTheWorldsUpAxisWhereTheRestPoseHasAnother) {
   // A skeleton that stands along z at rest, in a world whose y is up.
-  const Clip clip = walk("stroll");
-  Clip z_up = turn_axes(clip, Axis::y, Axis::z);
+  const Take clip = walk("stroll");
+  Take z_up = turn_axes(clip, Axis::y, Axis::z);
   const Quat back = exp({-pi / 2, 0, 0});
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     z_up.rotation(f, 0) = back * z_up.rotation(f, 0);
@@ -278,9 +278,9 @@ TEST(MatchBody, FindsTheWorldsUpAxisWhereTheRestPoseHasAnother) {
 }
 
 TEST(MatchBody, StaysTheSameUnderNoise) {
-  const Clip clip = walk("stroll");
+  const Take clip = walk("stroll");
   const BodyLayout layout = layout_of(clip);
-  Clip noisy = turn_axes(clip, Axis::y, Axis::z);
+  Take noisy = turn_axes(clip, Axis::y, Axis::z);
   const BodyMatch expected = match_body(layout, noisy);
   Random random(7);
   for (Quat& q : noisy.rotations)

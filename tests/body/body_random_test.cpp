@@ -27,8 +27,8 @@ std::vector<std::uint8_t> some(Random& random, std::size_t count) {
   return marks;
 }
 
-Clip random_clip(Random& random) {
-  Clip clip;
+Take random_clip(Random& random) {
+  Take clip;
   clip.frame_rate_hz = 60;
   const std::size_t joints = 1 + below(random, 16), frames = below(random, 20);
   for (std::size_t j = 0; j < joints; ++j) {
@@ -50,10 +50,10 @@ Clip random_clip(Random& random) {
   return clip;
 }
 
-MarkerClip random_markers(Random& random) {
+Take random_markers(Random& random) {
   std::vector<std::string> markers(below(random, 12));
   for (std::string& name : markers) name = names[below(random, names.size())];
-  MarkerClip clip = make_marker_clip(markers, below(random, 20), 60);
+  Take clip = make_marker_take(markers, below(random, 20), 60);
   clip.observed = some(random, clip.positions.size());
   const auto size = static_cast<double>(below(random, 3));
   for (std::size_t i = 0; i < clip.positions.size(); ++i) {
@@ -64,8 +64,7 @@ MarkerClip random_markers(Random& random) {
 }
 
 // Whether the second take was one of the first one's body.
-template <class AnyClip>
-bool survives(const AnyClip& learned, AnyClip clip) {
+bool survives(const Take& learned, Take clip) {
   try {
     const BodyLayout layout = layout_of(learned);
     const BodyMatch match = match_body(layout, clip);
@@ -84,9 +83,9 @@ TEST(RandomBodies, GiveFiniteChannelsOrAnError) {
   Random random(11);
   int joints = 0, markers = 0;
   for (int i = 0; i < 300; ++i) {
-    const Clip clip = random_clip(random);
+    const Take clip = random_clip(random);
     joints += survives(clip, clip) + survives(clip, random_clip(random));
-    const MarkerClip marker_clip = random_markers(random);
+    const Take marker_clip = random_markers(random);
     markers += survives(marker_clip, marker_clip) + survives(marker_clip, random_markers(random));
   }
   EXPECT_GT(joints, 100);

@@ -16,16 +16,14 @@ std::filesystem::path data(std::string_view path) {
   return std::filesystem::path(KINEMEND_DATA_FOLDER) / path;
 }
 
-Clip motion(std::string_view path) {
-  const Clip clip = read_clip(data(path)).clip;
+Take motion(std::string_view path) {
+  const Take clip = read_joints(data(path)).take;
   return slice(clip, leading_calibration_frames(clip), clip.frame_count());
 }
 
-MarkerClip markers(std::string_view path) {
-  return std::get<MarkerClip>(read_take(data(path)).take);
-}
+Take markers(std::string_view path) { return read_take(data(path)).take; }
 
-std::string_view take_name(const Clip& clip, const BodyMatch& match, std::size_t track) {
+std::string_view take_name(const Take& clip, const BodyMatch& match, std::size_t track) {
   return match.tracks[track] < 0
              ? std::string_view("-")
              : clip.skeleton.names[static_cast<std::size_t>(match.tracks[track])];
@@ -37,9 +35,9 @@ TEST(RealBodies, DecodeWhatTheyEncode) {
        {"cmu/bvh/35_01.bvh", "cmu/bvh/01_01.bvh", "cmu/amc/05/05_02.amc", "cmu/amc/49/49_01.amc",
         "bvh-other/bvh-python/test_freebvh.bvh", "bvh-other/pybvh/bvh_data_bvh_example.bvh",
         "bvh-other/bvh-python/test_mocapbank.bvh", "paired/S02-Trial-Walk-1-xsens.bvh"}) {
-    const Clip clip = motion(path);
+    const Take clip = motion(path);
     const BodyMatch match = match_body(layout, clip);
-    Clip back = clip;
+    Take back = clip;
     for (const std::int32_t joint : match.tracks) {
       for (std::size_t f = 0; joint >= 0 && f < clip.frame_count(); ++f)
         back.rotation(f, static_cast<std::size_t>(joint)) = exp({0.3, 0.2, 1});
@@ -60,7 +58,7 @@ TEST(RealBodies, SeeOneTakeInTwoFormatsAlike) {
                                  std::pair("cmu/bvh/07_01.bvh", "cmu/amc/07/07_01.amc"),
                                  std::pair("cmu/bvh/09_01.bvh", "cmu/amc/09/09_01.amc")}) {
     if (!std::filesystem::exists(data(bvh)) || !std::filesystem::exists(data(amc))) continue;
-    const Clip a = motion(bvh), b = motion(amc);
+    const Take a = motion(bvh), b = motion(amc);
     const BodyLayout layout = layout_of(a);
     const BodyMatch match = match_body(layout, b);
     EXPECT_THAT(match.missing, IsEmpty()) << amc;
@@ -78,7 +76,7 @@ TEST(RealBodies, SeeOneTakeInTwoFormatsAlike) {
 TEST(RealBodies, FindTheJointsOfOtherSkeletons) {
   const BodyLayout layout = layout_of(motion("cmu/bvh/35_01.bvh"));
   const auto expect = [&](const char* path, const std::map<std::string, std::string>& names) {
-    const Clip clip = motion(path);
+    const Take clip = motion(path);
     const BodyMatch match = match_body(layout, clip);
     for (const auto& [track, name] : names)
       EXPECT_EQ(take_name(clip, match, track_named(layout, track)), name) << path << " " << track;
@@ -113,7 +111,7 @@ TEST(RealBodies, SeeWalksOfOtherSkeletonsMuchAlike) {
        {"bvh-other/bvh-python/test_freebvh.bvh", "bvh-other/Mocap-Data-Utilities/Male1_B3_Walk.bvh",
         "bvh-other/bandai-namco/dataset-1_walk_normal_001.bvh",
         "bvh-other/pybvh/bvh_data_bvh_example.bvh", "paired/S02-Trial-Walk-1-xsens.bvh"}) {
-    const Clip clip = motion(path);
+    const Take clip = motion(path);
     const BodyMatch match = match_body(layout, clip);
     const BodyChannels channels = encode_body(clip, layout, match);
     for (const char* name : {"Hips", "LeftUpLeg", "LeftLeg", "RightUpLeg", "RightLeg", "LowerBack",
@@ -131,7 +129,7 @@ TEST(RealBodies, SeeWalksOfOtherSkeletonsMuchAlike) {
 }
 
 TEST(RealBodies, OfMarkersDecodeAndStand) {
-  const MarkerClip clip = markers("cmu/c3d/85_12.c3d");
+  const Take clip = markers("cmu/c3d/85_12.c3d");
   const BodyLayout layout = layout_of(clip);
   const auto is_anchor = [&](const char* name) {
     return layout.anchors[track_named(layout, name)] != 0;
@@ -141,11 +139,11 @@ TEST(RealBodies, OfMarkersDecodeAndStand) {
   for (const char* name : {"LFIN", "RELB", "LTOE", "RKNE"}) EXPECT_FALSE(is_anchor(name)) << name;
   EXPECT_GT(layout.means[track_named(layout, "LSHO")].x, 0.05);
   EXPECT_LT(layout.means[track_named(layout, "RSHO")].x, -0.05);
-  const MarkerClip other = markers("cmu/c3d/85_02.c3d");
+  const Take other = markers("cmu/c3d/85_02.c3d");
   const BodyMatch match = match_body(layout, other);
   EXPECT_THAT(match.missing, IsEmpty());
   EXPECT_NEAR(match.body_height, 1700, 60);
-  MarkerClip back = other;
+  Take back = other;
   for (Vec3& p : back.positions) p = {};
   decode_body(encode_body(other, layout, match), layout, match, back);
   for (std::size_t f = 0; f < other.frame_count(); ++f) {
@@ -158,7 +156,7 @@ TEST(RealBodies, OfMarkersDecodeAndStand) {
 }
 
 TEST(RealBodies, HardlyMissTheMarkersOfBothArms) {
-  const MarkerClip clip = markers("cmu/c3d/85_12.c3d");
+  const Take clip = markers("cmu/c3d/85_12.c3d");
   const BodyLayout layout = layout_of(clip);
   const BodyChannels whole = channels_of(layout, clip);
   const auto is_of_an_arm = [](std::string_view name) {
@@ -167,7 +165,7 @@ TEST(RealBodies, HardlyMissTheMarkersOfBothArms) {
     }
     return false;
   };
-  MarkerClip armless = clip;
+  Take armless = clip;
   for (std::size_t i = 0; i < armless.observed.size(); ++i) {
     if (is_of_an_arm(clip.names[i % clip.marker_count()])) armless.observed[i] = 0;
   }

@@ -13,19 +13,18 @@
 // Takes and comparisons for the tests of bodies.
 namespace kinemend::body_test {
 
-inline Clip walk(std::string motion = "walk", double duration_s = 4, double frame_rate_hz = 60) {
+inline Take walk(std::string motion = "walk", double duration_s = 4, double frame_rate_hz = 60) {
   return synthesize({std::move(motion), duration_s, frame_rate_hz, 3, false});
 }
 
-template <class AnyClip>
-BodyLayout layout_of(const AnyClip& clip) {
+inline BodyLayout layout_of(const Take& clip) {
   BodyLayoutBuilder builder;
   builder.add(clip);
   return builder.finish();
 }
 
-template <class AnyClip>
-BodyChannels channels_of(const BodyLayout& layout, const AnyClip& clip, const NameMap& names = {}) {
+inline BodyChannels channels_of(const BodyLayout& layout, const Take& clip,
+                                const NameMap& names = {}) {
   return encode_body(clip, layout, match_body(layout, clip, names));
 }
 
@@ -52,8 +51,12 @@ inline std::size_t track_named(const BodyLayout& layout, std::string_view name) 
 }
 
 // The whole take turned about its vertical, y, and moved.
-inline Clip moved(Clip clip, double heading, Vec3 by) {
+inline Take moved(Take clip, double heading, Vec3 by) {
   const Quat turn = exp({0, heading, 0});
+  if (!clip.has_joints()) {
+    for (Vec3& p : clip.positions) p = rotate(turn, p) + by;
+    return clip;
+  }
   const Quat rest = clip.skeleton.rest_rotations[0];
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     clip.rotation(f, 0) = normalized(conjugate(rest) * turn * rest * clip.rotation(f, 0));
@@ -61,13 +64,8 @@ inline Clip moved(Clip clip, double heading, Vec3 by) {
   }
   return clip;
 }
-inline MarkerClip moved(MarkerClip clip, double heading, Vec3 by) {
-  const Quat turn = exp({0, heading, 0});
-  for (Vec3& p : clip.positions) p = rotate(turn, p) + by;
-  return clip;
-}
 
-inline Clip renamed(Clip clip, const std::map<std::string, std::string>& names) {
+inline Take renamed(Take clip, const std::map<std::string, std::string>& names) {
   for (std::string& name : clip.skeleton.names) {
     if (const auto found = names.find(name); found != names.end()) name = found->second;
   }

@@ -46,9 +46,9 @@ TEST(NameMap, SaysWhichLineIsWrong) {
 }
 
 TEST(NameMap, IsWrittenForAPersonToComplete) {
-  const Clip clip = walk();
+  const Take clip = walk();
   const BodyLayout layout = layout_of(clip);
-  const Clip other = renamed(clip, {{"LeftArm", "lhumerus"}, {"Head", "Lamp"}});
+  const Take other = renamed(clip, {{"LeftArm", "lhumerus"}, {"Head", "Lamp"}});
   const std::string text = name_map_text(layout, other);
   EXPECT_THAT(text, HasSubstr("\nLeftArm,lhumerus\n"));
   EXPECT_THAT(text, HasSubstr("\nHead,\n"));
@@ -60,7 +60,7 @@ TEST(NameMap, IsWrittenForAPersonToComplete) {
   const std::string stranger = name_map_text(layout, synthesize({"spin", 1, 60, 1, false}));
   EXPECT_THAT(stranger, HasSubstr("\nHips,\n"));
   EXPECT_THAT(name_map_text(layout, other, {{"Head", "Lamp"}}), HasSubstr("\nHead,Lamp\n"));
-  const MarkerClip markers = joint_markers(clip);
+  const Take markers = joint_markers(clip);
   EXPECT_THAT(name_map_text(layout_of(markers), markers), HasSubstr("\nLeftArm,LeftArm\n"));
   EXPECT_THROW(name_map_text(layout, markers), Error);
 }

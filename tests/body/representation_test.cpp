@@ -12,8 +12,8 @@ namespace kinemend {
 namespace {
 
 // A chain of `joints` three-axis joints, `frames` frames of rest.
-Clip chain(std::size_t joints, std::size_t frames) {
-  Clip clip;
+Take chain(std::size_t joints, std::size_t frames) {
+  Take clip;
   for (std::size_t j = 0; j < joints; ++j) {
     clip.skeleton.add_joint("joint" + std::to_string(j), static_cast<std::int32_t>(j) - 1,
                             {0, 10, 0}, make_channels(j == 0, parse_rotation_order("ZXY")));
@@ -24,7 +24,7 @@ Clip chain(std::size_t joints, std::size_t frames) {
   return clip;
 }
 
-double largest_difference(const Clip& a, const Clip& b) {
+double largest_difference(const Take& a, const Take& b) {
   double largest = 0;
   for (std::size_t i = 0; i < a.rotations.size(); ++i) {
     largest = std::max(largest, angle_between(a.rotations[i], b.rotations[i]));
@@ -32,22 +32,22 @@ double largest_difference(const Clip& a, const Clip& b) {
   return largest;
 }
 
-Clip emptied(const Clip& clip) {
-  Clip copy = clip;
+Take emptied(const Take& clip) {
+  Take copy = clip;
   copy.rotations.assign(clip.rotations.size(), {});
   copy.positions.assign(clip.positions.size(), {});
   return copy;
 }
 
-double round_trip_error(const Clip& clip, Encoding encoding) {
-  Clip back = emptied(clip);
+double round_trip_error(const Take& clip, Encoding encoding) {
+  Take back = emptied(clip);
   decode(encode(clip, encoding), back);
   return largest_difference(clip, back);
 }
 
 // About a slanted axis, from angle `start` in equal steps (radians).
-Clip turning(double start, double step, std::size_t frames) {
-  Clip clip = chain(1, frames);
+Take turning(double start, double step, std::size_t frames) {
+  Take clip = chain(1, frames);
   const Vec3 axis{2.0 / 7, 3.0 / 7, 6.0 / 7};
   for (std::size_t f = 0; f < frames; ++f)
     clip.rotation(f, 0) = exp((start + step * static_cast<double>(f)) * axis);
@@ -69,7 +69,7 @@ double largest_step(const EncodedClip& encoded, std::size_t joint) {
 
 TEST(Representation, RandomRotationsComeBackExactly) {
   Random random(1);
-  Clip clip = chain(5, 200);
+  Take clip = chain(5, 200);
   for (Quat& q : clip.rotations) q = test::random_rotation(random);
   EXPECT_LT(round_trip_error(clip, Encoding::tangent), 1e-12);
   EXPECT_LT(round_trip_error(clip, Encoding::quaternion), 1e-12);
@@ -77,14 +77,14 @@ TEST(Representation, RandomRotationsComeBackExactly) {
 
 TEST(Representation, TurnsThroughPiAndManyTimesRoundComeBackExactly) {
   for (const double step : {0.03, 0.2, -0.11, 3.0}) {
-    const Clip clip = turning(-1, step, 400);
+    const Take clip = turning(-1, step, 400);
     EXPECT_LT(round_trip_error(clip, Encoding::tangent), 1e-12) << step;
     EXPECT_LT(round_trip_error(clip, Encoding::quaternion), 1e-12) << step;
   }
 }
 
 TEST(Representation, ExactlyPiAndExactlyNothingComeBackExactly) {
-  Clip clip = chain(1, 4);
+  Take clip = chain(1, 4);
   clip.rotation(1, 0) = {0, 1, 0, 0};
   clip.rotation(2, 0) = {0, -0.6, 0.8, 0};
   clip.rotation(3, 0) = {-1, 0, 0, 0};
@@ -94,8 +94,8 @@ TEST(Representation, ExactlyPiAndExactlyNothingComeBackExactly) {
 
 TEST(Representation, ATangentChannelOfASteadyTurnIsAStraightLineThroughPiAndBeyond) {
   const double step = 0.05;
-  Clip clip = chain(1, 500);  // stands for 400 frames, then turns by 5 rad
-  const Clip turn = turning(0.4, step, 101);
+  Take clip = chain(1, 500);  // stands for 400 frames, then turns by 5 rad
+  const Take turn = turning(0.4, step, 101);
   for (std::size_t f = 0; f < 500; ++f)
     clip.rotation(f, 0) = turn.rotation(f < 400 ? 0 : f - 399, 0);
   const EncodedClip encoded = encode(clip, Encoding::tangent);
@@ -109,7 +109,7 @@ TEST(Representation, ATangentChannelOfASteadyTurnIsAStraightLineThroughPiAndBeyo
 
 TEST(Representation, NoisyChannelsHaveNoJumpWherePiIsPassed) {
   Random random(3);
-  Clip clip = chain(1, 600);
+  Take clip = chain(1, 600);
   for (std::size_t f = 0; f < 600;
        ++f) {  // swings 200 degrees either way, 1 degree of noise about every axis
     const double yaw =
@@ -140,8 +140,8 @@ TEST(Representation, AContinuedVectorIsTheNearestOfAllThatMeanTheSame) {
 
 TEST(Representation, TheSignOfAQuaternionDoesNotMatter) {
   Random random(5);
-  Clip clip = turning(0, 0.05, 100);
-  Clip flipped = clip;
+  Take clip = turning(0, 0.05, 100);
+  Take flipped = clip;
   for (Quat& q : flipped.rotations) {
     if (random.chance(0.5)) q = -q;
   }
@@ -154,9 +154,9 @@ TEST(Representation, TheSignOfAQuaternionDoesNotMatter) {
 
 TEST(Representation, FramesThrownFarOffDoNotTurnTheSignOfWhatFollows) {
   Random random(11);
-  const Clip clean = turning(0, 0.02, 300);
+  const Take clean = turning(0, 0.02, 300);
   for (int trial = 0; trial < 20; ++trial) {
-    Clip clip = clean;
+    Take clip = clean;
     for (std::size_t f = 1; f < 300; ++f) {
       if (random.chance(0.1)) clip.rotation(f, 0) = test::random_rotation(random);
     }
@@ -176,7 +176,7 @@ TEST(Representation, ALongStayFarOffIsTheNewMotion) {
 }
 
 TEST(Representation, PositionsComeLastAboutTheirMeanAndComeBack) {
-  Clip clip = chain(3, 10);
+  Take clip = chain(3, 10);
   test::add_translations(clip, {2}, Vec3{});
   Random random(6);
   for (std::size_t f = 0; f < 10; ++f) {
@@ -190,7 +190,7 @@ TEST(Representation, PositionsComeLastAboutTheirMeanAndComeBack) {
   EXPECT_NEAR(sum, 0, 1e-9);
   EXPECT_NEAR(encoded.poses(3, 4) + encoded.position_references[0].x, clip.root_position(3).x,
               1e-9);
-  Clip back = emptied(clip);
+  Take back = emptied(clip);
   decode(encoded, back);
   for (std::size_t f = 0; f < 10; ++f) {
     EXPECT_LT(norm(back.root_position(f) - clip.root_position(f)), 1e-12 * 1000);
@@ -200,11 +200,11 @@ TEST(Representation, PositionsComeLastAboutTheirMeanAndComeBack) {
 
 TEST(Representation, DecodingTouchesNothingThatWasNotEncoded) {
   Random random(7);
-  Clip clip = chain(3, 5);
+  Take clip = chain(3, 5);
   for (Quat& q : clip.rotations) q = test::random_rotation(random);
   EncodedClip encoded = encode(clip, Encoding::tangent, {1}, false);
   for (double& v : encoded.poses.values) v = 0.1;
-  Clip changed = clip;
+  Take changed = clip;
   decode(encoded, changed);
   for (std::size_t f = 0; f < 5; ++f) {
     EXPECT_EQ(changed.rotation(f, 0), clip.rotation(f, 0));
@@ -215,7 +215,7 @@ TEST(Representation, DecodingTouchesNothingThatWasNotEncoded) {
 }
 
 TEST(Representation, TheReferenceIsTheMeanOfWhatWasObserved) {
-  Clip clip = chain(1, 4);
+  Take clip = chain(1, 4);
   clip.rotation(0, 0) = exp({0.1, 0, 0});
   clip.rotation(1, 0) = exp({0, 3, 0});
   clip.rotation(2, 0) = exp({0.3, 0, 0});
@@ -234,18 +234,18 @@ TEST(Representation, AJointThatLeavesItsHalfTurnIsGivenQuaternions) {
 
 TEST(Representation, EmptyClipsAndOneFrameComeThrough) {
   for (const std::size_t frames : {std::size_t{0}, std::size_t{1}}) {
-    const Clip clip = chain(2, frames);
+    const Take clip = chain(2, frames);
     EXPECT_EQ(round_trip_error(clip, Encoding::tangent), 0);
     EXPECT_EQ(round_trip_error(clip, Encoding::quaternion), 0);
   }
 }
 
 TEST(Representation, WhatDoesNotFitIsRefused) {
-  const Clip clip = chain(2, 5);
+  const Take clip = chain(2, 5);
   EXPECT_THROW(encode(clip, Encoding::tangent, {2}), Error);
-  Clip other = chain(2, 6);
+  Take other = chain(2, 6);
   EXPECT_THROW(decode(encode(clip, Encoding::tangent), other), Error);
-  Clip smaller = chain(1, 5);
+  Take smaller = chain(1, 5);
   EXPECT_THROW(decode(encode(clip, Encoding::tangent), smaller), Error);
 }
 

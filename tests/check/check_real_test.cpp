@@ -9,7 +9,7 @@ namespace {
 
 CheckReport report_of(const std::string& path) {
   const TakeResult read = read_take(std::filesystem::path(KINEMEND_DATA_FOLDER) / path);
-  return std::visit([](const auto& take) { return check_take(take); }, read.take);
+  return check_take(read.take);
 }
 
 struct KnownFault {

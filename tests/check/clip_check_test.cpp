@@ -17,7 +17,7 @@ TEST(CheckClip, FindsNothingInCleanTakes) {
 }
 
 TEST(CheckClip, TellsGapsByJoint) {
-  Clip clip = synthetic_clip("walk");
+  Take clip = synthetic_clip("walk");
   const std::vector<NamedGap> gaps{{"LeftArm", 100, 129}, {"LeftArm", 300, 301}, {"Head", 10, 10}};
   mark_gaps(clip, gaps);
   const CheckReport report = check_take(clip);
@@ -36,7 +36,7 @@ TEST(CheckClip, TellsGapsByJoint) {
 }
 
 TEST(CheckClip, TellsSpikesAndNoise) {
-  Clip clip = synthetic_clip("walk");
+  Take clip = synthetic_clip("walk");
   Random random(1);
   const std::size_t joint = joint_of(clip, "RightForeArm");
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -58,8 +58,8 @@ TEST(CheckClip, TellsSpikesAndNoise) {
 }
 
 TEST(CheckClip, FindsFrozenSpansThatTheDamageMade) {
-  const Clip clean = synthetic_clip("walk", 8);
-  Clip clip = clean;
+  const Take clean = synthetic_clip("walk", 8);
+  Take clip = clean;
   std::vector<NamedGap> truth;
   Random random(5);
   for (const char* name : {"LeftArm", "RightForeArm", "Head", "LeftUpLeg", "Spine"}) {
@@ -86,7 +86,7 @@ TEST(CheckClip, FindsFrozenSpansThatTheDamageMade) {
 // As other programs close gaps: along the geodesic, or by straight lines of the file's angles.
 TEST(CheckClip, FindsSpansThatWereBridgedEitherWay) {
   for (const bool by_angles : {false, true}) {
-    Clip clip = synthetic_clip("walk", 8);
+    Take clip = synthetic_clip("walk", 8);
     const std::size_t j = joint_of(clip, "RightArm"), before = 400, after = 436;
     const RotationOrder order = clip.skeleton.rotation_order(j);
     const Quat a = clip.rotation(before, j), b = clip.rotation(after, j);
@@ -107,7 +107,7 @@ TEST(CheckClip, FindsSpansThatWereBridgedEitherWay) {
 }
 
 TEST(CheckClip, TakesAStretchedKneeForNoFrozenJoint) {
-  Clip clip = synthetic_clip("walk", 8);
+  Take clip = synthetic_clip("walk", 8);
   const std::size_t j = joint_of(clip, "LeftLeg");
   // A hinge that stops at 0 now and then, and gets there fast.
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -118,7 +118,7 @@ TEST(CheckClip, TakesAStretchedKneeForNoFrozenJoint) {
 }
 
 TEST(CheckClip, FindsFramesThatRepeatAndFramesOfZeros) {
-  Clip clip = synthetic_clip("walk");
+  Take clip = synthetic_clip("walk");
   const auto copy_frame = [&](std::size_t from, std::size_t to) {
     clip.root_position(to) = clip.root_position(from);
     for (std::size_t j = 0; j < clip.joint_count(); ++j)
@@ -143,8 +143,8 @@ TEST(CheckClip, FindsFramesThatRepeatAndFramesOfZeros) {
 }
 
 TEST(CheckClip, TellsARateThatWasDoubledByRepeatingFrames) {
-  const Clip slow = synthetic_clip("walk", 5, 60);
-  Clip clip = slow;
+  const Take slow = synthetic_clip("walk", 5, 60);
+  Take clip = slow;
   clip.frame_rate_hz = 120;
   clip.positions.clear();
   clip.rotations.clear();
@@ -161,7 +161,7 @@ TEST(CheckClip, TellsARateThatWasDoubledByRepeatingFrames) {
 }
 
 TEST(CheckClip, TellsARateAtWhichJumpsFallTooFast) {
-  Clip clip = synthetic_clip("jump", 12, 60);
+  Take clip = synthetic_clip("jump", 12, 60);
   EXPECT_TRUE(of_kind(check_take(clip), FindingKind::rate).empty());
   clip.frame_rate_hz = 120;
   const std::vector<Finding> rate = of_kind(check_take(clip), FindingKind::rate);
@@ -170,7 +170,7 @@ TEST(CheckClip, TellsARateAtWhichJumpsFallTooFast) {
 }
 
 TEST(CheckClip, TellsAUnitThatMakesAGiant) {
-  Clip clip = synthetic_clip("walk");
+  Take clip = synthetic_clip("walk");
   clip.metres_per_unit = 0.01;
   EXPECT_TRUE(of_kind(check_take(clip), FindingKind::unit).empty());
   clip.metres_per_unit = 1;
@@ -181,7 +181,7 @@ TEST(CheckClip, TellsAUnitThatMakesAGiant) {
 }
 
 TEST(CheckClip, MeasuresHowFarAStandingFootSlides) {
-  Clip clip = synthetic_clip("still", 4);
+  Take clip = synthetic_clip("still", 4);
   EXPECT_LT(*check_take(clip).figures.slide_cm, 0.1);
   // Both feet glide 12 cm within a second, slower than a step.
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -194,7 +194,7 @@ TEST(CheckClip, MeasuresHowFarAStandingFootSlides) {
 }
 
 TEST(CheckClip, MeasuresHowDeepAFootSinks) {
-  Clip clip = synthetic_clip("walk", 12);
+  Take clip = synthetic_clip("walk", 12);
   EXPECT_LT(*check_take(clip).figures.sink_cm, 0.5);
   // For one second in twelve the body walks 6 cm deeper.
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -211,7 +211,7 @@ TEST(CheckClip, MeasuresHowDeepAFootSinks) {
 }
 
 TEST(CheckClip, TellsABoneThatGrows) {
-  Clip clip = synthetic_clip("walk");
+  Take clip = synthetic_clip("walk");
   const std::size_t j = joint_of(clip, "LeftLeg");
   clip.skeleton.channels[j] = make_channels(true, clip.skeleton.rotation_order(j));
   add_translations(clip, {static_cast<std::int32_t>(j)}, clip.skeleton.offsets[j]);
@@ -234,8 +234,8 @@ TEST(CheckClip, LeavesTheCalibrationPoseOut) {
 }
 
 TEST(CheckClip, FindsOutliersAndFrozenSpansOfTheTableOfDamages) {
-  const Clip clean = synthetic_clip("walk", 8);
-  Clip spiked = clean, frozen = clean;
+  const Take clean = synthetic_clip("walk", 8);
+  Take spiked = clean, frozen = clean;
   Random random(3);
   apply_damage(spiked, "gaussian", {{"std_deg", 0.5}}, random);
   apply_damage(spiked, "outliers", {{"share", 0.002}, {"std_deg", 40.0}}, random);
@@ -250,9 +250,9 @@ TEST(CheckClip, FindsOutliersAndFrozenSpansOfTheTableOfDamages) {
 }
 
 TEST(CheckClip, AcceptsTakesOfAnyLength) {
-  const Clip clip = synthetic_clip("walk", 1);
+  const Take clip = synthetic_clip("walk", 1);
   for (std::size_t frames = 0; frames < 12; ++frames)
-    EXPECT_EQ(check_take(Clip(slice(clip, 0, frames))).frames, frames);
+    EXPECT_EQ(check_take(Take(slice(clip, 0, frames))).frames, frames);
 }
 
 TEST(CheckClip, RefusesSettingsOutOfRange) {

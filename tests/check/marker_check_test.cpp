@@ -14,7 +14,7 @@ TEST(CheckMarkers, FindsNothingInCleanTakes) {
 }
 
 TEST(CheckMarkers, TellsGapsByMarker) {
-  MarkerClip clip = synthetic_markers("walk");
+  Take clip = synthetic_markers("walk");
   const std::vector<NamedGap> gaps{{"Head", 30, 89}, {"LeftHand", 0, 4}};
   mark_gaps(clip, gaps);
   const CheckReport report = check_take(clip);
@@ -25,7 +25,7 @@ TEST(CheckMarkers, TellsGapsByMarker) {
 }
 
 TEST(CheckMarkers, TellsFrozenAndBridgedSpansInTheSideFile) {
-  MarkerClip clip = synthetic_markers("walk");
+  Take clip = synthetic_markers("walk");
   const auto hand = static_cast<std::size_t>(clip.find("LeftHand")),
              foot = static_cast<std::size_t>(clip.find("RightLeg"));
   for (std::size_t f = 101; f <= 130; ++f) clip.position(f, hand) = clip.position(100, hand);
@@ -50,7 +50,7 @@ TEST(CheckMarkers, TellsFrozenAndBridgedSpansInTheSideFile) {
 }
 
 TEST(CheckMarkers, TellsAMarkerThatLeavesItsSegment) {
-  MarkerClip clip = synthetic_markers("walk");
+  Take clip = synthetic_markers("walk");
   const auto toe = static_cast<std::size_t>(clip.find("Head"));
   EXPECT_TRUE(of_kind(check_take(clip), FindingKind::length).empty());
   for (std::size_t f = 300; f < 360; ++f) clip.position(f, toe) += Vec3{0, 6, 0};
@@ -72,7 +72,7 @@ TEST(CheckMarkers, NamesSwapsOnceAndNoneOfTheirJumps) {
 }
 
 TEST(CheckMarkers, DoesNotAskForTheLabelsOfTracksWithoutOne) {
-  MarkerClip clip = synthetic_markers("walk");
+  Take clip = synthetic_markers("walk");
   undo_swaps(clip, {{3, 8, 200, 300}});
   ASSERT_EQ(find_swaps(clip).size(), 1u);
   clip.names[8] = "*8";
@@ -80,7 +80,7 @@ TEST(CheckMarkers, DoesNotAskForTheLabelsOfTracksWithoutOne) {
 }
 
 TEST(CheckMarkers, TellsAUnitThatMakesAGiant) {
-  MarkerClip clip = synthetic_markers("walk");
+  Take clip = synthetic_markers("walk");
   clip.unit = "m";
   const std::vector<Finding> unit = of_kind(check_take(clip), FindingKind::unit);
   ASSERT_EQ(unit.size(), 1u);
@@ -88,7 +88,7 @@ TEST(CheckMarkers, TellsAUnitThatMakesAGiant) {
 }
 
 TEST(CheckMarkers, LeavesPointsThatAreNoPositionsOut) {
-  MarkerClip clip = synthetic_markers("walk");
+  Take clip = synthetic_markers("walk");
   clip.is_position[5] = 0;
   for (std::size_t f = 0; f < clip.frame_count(); ++f)
     clip.observed[f * clip.marker_count() + 5] = 0;
@@ -100,12 +100,12 @@ TEST(CheckMarkers, LeavesPointsThatAreNoPositionsOut) {
 
 TEST(CheckMarkers, AcceptsTakesOfAnyLengthAndWithoutSamples) {
   for (std::size_t frames = 0; frames < 8; ++frames) {
-    MarkerClip clip = make_marker_clip({"A", "B", "C"}, frames, 100);
+    Take clip = make_marker_take({"A", "B", "C"}, frames, 100);
     EXPECT_EQ(check_take(clip).frames, frames);
     std::fill(clip.observed.begin(), clip.observed.end(), std::uint8_t{1});
     EXPECT_EQ(check_take(clip).frames, frames);
   }
-  EXPECT_EQ(check_take(MarkerClip(make_marker_clip({}, 0, 100))).tracks.size(), 0u);
+  EXPECT_EQ(check_take(Take(make_marker_take({}, 0, 100))).tracks.size(), 0u);
 }
 
 // A hint costs less than a check, and says the same.
@@ -123,13 +123,13 @@ TEST(FindBeyondCleaning, FindsWhatACheckWouldCallSeriousAndStaleSpans) {
     for (const Finding& f : find_beyond_cleaning(clip)) texts.push_back(f.track + f.words);
     return texts;
   };
-  MarkerClip markers = with_random_swaps(synthetic_markers("walk"), 3, 2, 2).clip;
+  Take markers = with_random_swaps(synthetic_markers("walk"), 3, 2, 2).clip;
   const std::vector<NamedGap> gaps{{"Head", 30, 89}};
   mark_gaps(markers, gaps);
   for (std::size_t f = 201; f <= 230; ++f) markers.position(f, 5) = markers.position(200, 5);
   EXPECT_EQ(found(markers), expected(check_take(markers)));
   EXPECT_GE(found(markers).size(), 4u);
-  Clip joints = synthetic_clip("walk");
+  Take joints = synthetic_clip("walk");
   const std::size_t arm = joint_of(joints, "LeftArm");
   for (std::size_t f = 201; f <= 230; ++f) joints.rotation(f, arm) = joints.rotation(200, arm);
   for (std::size_t i = 0; i < joints.joint_count(); ++i) joints.rotation(300, i) = {};

@@ -15,17 +15,17 @@
 namespace kinemend::test {
 
 /// The joints and end sites of a synthetic take as markers, in centimetres, with measuring noise.
-inline MarkerClip synthetic_markers(const std::string& motion, double duration_s = 6,
-                                    double noise_cm = 0.02, std::uint64_t seed = 1) {
+inline Take synthetic_markers(const std::string& motion, double duration_s = 6,
+                              double noise_cm = 0.02, std::uint64_t seed = 1) {
   SynthOptions options;
   options.motion = motion;
   options.duration_s = duration_s;
   options.seed = seed;
-  const Clip clip = synthesize(options);
+  const Take clip = synthesize(options);
   std::vector<std::string> names = clip.skeleton.names;
   for (const EndSite& site : clip.skeleton.end_sites)
     names.push_back(clip.skeleton.names[static_cast<std::size_t>(site.parent)] + "End");
-  MarkerClip markers = make_marker_clip(names, clip.frame_count(), clip.frame_rate_hz);
+  Take markers = make_marker_take(names, clip.frame_count(), clip.frame_rate_hz);
   markers.positions = joint_positions(clip, true);
   markers.unit = "cm";
   Random random(seed);
@@ -43,14 +43,14 @@ inline std::size_t pick(Random& random, std::size_t below) {
 }
 
 struct SwapTrial {
-  MarkerClip clip;
+  Take clip;
   std::vector<MarkerSwap> swaps;
 };
 
 /// Exchanges random pairs of position markers over random spans of 3 frames to 2 s; no marker takes
 /// part in two, and no two markers of a pair are nearer to one another than `least_distance` in
 /// file units where the swap begins and ends: there an exchange changes nothing.
-inline SwapTrial with_random_swaps(MarkerClip clip, std::size_t wanted, double least_distance,
+inline SwapTrial with_random_swaps(Take clip, std::size_t wanted, double least_distance,
                                    std::uint64_t seed) {
   Random random(seed);
   SwapTrial trial{std::move(clip), {}};

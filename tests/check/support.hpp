@@ -13,7 +13,7 @@
 
 namespace kinemend::test {
 
-inline Clip synthetic_clip(const std::string& motion, double duration_s = 6,
+inline Take synthetic_clip(const std::string& motion, double duration_s = 6,
                            double frame_rate_hz = 120, bool t_pose_first = false) {
   SynthOptions options;
   options.motion = motion;
@@ -42,7 +42,7 @@ inline std::string faults_of(const CheckReport& report) {
   return text;
 }
 
-inline std::size_t joint_of(const Clip& clip, std::string_view name) {
+inline std::size_t joint_of(const Take& clip, std::string_view name) {
   return static_cast<std::size_t>(clip.skeleton.find(name));
 }
 

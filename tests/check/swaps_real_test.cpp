@@ -14,9 +14,8 @@ struct RealTake {
 
 std::ostream& operator<<(std::ostream& out, const RealTake& take) { return out << take.path; }
 
-MarkerClip markers_of(const RealTake& take) {
-  return std::get<MarkerClip>(
-      read_take(std::filesystem::path(KINEMEND_DATA_FOLDER) / take.path).take);
+Take markers_of(const RealTake& take) {
+  return read_take(std::filesystem::path(KINEMEND_DATA_FOLDER) / take.path).take;
 }
 
 class SwapsInRealTakes : public testing::TestWithParam<RealTake> {};
@@ -26,7 +25,7 @@ TEST_P(SwapsInRealTakes, AreNotSeenWhereThereAreNone) {
 }
 
 TEST_P(SwapsInRealTakes, AreFoundToTheFrameAndNothingElse) {
-  const MarkerClip clean = markers_of(GetParam());
+  const Take clean = markers_of(GetParam());
   Tally tally;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const SwapTrial trial = with_random_swaps(clean, 8, GetParam().least_distance, seed);

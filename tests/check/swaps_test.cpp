@@ -14,7 +14,7 @@ TEST(Swaps, AreNotSeenInCleanTakes) {
 TEST(Swaps, AreFoundToTheFrameAndNothingElse) {
   Tally tally;
   for (const char* motion : {"walk", "run", "turn", "jump", "wave", "punch"}) {
-    const MarkerClip clean = synthetic_markers(motion);
+    const Take clean = synthetic_markers(motion);
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
       const SwapTrial trial = with_random_swaps(clean, 6, 2, seed);
       tally.add(trial.swaps, find_swaps(trial.clip));
@@ -26,7 +26,7 @@ TEST(Swaps, AreFoundToTheFrameAndNothingElse) {
 }
 
 TEST(Swaps, UndoneGiveTheTakeBack) {
-  const MarkerClip clean = synthetic_markers("walk");
+  const Take clean = synthetic_markers("walk");
   SwapTrial trial = with_random_swaps(clean, 5, 2, 3);
   ASSERT_EQ(trial.swaps.size(), 5u);
   EXPECT_NE(trial.clip.positions, clean.positions);
@@ -35,7 +35,7 @@ TEST(Swaps, UndoneGiveTheTakeBack) {
 }
 
 TEST(Swaps, ThatReachTheEndOfTheTakeAreTheShorterSide) {
-  MarkerClip clip = synthetic_markers("walk");
+  Take clip = synthetic_markers("walk");
   const MarkerSwap swap{3, 8, 600, clip.frame_count() - 1};
   undo_swaps(clip, {swap});
   EXPECT_EQ(find_swaps(clip), std::vector<MarkerSwap>{swap});
@@ -43,8 +43,8 @@ TEST(Swaps, ThatReachTheEndOfTheTakeAreTheShorterSide) {
 
 // Both markers are hidden for a while and come back with each other's label.
 TEST(Swaps, MayBeginAndEndInGaps) {
-  const MarkerClip clean = synthetic_markers("walk");
-  MarkerClip clip = clean;
+  const Take clean = synthetic_markers("walk");
+  Take clip = clean;
   const auto left = static_cast<std::size_t>(clip.find("LeftHand")),
              right = static_cast<std::size_t>(clip.find("RightHand"));
   undo_swaps(clip, {{left, right, 200, 340}});
@@ -65,7 +65,7 @@ TEST(Swaps, MayBeginAndEndInGaps) {
 }
 
 TEST(Swaps, AreNotSeenInGapsOfTracksThatComeBackRight) {
-  MarkerClip clip = synthetic_markers("walk", 10);
+  Take clip = synthetic_markers("walk", 10);
   Random random(4);
   std::vector<NamedGap> gaps;
   for (int i = 0; i < 120; ++i) {
@@ -78,7 +78,7 @@ TEST(Swaps, AreNotSeenInGapsOfTracksThatComeBackRight) {
 }
 
 TEST(Swaps, TakeResidualsAndMasksAlong) {
-  MarkerClip clip = make_marker_clip({"A", "B"}, 3, 100);
+  Take clip = make_marker_take({"A", "B"}, 3, 100);
   clip.residuals.assign(6, -1);
   clip.positions[2] = {1, 2, 3};
   clip.observed[2] = 1;
@@ -91,7 +91,7 @@ TEST(Swaps, TakeResidualsAndMasksAlong) {
 }
 
 TEST(Swaps, OfWhatTheTakeDoesNotHaveAreAnError) {
-  MarkerClip clip = make_marker_clip({"A", "B"}, 3, 100);
+  Take clip = make_marker_take({"A", "B"}, 3, 100);
   EXPECT_THROW(undo_swaps(clip, {{0, 2, 1, 1}}), Error);
   EXPECT_THROW(undo_swaps(clip, {{0, 1, 1, 3}}), Error);
   EXPECT_THROW(undo_swaps(clip, {{0, 1, 2, 1}}), Error);
@@ -99,7 +99,7 @@ TEST(Swaps, OfWhatTheTakeDoesNotHaveAreAnError) {
 
 TEST(Swaps, OfTakesTooShortToTellAreNone) {
   for (const std::size_t frames : {0, 1, 2, 3}) {
-    MarkerClip clip = make_marker_clip({"A", "B", "C"}, frames, 100);
+    Take clip = make_marker_take({"A", "B", "C"}, frames, 100);
     std::fill(clip.observed.begin(), clip.observed.end(), std::uint8_t{1});
     EXPECT_TRUE(find_swaps(clip).empty()) << frames;
   }

@@ -20,7 +20,7 @@ class RecurrentCommands : public Program {
         run({"synth", "walk", "-o", "walk.bvh", "--duration-s", "2", "--frame-rate-hz", "120"})
             .code,
         0);
-    const Clip clip = synthesize({.motion = "walk", .duration_s = 2, .frame_rate_hz = 120});
+    const Take clip = synthesize({.motion = "walk", .duration_s = 2, .frame_rate_hz = 120});
     BodyLayoutBuilder builder;
     builder.add(clip);
     layout_ = builder.finish();

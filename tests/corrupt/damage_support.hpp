@@ -12,11 +12,11 @@
 namespace kinemend::test {
 
 struct Damaged {
-  Clip clip;
+  Take clip;
   DamageReport report;
 };
 
-inline Damaged damaged(const Clip& clean, std::string_view name, const OptionValues& values = {},
+inline Damaged damaged(const Take& clean, std::string_view name, const OptionValues& values = {},
                        std::uint64_t seed = 1) {
   Damaged result{clean, {}};
   Random random(seed);
@@ -27,7 +27,7 @@ inline Damaged damaged(const Clip& clean, std::string_view name, const OptionVal
 inline bool same_bits(Quat a, Quat b) { return std::memcmp(&a, &b, sizeof(Quat)) == 0; }
 
 // Rotation vectors of clean^-1 damaged, of one joint.
-inline std::vector<Vec3> errors_of(const Clip& clean, const Clip& other, std::size_t joint) {
+inline std::vector<Vec3> errors_of(const Take& clean, const Take& other, std::size_t joint) {
   std::vector<Vec3> errors;
   for (std::size_t f = 0; f < clean.frame_count(); ++f) {
     errors.push_back(log(conjugate(clean.rotation(f, joint)) * other.rotation(f, joint)));
@@ -74,8 +74,8 @@ inline Skeleton humanoid_skeleton() {
   return s;
 }
 
-inline Clip moving_humanoid(std::size_t frames, double frame_rate_hz = 120) {
-  Clip clip = resting_clip(humanoid_skeleton(), frames, frame_rate_hz);
+inline Take moving_humanoid(std::size_t frames, double frame_rate_hz = 120) {
+  Take clip = resting_clip(humanoid_skeleton(), frames, frame_rate_hz);
   for (std::size_t f = 0; f < frames; ++f) {
     const double t = static_cast<double>(f) / frame_rate_hz;
     clip.root_position(f) = {2 * t, 90 + std::sin(6 * t), 100 * t};

@@ -18,7 +18,7 @@ struct LostRun {
   std::size_t first = 0, length = 0;
 };
 
-std::vector<LostRun> lost_runs(const Clip& clip, std::size_t joint) {
+std::vector<LostRun> lost_runs(const Take& clip, std::size_t joint) {
   std::vector<LostRun> runs;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     if (clip.is_observed(f, joint)) continue;
@@ -29,8 +29,8 @@ std::vector<LostRun> lost_runs(const Clip& clip, std::size_t joint) {
 }
 
 TEST(Gaps, HaveExponentiallyDecayingLengthsAndTheirStartProbability) {
-  const Clip clean = chain_clip(5, 40000, 100);
-  const Clip clip =
+  const Take clean = chain_clip(5, 40000, 100);
+  const Take clip =
       damaged(clean, "gaps", {{"start_probability", 0.1}, {"mean_length_s", 0.05}}).clip;
   std::map<std::size_t, double> lengths;
   double total = 0, frames_lost = 0, chances = 0;
@@ -56,8 +56,8 @@ TEST(Gaps, HaveExponentiallyDecayingLengthsAndTheirStartProbability) {
 }
 
 TEST(Gaps, HoldTheLastValueSeen) {
-  const Clip clean = moving_chain(3, 400);
-  const Clip clip = damaged(clean, "gaps", {{"mean_length_s", 0.05}}).clip;
+  const Take clean = moving_chain(3, 400);
+  const Take clip = damaged(clean, "gaps", {{"mean_length_s", 0.05}}).clip;
   const auto runs = lost_runs(clip, 2);
   ASSERT_GT(runs.size(), 10u);
   for (const LostRun run : runs) {
@@ -73,8 +73,8 @@ TEST(Gaps, HoldTheLastValueSeen) {
 }
 
 TEST(Gaps, HoldTheRestPoseWhenAsked) {
-  const Clip clean = moving_chain(3, 200);
-  const Clip clip = damaged(clean, "gaps", {{"hold", std::string("rest")}}).clip;
+  const Take clean = moving_chain(3, 200);
+  const Take clip = damaged(clean, "gaps", {{"hold", std::string("rest")}}).clip;
   for (std::size_t f = 0; f < 200; ++f) {
     const Quat expected = clip.is_observed(f, 1) ? clean.rotation(f, 1) : Quat{};
     EXPECT_TRUE(same_bits(clip.rotation(f, 1), expected));
@@ -82,8 +82,8 @@ TEST(Gaps, HoldTheRestPoseWhenAsked) {
 }
 
 TEST(Gaps, OfAChannelKeepTheOtherChannels) {
-  const Clip clean = moving_chain(2, 300);
-  const Clip clip =
+  const Take clean = moving_chain(2, 300);
+  const Take clip =
       damaged(clean, "gaps", {{"scope", std::string("channel")}, {"start_probability", 0.02}}).clip;
   const RotationOrder order = clean.skeleton.rotation_order(1);
   std::array<double, 3> truth{};
@@ -104,8 +104,8 @@ TEST(Gaps, OfAChannelKeepTheOtherChannels) {
 }
 
 TEST(Gaps, OfALimbLoseItsJointsTogether) {
-  const Clip clean = moving_humanoid(600);
-  const Clip clip = damaged(clean, "gaps", {{"scope", std::string("limb")}}).clip;
+  const Take clean = moving_humanoid(600);
+  const Take clip = damaged(clean, "gaps", {{"scope", std::string("limb")}}).clip;
   const auto at = [&](const char* name) {
     return static_cast<std::size_t>(clean.skeleton.find(name));
   };
@@ -120,8 +120,8 @@ TEST(Gaps, OfALimbLoseItsJointsTogether) {
 }
 
 TEST(Gaps, OfAllLoseEveryJointButTheRootTogether) {
-  const Clip clean = moving_humanoid(300);
-  const Clip clip = damaged(clean, "gaps", {{"scope", std::string("all")}}).clip;
+  const Take clean = moving_humanoid(300);
+  const Take clip = damaged(clean, "gaps", {{"scope", std::string("all")}}).clip;
   for (std::size_t f = 0; f < 300; ++f) {
     EXPECT_TRUE(clip.is_observed(f, 0));
     for (std::size_t j = 2; j < clean.joint_count(); ++j)
@@ -130,9 +130,9 @@ TEST(Gaps, OfAllLoseEveryJointButTheRootTogether) {
 }
 
 TEST(LongGap, HasItsLengthAndASeenFrameOnEitherSide) {
-  const Clip clean = moving_humanoid(600, 120);
+  const Take clean = moving_humanoid(600, 120);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const Clip clip =
+    const Take clip =
         damaged(clean, "long-gap", {{"length_s", 2.0}, {"scope", std::string("joint")}}, seed).clip;
     std::size_t joints_hit = 0;
     for (std::size_t j = 0; j < clean.joint_count(); ++j) {
@@ -156,7 +156,7 @@ TEST(LongGap, IsShortenedInAShortClipAndSaysSo) {
 }
 
 TEST(LongGap, ComesAsOftenAsAskedAndWhereAsked) {
-  const Clip clean = moving_humanoid(2000, 100);
+  const Take clean = moving_humanoid(2000, 100);
   const auto [clip, report] = damaged(clean, "long-gap",
                                       {{"length_s", 0.1},
                                        {"count", std::int64_t{5}},
@@ -175,7 +175,7 @@ TEST(LongGap, ComesAsOftenAsAskedAndWhereAsked) {
 }
 
 TEST(Frozen, RepeatsTheFrameBeforeForItsShareOfFramesUnmarked) {
-  const Clip clean = moving_chain(3, 40000, 100);
+  const Take clean = moving_chain(3, 40000, 100);
   const auto [clip, report] = damaged(
       clean, "frozen", {{"share", 0.1}, {"mean_length_s", 0.1}, {"scope", std::string("joint")}});
   EXPECT_TRUE(clip.observed.empty());

@@ -13,8 +13,8 @@ using test::same_bits;
 using testing::Contains;
 using testing::HasSubstr;
 
-MarkerClip line(std::size_t frames, double rate_hz) {
-  MarkerClip clip = make_marker_clip({"A"}, frames, rate_hz);
+Take line(std::size_t frames, double rate_hz) {
+  Take clip = make_marker_take({"A"}, frames, rate_hz);
   for (std::size_t f = 0; f < frames; ++f) {
     const double t = static_cast<double>(f) / rate_hz;
     clip.position(f, 0) = {t, t * t, std::sin(20 * t)};
@@ -23,15 +23,15 @@ MarkerClip line(std::size_t frames, double rate_hz) {
   return clip;
 }
 
-MarkerClip with(MarkerClip clip, const char* damage, double rate_hz) {
+Take with(Take clip, const char* damage, double rate_hz) {
   Random random(1);
   apply_damage(clip, damage, {{"rate_hz", rate_hz}}, random);
   return clip;
 }
 
 TEST(Held, RepeatsEverySecondFrameOfTwiceTheRate) {
-  const Clip clean = moving_humanoid(101);
-  const Clip held = damaged(clean, "held", {{"rate_hz", 60.0}}).clip;
+  const Take clean = moving_humanoid(101);
+  const Take held = damaged(clean, "held", {{"rate_hz", 60.0}}).clip;
   for (std::size_t f = 0; f < 101; ++f) {
     for (std::size_t j = 0; j < clean.joint_count(); ++j)
       ASSERT_TRUE(same_bits(held.rotation(f, j), clean.rotation(f - f % 2, j)));
@@ -40,7 +40,7 @@ TEST(Held, RepeatsEverySecondFrameOfTwiceTheRate) {
 }
 
 TEST(Held, TakesSamplesBetweenFramesWhereRatesDoNotDivide) {
-  const MarkerClip clean = line(101, 100), held = with(clean, "held", 60);
+  const Take clean = line(101, 100), held = with(clean, "held", 60);
   for (std::size_t f = 0; f < 101; ++f) {
     const double sampled = std::floor(static_cast<double>(f) * 0.6 + 1e-6) / 60;
     EXPECT_NEAR(held.position(f, 0).x, sampled, 1e-12) << f;
@@ -48,7 +48,7 @@ TEST(Held, TakesSamplesBetweenFramesWhereRatesDoNotDivide) {
 }
 
 TEST(Upsampled, IsStraightBetweenSamplesAndHoldsTheLast) {
-  const MarkerClip clean = line(103, 120), lines = with(clean, "upsampled", 30);
+  const Take clean = line(103, 120), lines = with(clean, "upsampled", 30);
   for (std::size_t f = 0; f < 103; ++f) {
     const std::size_t before = f - f % 4;
     const double share = before + 4 < 103 ? static_cast<double>(f % 4) / 4 : 0;
@@ -61,8 +61,8 @@ TEST(Upsampled, IsStraightBetweenSamplesAndHoldsTheLast) {
 }
 
 TEST(Upsampled, TurnsAlongTheGeodesic) {
-  const Clip clean = moving_humanoid(101);
-  const Clip lines = damaged(clean, "upsampled", {{"rate_hz", 30.0}}).clip;
+  const Take clean = moving_humanoid(101);
+  const Take lines = damaged(clean, "upsampled", {{"rate_hz", 30.0}}).clip;
   for (std::size_t f = 0; f + 4 < 101; f += 4) {
     const double step = angle_between(clean.rotation(f, 5), clean.rotation(f + 4, 5)) / 4;
     for (std::size_t i = 0; i < 4; ++i)
@@ -72,9 +72,9 @@ TEST(Upsampled, TurnsAlongTheGeodesic) {
 }
 
 TEST(LowerRates, LoseWhatALowerRateDidNotSee) {
-  MarkerClip clean = line(41, 120);
+  Take clean = line(41, 120);
   for (std::size_t f = 8; f < 11; ++f) clean.observed[f] = 0, clean.position(f, 0) = {};
-  const MarkerClip held = with(clean, "held", 30), lines = with(clean, "upsampled", 30);
+  const Take held = with(clean, "held", 30), lines = with(clean, "upsampled", 30);
   for (std::size_t f = 0; f < 41; ++f) {
     EXPECT_EQ(held.observed[f], f >= 8 && f < 12 ? 0 : 1) << f;
     EXPECT_EQ(lines.observed[f], f > 4 && f < 12 ? 0 : 1) << f;
@@ -82,7 +82,7 @@ TEST(LowerRates, LoseWhatALowerRateDidNotSee) {
 }
 
 TEST(LowerRates, LeaveTakesOfNoHigherRateAlone) {
-  const Clip clean = moving_humanoid(50, 60);
+  const Take clean = moving_humanoid(50, 60);
   for (const char* name : {"held", "upsampled"}) {
     const auto [clip, report] = damaged(clean, name, {{"rate_hz", 60.0}});
     EXPECT_EQ(report.samples_damaged, 0u);

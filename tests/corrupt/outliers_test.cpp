@@ -14,7 +14,7 @@ using test::moving_humanoid;
 using test::same_bits;
 
 TEST(Outliers, HitTheShareAskedForAndNothingElse) {
-  const Clip clean = moving_chain(10, 10000);
+  const Take clean = moving_chain(10, 10000);
   const auto [hit, report] = damaged(clean, "outliers", {{"share", 0.004}, {"std_deg", 25.0}});
   // 100,000 samples: 400 hits, standard deviation 20.
   EXPECT_NEAR(static_cast<double>(report.samples_damaged), 400, 80);
@@ -31,7 +31,7 @@ TEST(Outliers, HitTheShareAskedForAndNothingElse) {
 }
 
 TEST(Impulses, AreOfOneSize) {
-  const Clip clean = moving_chain(10, 2000);
+  const Take clean = moving_chain(10, 2000);
   const auto [hit, report] = damaged(clean, "impulse", {{"share", 0.05}, {"size_deg", 60.0}});
   EXPECT_NEAR(static_cast<double>(report.samples_damaged), 1000, 150);
   Vec3 mean;
@@ -45,7 +45,7 @@ TEST(Impulses, AreOfOneSize) {
 }
 
 TEST(OutlierScale, MultipliesRotationVectors) {
-  const Clip clean = moving_chain(4, 2000);
+  const Take clean = moving_chain(4, 2000);
   const auto [hit, report] =
       damaged(clean, "outlier-scale",
               {{"share", 0.1}, {"factor", 1.4}, {"value", std::string("rotation")}});
@@ -58,7 +58,7 @@ TEST(OutlierScale, MultipliesRotationVectors) {
 
 TEST(OutlierScale, OfAPositionMovesJustThatBoneThere) {
   // One joint asked for: only the bone to it and the bones it carries may turn.
-  const Clip clean = moving_humanoid(500);
+  const Take clean = moving_humanoid(500);
   const auto [hit, report] =
       damaged(clean, "outlier-scale", {{"share", 0.1}, {"joints", std::string("LeftForeArm")}});
   std::size_t frames_hit = 0;
@@ -80,7 +80,7 @@ TEST(OutlierScale, OfAPositionMovesJustThatBoneThere) {
 }
 
 TEST(OutlierScale, PointsABoneAtTheScaledPosition) {
-  const Clip clean = moving_humanoid(50);
+  const Take clean = moving_humanoid(50);
   const auto [hit, report] =
       damaged(clean, "outlier-scale",
               {{"share", 1.0}, {"factor", 1.4}, {"joints", std::string("LeftForeArm")}});

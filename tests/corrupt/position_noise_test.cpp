@@ -15,7 +15,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 // A star of long bones about a still root: each arm's end has one bone of its own.
-Clip star_clip(std::size_t frames) {
+Take star_clip(std::size_t frames) {
   Skeleton s;
   const auto turns = make_channels(false, parse_rotation_order("ZXY"));
   s.add_joint("root", -1, {}, make_channels(true, parse_rotation_order("ZXY")));
@@ -30,8 +30,8 @@ Clip star_clip(std::size_t frames) {
 
 TEST(PositionNoise, HasTheDeviationAskedForAcrossABone) {
   // The part of the noise across a long bone survives the refit as it is; the part along it cannot.
-  const Clip clean = star_clip(20000);
-  const Clip noisy = damaged(clean, "position-noise", {{"std_cm", 0.5}, {"cm_per_unit", 1.0}}).clip;
+  const Take clean = star_clip(20000);
+  const Take noisy = damaged(clean, "position-noise", {{"std_cm", 0.5}, {"cm_per_unit", 1.0}}).clip;
   const auto before = joint_positions(clean), after = joint_positions(noisy);
   const std::size_t joints = clean.joint_count(), end0 = 2;
   std::vector<double> along, y, z;
@@ -47,7 +47,7 @@ TEST(PositionNoise, HasTheDeviationAskedForAcrossABone) {
 }
 
 TEST(PositionNoise, KeepsBoneLengthsRootAndLeafRotations) {
-  const Clip clean = moving_humanoid(200);
+  const Take clean = moving_humanoid(200);
   const auto [noisy, report] = damaged(clean, "position-noise", {{"std_cm", 1.0}});
   const auto before = joint_positions(clean), after = joint_positions(noisy);
   const std::size_t joints = clean.joint_count();
@@ -68,7 +68,7 @@ TEST(PositionNoise, KeepsBoneLengthsRootAndLeafRotations) {
 }
 
 TEST(PositionNoise, TakesASkeletonOfNoUsualUnitAsATallPerson) {
-  Clip clip = star_clip(3);
+  Take clip = star_clip(3);
   for (Vec3& offset : clip.skeleton.offsets)
     offset = 5.0 * offset;  // 500 units: in no usual unit a person
   const auto report = damaged(clip, "position-noise").report;
@@ -76,8 +76,8 @@ TEST(PositionNoise, TakesASkeletonOfNoUsualUnitAsATallPerson) {
 }
 
 TEST(PositionNoise, MovesTheRootToo) {
-  const Clip clean = star_clip(5000);
-  const Clip noisy =
+  const Take clean = star_clip(5000);
+  const Take noisy =
       damaged(clean, "position-noise", {{"std_cm", 2.0}, {"cm_per_unit", 1.0}, {"root", true}})
           .clip;
   std::vector<double> x;
@@ -86,8 +86,8 @@ TEST(PositionNoise, MovesTheRootToo) {
 }
 
 TEST(PositionNoise, IsLargerAtWristsAndAnkles) {
-  const Clip clean = moving_humanoid(3000);
-  const auto speed_of_noise = [&](const Clip& noisy, const char* name) {
+  const Take clean = moving_humanoid(3000);
+  const auto speed_of_noise = [&](const Take& noisy, const char* name) {
     const auto before = joint_positions(clean), after = joint_positions(noisy);
     const auto j = static_cast<std::size_t>(clean.skeleton.find(name));
     double sum = 0;
@@ -96,8 +96,8 @@ TEST(PositionNoise, IsLargerAtWristsAndAnkles) {
     }
     return std::sqrt(sum / 3000);
   };
-  const Clip same = damaged(clean, "position-noise", {{"std_cm", 0.5}}).clip;
-  const Clip ends =
+  const Take same = damaged(clean, "position-noise", {{"std_cm", 0.5}}).clip;
+  const Take ends =
       damaged(clean, "position-noise",
               {{"std_cm", 0.5}, {"spread", std::string("ends")}, {"ends_factor", 4.0}})
           .clip;
@@ -118,7 +118,7 @@ TEST(PositionNoise, SaysWhenNoWristIsFound) {
 }
 
 TEST(Snr, IsRealisedToATenthOfADecibel) {
-  const Clip clean = moving_humanoid(2000);
+  const Take clean = moving_humanoid(2000);
   for (const double wanted : {10.0, 20.0, 40.0}) {
     const auto report = damaged(clean, "snr", {{"snr_db", wanted}}).report;
     ASSERT_EQ(report.notes.size(), 1u);
@@ -137,8 +137,8 @@ TEST(Snr, AgreesWithItsDefinitionOnTheStar) {
   // Signal: three of six joints 100 from the root, three at it: mean square of a coordinate 100^2
   // / 6. At 20 dB the noise has a hundredth of that power: 4.08 per axis, of which the part across
   // a bone survives.
-  const Clip clean = star_clip(10000);
-  const Clip noisy = damaged(clean, "snr", {{"snr_db", 20.0}}).clip;
+  const Take clean = star_clip(10000);
+  const Take noisy = damaged(clean, "snr", {{"snr_db", 20.0}}).clip;
   const auto before = joint_positions(clean), after = joint_positions(noisy);
   std::vector<double> y;
   for (std::size_t i = 2; i < before.size(); i += clean.joint_count())

@@ -91,8 +91,8 @@ TEST(FitRotation, IsCleanWhereBonesHaveNoLength) {
 }
 
 TEST(Refit, ToTheCleanPositionsChangesNoBit) {
-  const Clip clean = moving_humanoid(20);
-  Clip clip = clean;
+  const Take clean = moving_humanoid(20);
+  Take clip = clean;
   corrupt::refit(clip, joint_positions(clean), std::vector<std::uint8_t>(clean.joint_count(), 1),
                  true);
   EXPECT_EQ(clip.positions, clean.positions);
@@ -103,12 +103,12 @@ TEST(Refit, ToTheCleanPositionsChangesNoBit) {
 
 TEST(Refit, ReachesPositionsOfAnotherPoseOfTheSameBones) {
   // Positions of another pose can be reached exactly; twists about single bones are free.
-  const Clip clean = moving_humanoid(5);
-  Clip other = clean;
+  const Take clean = moving_humanoid(5);
+  Take other = clean;
   Random random(4);
   for (Quat& q : other.rotations) q = q * exp(random_vector(random, 0.2));
   const auto targets = joint_positions(other);
-  Clip clip = clean;
+  Take clip = clean;
   corrupt::refit(clip, targets, std::vector<std::uint8_t>(clean.joint_count(), 1), true);
   const auto found = joint_positions(clip);
   for (std::size_t i = 0; i < targets.size(); ++i)
@@ -116,15 +116,15 @@ TEST(Refit, ReachesPositionsOfAnotherPoseOfTheSameBones) {
 }
 
 TEST(Refit, WorksWithRestRotationsAndTranslatedJoints) {
-  Clip clean = moving_humanoid(5);
+  Take clean = moving_humanoid(5);
   Random random(5);
   for (Quat& q : clean.skeleton.rest_rotations) q = random_rotation(random);
   test::add_translations(clean, {3, 8},
                          [&](std::size_t, std::size_t) { return random_vector(random, 20); });
-  Clip other = clean;
+  Take other = clean;
   for (Quat& q : other.rotations) q = q * exp(random_vector(random, 0.2));
   const auto targets = joint_positions(other);
-  Clip clip = clean;
+  Take clip = clean;
   corrupt::refit(clip, targets, std::vector<std::uint8_t>(clean.joint_count(), 1), true);
   const auto found = joint_positions(clip);
   for (std::size_t i = 0; i < targets.size(); ++i)

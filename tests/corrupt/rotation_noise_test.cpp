@@ -41,8 +41,8 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b,
 }
 
 TEST(Gaussian, HasTheDeviationAskedForAboutEachAxis) {
-  const Clip clean = moving_chain(2, many);
-  const Clip noisy = damaged(clean, "gaussian", {{"std_deg", 1.5}}).clip;
+  const Take clean = moving_chain(2, many);
+  const Take noisy = damaged(clean, "gaussian", {{"std_deg", 1.5}}).clip;
   for (std::size_t j = 0; j < 2; ++j) {
     const auto c = components_of(errors_of(clean, noisy, j));
     for (const auto* axis : {&c.x, &c.y, &c.z}) {
@@ -64,15 +64,15 @@ TEST(Gaussian, ReportsTheRealisedAmount) {
 }
 
 TEST(Gaussian, OfZeroDegreesChangesNothing) {
-  const Clip clean = moving_chain(3, 50);
+  const Take clean = moving_chain(3, 50);
   const auto [noisy, report] = damaged(clean, "gaussian", {{"std_deg", 0.0}});
   EXPECT_EQ(report.samples_damaged, 0u);
   EXPECT_EQ(noisy.rotations, clean.rotations);
 }
 
 TEST(Uniform, StaysInItsHalfWidthWithTheDeviationOfAUniform) {
-  const Clip clean = moving_chain(1, many);
-  const Clip noisy = damaged(clean, "uniform", {{"half_width_deg", 3.0}}).clip;
+  const Take clean = moving_chain(1, many);
+  const Take noisy = damaged(clean, "uniform", {{"half_width_deg", 3.0}}).clip;
   const auto c = components_of(errors_of(clean, noisy, 0));
   for (const auto* axis : {&c.x, &c.y, &c.z}) {
     EXPECT_NEAR(deviation_of(*axis), 3 / std::sqrt(3.0) * degree, 0.03 * degree);
@@ -84,8 +84,8 @@ TEST(Uniform, StaysInItsHalfWidthWithTheDeviationOfAUniform) {
 }
 
 TEST(GaussianLog, IsNoiseOnHalfTheRotationVectorOfThePose) {
-  const Clip clean = moving_chain(2, many);
-  const Clip noisy = damaged(clean, "gaussian-log", {{"sigma", 0.02}}).clip;
+  const Take clean = moving_chain(2, many);
+  const Take noisy = damaged(clean, "gaussian-log", {{"sigma", 0.02}}).clip;
   std::vector<Vec3> differences;
   for (std::size_t f = 0; f < many; ++f)
     differences.push_back(0.5 * (log(noisy.rotation(f, 1)) - log(clean.rotation(f, 1))));
@@ -94,16 +94,16 @@ TEST(GaussianLog, IsNoiseOnHalfTheRotationVectorOfThePose) {
 }
 
 TEST(GaussianLog, AboutTheSampleTurnsByTwiceSigma) {
-  const Clip clean = moving_chain(2, many);
-  const Clip noisy =
+  const Take clean = moving_chain(2, many);
+  const Take noisy =
       damaged(clean, "gaussian-log", {{"sigma", 0.02}, {"about", std::string("sample")}}).clip;
   const auto c = components_of(errors_of(clean, noisy, 1));
   for (const auto* axis : {&c.x, &c.y, &c.z}) EXPECT_NEAR(deviation_of(*axis), 0.04, 0.0008);
 }
 
 // A joint whose z channel runs through several whole turns while x swings and y rests.
-Clip turning_clip(std::size_t frames) {
-  Clip clip = chain_clip(2, frames);
+Take turning_clip(std::size_t frames) {
+  Take clip = chain_clip(2, frames);
   for (std::size_t f = 0; f < frames; ++f) {
     const double t = static_cast<double>(f) / static_cast<double>(frames);
     clip.rotation(f, 1) =
@@ -113,8 +113,8 @@ Clip turning_clip(std::size_t frames) {
 }
 
 TEST(GaussianChannels, ScalesWithTheDeviationOfTheUnwrappedChannel) {
-  const Clip clean = turning_clip(many);
-  const Clip noisy = damaged(clean, "gaussian-channels", {{"k", 0.1}}).clip;
+  const Take clean = turning_clip(many);
+  const Take noisy = damaged(clean, "gaussian-channels", {{"k", 0.1}}).clip;
   const RotationOrder order = clean.skeleton.rotation_order(1);
   std::vector<double> dz, dx, dy;
   for (std::size_t f = 0; f < many; ++f) {
@@ -133,8 +133,8 @@ TEST(GaussianChannels, ScalesWithTheDeviationOfTheUnwrappedChannel) {
 }
 
 TEST(GaussianChannels, HasSixDecibelAtOneHalf) {
-  const Clip clean = moving_chain(4, 5000);
-  const Clip noisy = damaged(clean, "gaussian-channels").clip;
+  const Take clean = moving_chain(4, 5000);
+  const Take noisy = damaged(clean, "gaussian-channels").clip;
   const RotationOrder order = clean.skeleton.rotation_order(2);
   std::vector<double> signal, noise;
   std::array<double, 3> near{};
@@ -147,7 +147,7 @@ TEST(GaussianChannels, HasSixDecibelAtOneHalf) {
 }
 
 TEST(GaussianChannels, LeavesRootsAndRestingJointsByDefault) {
-  Clip clean = turning_clip(100);
+  Take clean = turning_clip(100);
   for (std::size_t f = 0; f < 100; ++f)
     clean.rotation(f, 0) = test::about_x(0.01 * static_cast<double>(f));
   const auto [noisy, report] = damaged(clean, "gaussian-channels");
@@ -159,8 +159,8 @@ TEST(GaussianChannels, LeavesRootsAndRestingJointsByDefault) {
 }
 
 TEST(Ar1, HasItsDeviationAndForgetsInItsTimeConstant) {
-  const Clip clean = moving_chain(1, many, 100);
-  const Clip noisy = damaged(clean, "ar1", {{"std_deg", 2.0}, {"time_constant_s", 0.05}}).clip;
+  const Take clean = moving_chain(1, many, 100);
+  const Take noisy = damaged(clean, "ar1", {{"std_deg", 2.0}, {"time_constant_s", 0.05}}).clip;
   const auto c = components_of(errors_of(clean, noisy, 0));
   EXPECT_NEAR(deviation_of(c.x), 2 * degree, 0.12 * degree);
   EXPECT_NEAR(correlation(c.x, c.x, 1), std::exp(-0.01 / 0.05), 0.02);
@@ -169,7 +169,7 @@ TEST(Ar1, HasItsDeviationAndForgetsInItsTimeConstant) {
 }
 
 TEST(Ar1, TakesTheCorrelationOfNeighbouringFrames) {
-  const Clip clean = moving_chain(1, many, 100);
+  const Take clean = moving_chain(1, many, 100);
   const auto lag1 = [&](double correlation_asked) {
     const auto c = components_of(
         errors_of(clean, damaged(clean, "ar1", {{"correlation", correlation_asked}}).clip, 0));
@@ -181,8 +181,8 @@ TEST(Ar1, TakesTheCorrelationOfNeighbouringFrames) {
 }
 
 TEST(Bias, IsOneTurnOfTheAngleAskedFor) {
-  const Clip clean = moving_chain(3, 50);
-  const Clip biased = damaged(clean, "bias", {{"bias_deg", 7.0}}).clip;
+  const Take clean = moving_chain(3, 50);
+  const Take biased = damaged(clean, "bias", {{"bias_deg", 7.0}}).clip;
   std::vector<Vec3> axes;
   for (std::size_t j = 0; j < 3; ++j) {
     const auto errors = errors_of(clean, biased, j);
@@ -199,8 +199,8 @@ TEST(Bias, IsOneTurnOfTheAngleAskedFor) {
 }
 
 TEST(Sinusoid, SwingsWithItsAmplitudeAndFrequency) {
-  const Clip clean = moving_chain(2, 1000, 100);
-  const Clip biased =
+  const Take clean = moving_chain(2, 1000, 100);
+  const Take biased =
       damaged(clean, "sinusoid",
               {{"amplitude_deg", 4.0}, {"frequency_hz", 0.5}, {"axis", std::string("x")}})
           .clip;

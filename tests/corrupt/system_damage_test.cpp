@@ -31,10 +31,9 @@ std::vector<std::string> kinds() {
 }
 
 // Markers on a grid, each moving by itself, 1.7 m tall.
-MarkerClip markers(std::size_t frames, double rate_hz, const std::string& unit = "mm",
-                   double scale = 1) {
-  MarkerClip clip =
-      make_marker_clip({"LeftHand", "RightHand", "LeftFoot", "RightFoot", "Head"}, frames, rate_hz);
+Take markers(std::size_t frames, double rate_hz, const std::string& unit = "mm", double scale = 1) {
+  Take clip =
+      make_marker_take({"LeftHand", "RightHand", "LeftFoot", "RightFoot", "Head"}, frames, rate_hz);
   clip.unit = unit;
   const Vec3 places[] = {{300, 1000, 0}, {-300, 1000, 0}, {100, 0, 50}, {-100, 0, 0}, {0, 1700, 0}};
   for (std::size_t f = 0; f < frames; ++f) {
@@ -49,13 +48,13 @@ MarkerClip markers(std::size_t frames, double rate_hz, const std::string& unit =
   return clip;
 }
 
-MarkerClip with_noise(MarkerClip clip, const OptionValues& values, std::uint64_t seed = 1) {
+Take with_noise(Take clip, const OptionValues& values, std::uint64_t seed = 1) {
   Random random(seed);
   apply_damage(clip, "system", values, random);
   return clip;
 }
 
-std::vector<double> errors(const MarkerClip& clean, const MarkerClip& noisy, std::size_t marker,
+std::vector<double> errors(const Take& clean, const Take& noisy, std::size_t marker,
                            double Vec3::*axis) {
   std::vector<double> result;
   for (std::size_t f = 0; f < clean.frame_count(); ++f)
@@ -83,8 +82,8 @@ TEST(SystemNoise, OfEachFamilyMakesSense) {
 }
 
 TEST(SystemNoise, LeavesEveryByteWhereItHasNoStrength) {
-  const Clip clean = moving_humanoid(100);
-  const MarkerClip taken = markers(100, 60);
+  const Take clean = moving_humanoid(100);
+  const Take taken = markers(100, 60);
   for (const std::string& name : kinds()) {
     const auto [clip, report] = damaged(clean, "system", kind(name, {{"strength", 0.0}}));
     for (std::size_t i = 0; i < clean.rotations.size(); ++i)
@@ -96,11 +95,11 @@ TEST(SystemNoise, LeavesEveryByteWhereItHasNoStrength) {
 }
 
 TEST(SystemNoise, GrowsInProportionToItsStrength) {
-  const MarkerClip clean = markers(600, 60);
+  const Take clean = markers(600, 60);
   for (const std::string& name : kinds()) {
     if (name == "inertial") continue;  // turns are no sums
-    const MarkerClip once = with_noise(clean, kind(name)),
-                     twice = with_noise(clean, kind(name, {{"strength", 2.0}}));
+    const Take once = with_noise(clean, kind(name)),
+               twice = with_noise(clean, kind(name, {{"strength", 2.0}}));
     for (std::size_t i = 0; i < clean.positions.size(); ++i) {
       const Vec3 a = once.positions[i] - clean.positions[i],
                  b = twice.positions[i] - clean.positions[i];
@@ -110,9 +109,9 @@ TEST(SystemNoise, GrowsInProportionToItsStrength) {
 }
 
 TEST(SystemNoise, IsOfMillimetresWhateverTheUnitOfTheFile) {
-  const MarkerClip clean = markers(600, 60), in_metres = markers(600, 60, "m", 0.001);
+  const Take clean = markers(600, 60), in_metres = markers(600, 60, "m", 0.001);
   for (const std::string& name : kinds()) {
-    const MarkerClip a = with_noise(clean, kind(name)), b = with_noise(in_metres, kind(name));
+    const Take a = with_noise(clean, kind(name)), b = with_noise(in_metres, kind(name));
     for (std::size_t i = 0; i < clean.positions.size(); ++i)
       ASSERT_LT(norm(a.positions[i] - 1000.0 * b.positions[i]), 1e-6) << name;
   }
@@ -151,12 +150,12 @@ TEST(SystemNoise, HasTheSameSpectrumBelow25HzAtBothRates) {
 }
 
 TEST(SystemNoise, IsStrongerAtArmsAndInDepth) {
-  MarkerClip clean = markers(60 * 300, 60);
+  Take clean = markers(60 * 300, 60);
   for (std::size_t f = 1; f < clean.frame_count(); ++f) {
     for (std::size_t m = 0; m < 5; ++m) clean.position(f, m) = clean.position(0, m);
   }
   // Slow enough to be the family's, fast enough to average out in five minutes.
-  const MarkerClip noisy = with_noise(
+  const Take noisy = with_noise(
       clean,
       kind("video", {{"fc_hz", 2.0}, {"bursts_per_min", 0.0}, {"depth_axis", std::string("x")}}));
   const corrupt::SystemNoise video = corrupt::system_families()[0].noise;
@@ -172,7 +171,7 @@ TEST(SystemNoise, IsStrongerAtArmsAndInDepth) {
 }
 
 TEST(SystemNoise, TakesItsOptionsInPlaceOfTheKind) {
-  const MarkerClip clean = markers(60 * 120, 60);
+  const Take clean = markers(60 * 120, 60);
   const corrupt::SystemNoise video = corrupt::system_families()[0].noise;
   const auto with = [&](const OptionValues& more) {
     return with_noise(clean, kind("video", more)).positions;
@@ -189,14 +188,14 @@ TEST(SystemNoise, TakesItsOptionsInPlaceOfTheKind) {
 }
 
 TEST(SystemNoise, TakesTheAxisForDepthAlongWhichTheBodyIsThinnest) {
-  const MarkerClip clean = markers(60 * 120, 60);
-  const MarkerClip noisy = with_noise(clean, kind("video"));
+  const Take clean = markers(60 * 120, 60);
+  const Take noisy = with_noise(clean, kind("video"));
   EXPECT_GT(deviation(errors(clean, noisy, 4, &Vec3::z)),
             2 * deviation(errors(clean, noisy, 4, &Vec3::x)));
 }
 
 TEST(SystemNoise, TurnsJointsByDegrees) {
-  const Clip clean = moving_humanoid(12000);
+  const Take clean = moving_humanoid(12000);
   const auto noisy =
       damaged(clean, "system", kind("inertial", {{"strength", 0.8}, {"heading_deg", 0.0}})).clip;
   double square = 0;
@@ -210,8 +209,8 @@ TEST(SystemNoise, TurnsJointsByDegrees) {
 TEST(SystemNoise, DriftsTheHeadingOfJointsAndMarkersAlike) {
   // The same noise with and without a drift: the drift alone is what sets them apart.
   const OptionValues still = kind("optical"), drift = kind("optical", {{"heading_deg", 30.0}});
-  const Clip clean = damaged(moving_humanoid(2400), "system", still).clip;
-  const Clip turned = damaged(moving_humanoid(2400), "system", drift).clip;
+  const Take clean = damaged(moving_humanoid(2400), "system", still).clip;
+  const Take turned = damaged(moving_humanoid(2400), "system", drift).clip;
   const auto before = joint_positions(clean), after = joint_positions(turned);
   const std::size_t joints = clean.joint_count();
   // The body stays rigid: distances between joints are what they were.
@@ -222,8 +221,8 @@ TEST(SystemNoise, DriftsTheHeadingOfJointsAndMarkersAlike) {
     ASSERT_NEAR(after[f * joints].y, before[f * joints].y, 1e-6) << "heights stay";
   }
   EXPECT_GT(angle_between(clean.rotation(2399, 0), turned.rotation(2399, 0)), 0.02);
-  const MarkerClip taken = with_noise(markers(2400, 120), still),
-                   moved = with_noise(markers(2400, 120), drift);
+  const Take taken = with_noise(markers(2400, 120), still),
+             moved = with_noise(markers(2400, 120), drift);
   EXPECT_GT(norm(moved.position(2399, 0) - taken.position(2399, 0)), 20);
   for (std::size_t f = 0; f < 2400; f += 100) {
     EXPECT_NEAR(norm(moved.position(f, 0) - moved.position(f, 4)),
@@ -232,12 +231,12 @@ TEST(SystemNoise, DriftsTheHeadingOfJointsAndMarkersAlike) {
 }
 
 TEST(SystemNoise, LeavesWhatIsMissingAndOtherPointsAlone) {
-  MarkerClip clean = markers(200, 60);
+  Take clean = markers(200, 60);
   for (std::size_t f = 50; f < 90; ++f) {
     clean.position(f, 1) = {};
     clean.observed[f * 5 + 1] = 0;
   }
-  const MarkerClip noisy = with_noise(clean, kind("video", {{"joints", std::string("*Hand")}}));
+  const Take noisy = with_noise(clean, kind("video", {{"joints", std::string("*Hand")}}));
   EXPECT_EQ(noisy.observed, clean.observed);
   for (std::size_t f = 0; f < 200; ++f) {
     EXPECT_EQ(noisy.position(f, 1) == clean.position(f, 1), f >= 50 && f < 90) << f;
@@ -246,23 +245,23 @@ TEST(SystemNoise, LeavesWhatIsMissingAndOtherPointsAlone) {
 }
 
 TEST(SystemNoise, MovesTranslatedJointsAndTheRoot) {
-  Clip clean = moving_humanoid(100);
+  Take clean = moving_humanoid(100);
   test::add_translations(clean, {3}, clean.skeleton.offsets[3]);
   for (std::int32_t axis = 0; axis < 3; ++axis) {
     clean.skeleton.channels[3].insert(
         clean.skeleton.channels[3].begin() + axis,
         static_cast<Channel>(static_cast<int>(Channel::x_position) + axis));
   }
-  const Clip noisy = damaged(clean, "system", kind("optical")).clip;
+  const Take noisy = damaged(clean, "system", kind("optical")).clip;
   EXPECT_NE(test::point_track(noisy, 1), test::point_track(clean, 1));
   EXPECT_NE(test::point_track(noisy, 0), test::point_track(clean, 0));
-  const Clip without = damaged(clean, "system", kind("optical", {{"root", false}})).clip;
+  const Take without = damaged(clean, "system", kind("optical", {{"root", false}})).clip;
   EXPECT_EQ(test::point_track(without, 0), test::point_track(clean, 0));
   EXPECT_EQ(test::point_track(without, 1), test::point_track(noisy, 1));
 }
 
 TEST(SystemNoise, RefusesNumbersOutOfRange) {
-  const MarkerClip clean = markers(10, 60);
+  const Take clean = markers(10, 60);
   const auto refused = [&](const OptionValues& values, const std::string& text) {
     EXPECT_THAT([&] { with_noise(clean, values); }, ThrowsMessage<Error>(HasSubstr(text)));
   };

@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(Table, EveryDamage, testing::ValuesIn([] {
                            return name;
                          });
 
-bool same_clip(const Clip& a, const Clip& b) {
+bool same_clip(const Take& a, const Take& b) {
   if (a.rotations.size() != b.rotations.size()) return false;
   for (std::size_t i = 0; i < a.rotations.size(); ++i) {
     if (!same_bits(a.rotations[i], b.rotations[i])) return false;
@@ -57,7 +57,7 @@ bool same_clip(const Clip& a, const Clip& b) {
 }
 
 TEST_P(EveryDamage, GivesTheSameBytesForTheSameSeedAndOthersForAnother) {
-  const Clip clean = moving_humanoid(200);
+  const Take clean = moving_humanoid(200);
   const auto first = damaged(clean, GetParam(), {}, 7), again = damaged(clean, GetParam(), {}, 7);
   EXPECT_TRUE(same_clip(first.clip, again.clip));
   EXPECT_FALSE(same_clip(first.clip, clean));
@@ -66,7 +66,7 @@ TEST_P(EveryDamage, GivesTheSameBytesForTheSameSeedAndOthersForAnother) {
 }
 
 TEST_P(EveryDamage, LeavesAValidClipAndReportsWhatItDid) {
-  const Clip clean = moving_humanoid(200);
+  const Take clean = moving_humanoid(200);
   const auto [clip, report] = damaged(clean, GetParam());
   clip.validate();
   EXPECT_EQ(report.kind, GetParam());
@@ -88,7 +88,7 @@ TEST_P(EveryDamage, LeavesAValidClipAndReportsWhatItDid) {
 }
 
 TEST_P(EveryDamage, LeavesTheRootAloneWhenAsked) {
-  const Clip clean = moving_humanoid(100);
+  const Take clean = moving_humanoid(100);
   const auto [clip, report] = damaged(clean, GetParam(), {{"root", false}});
   for (std::size_t f = 0; f < 100; ++f) {
     ASSERT_TRUE(same_bits(clean.rotation(f, 0), clip.rotation(f, 0)));
@@ -97,7 +97,7 @@ TEST_P(EveryDamage, LeavesTheRootAloneWhenAsked) {
 }
 
 TEST_P(EveryDamage, TouchesNoJointWithoutRotationChannels) {
-  Clip clean = moving_humanoid(100);
+  Take clean = moving_humanoid(100);
   const std::size_t fixed = static_cast<std::size_t>(clean.skeleton.find("LeftForeArm"));
   clean.skeleton.channels[fixed].clear();
   OptionValues values;
@@ -110,7 +110,7 @@ TEST_P(EveryDamage, TouchesNoJointWithoutRotationChannels) {
 }
 
 TEST_P(EveryDamage, KeepsHingesOnTheirAxis) {
-  Clip clean = moving_humanoid(100);
+  Take clean = moving_humanoid(100);
   const std::size_t hinge = static_cast<std::size_t>(clean.skeleton.find("LeftLeg"));
   clean.skeleton.channels[hinge] = {Channel::x_rotation};
   for (std::size_t f = 0; f < 100; ++f)
@@ -123,8 +123,8 @@ TEST_P(EveryDamage, KeepsHingesOnTheirAxis) {
 }
 
 TEST_P(EveryDamage, LeavesTheCalibrationPoseAloneAndSaysSo) {
-  const Clip motion = moving_humanoid(100);
-  Clip clean = test::resting_clip(motion.skeleton, 101, 120);
+  const Take motion = moving_humanoid(100);
+  Take clean = test::resting_clip(motion.skeleton, 101, 120);
   for (std::size_t f = 0; f < 100; ++f) {
     clean.root_position(f + 1) = motion.root_position(f);
     for (std::size_t j = 0; j < clean.joint_count(); ++j) {
@@ -143,13 +143,13 @@ TEST_P(EveryDamage, LeavesTheCalibrationPoseAloneAndSaysSo) {
   }
   EXPECT_TRUE(clip.observed.empty() || clip.observed.size() == clip.rotations.size());
   // What follows is damaged as it is without the pose.
-  const Clip alone = damaged(slice(clean, 1, 101), GetParam()).clip;
+  const Take alone = damaged(slice(clean, 1, 101), GetParam()).clip;
   EXPECT_TRUE(same_clip(slice(clip, 1, 101), alone));
 }
 
 TEST_P(EveryDamage, TakesAnyNumberOfFrames) {
   for (const std::size_t frames : {0, 1, 2, 3}) {
-    const Clip clean = slice(moving_humanoid(3), 0, frames);
+    const Take clean = slice(moving_humanoid(3), 0, frames);
     const auto [clip, report] = damaged(clean, GetParam());
     EXPECT_EQ(clip.frame_count(), frames);
     clip.validate();
@@ -157,7 +157,7 @@ TEST_P(EveryDamage, TakesAnyNumberOfFrames) {
 }
 
 TEST_P(EveryDamage, RefusesUnknownOptionsByName) {
-  const Clip clean = moving_humanoid(5);
+  const Take clean = moving_humanoid(5);
   EXPECT_THAT(
       [&] {
         damaged(clean, GetParam(), {{"amplitude", 3.0}});
@@ -168,15 +168,15 @@ TEST_P(EveryDamage, RefusesUnknownOptionsByName) {
 
 TEST_P(EveryDamage, GivesAJointTheSameDamageWhateverOthersGet) {
   if (GetParam() == "long-gap") return;  // picks among the joints it is given
-  const Clip clean = moving_humanoid(100);
+  const Take clean = moving_humanoid(100);
   const std::size_t arm = static_cast<std::size_t>(clean.skeleton.find("LeftForeArm"));
   const std::string joints =
       GetParam() == "snr" || GetParam() == "position-noise" ? "LeftHand" : "LeftForeArm";
   OptionValues values;
   if (GetParam() == "outlier-scale") values["value"] = std::string("rotation");
-  const Clip all = damaged(clean, GetParam(), values).clip;
+  const Take all = damaged(clean, GetParam(), values).clip;
   values["joints"] = joints;
-  const Clip one = damaged(clean, GetParam(), values).clip;
+  const Take one = damaged(clean, GetParam(), values).clip;
   if (joints == "LeftForeArm") {
     for (std::size_t f = 0; f < 100; ++f)
       ASSERT_TRUE(same_bits(all.rotation(f, arm), one.rotation(f, arm)));
@@ -189,15 +189,15 @@ TEST_P(EveryDamage, GivesAJointTheSameDamageWhateverOthersGet) {
 }
 
 TEST(Damages, ComposeAndDrawNewNoiseEachTime) {
-  const Clip clean = moving_humanoid(400);
-  Clip clip = clean;
+  const Take clean = moving_humanoid(400);
+  Take clip = clean;
   Random random(3);
   apply_damage(clip, "gaussian", {{"std_deg", 2.0}}, random);
-  const Clip once = clip;
+  const Take once = clip;
   apply_damage(clip, "gaussian", {{"std_deg", 2.0}}, random);
   // Independent noise adds up in squares: the second differs from the first by 2 sqrt 3 too, the
   // sum is sqrt 2 larger.
-  const auto rms = [](const Clip& a, const Clip& b) {
+  const auto rms = [](const Take& a, const Take& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.rotations.size(); ++i) {
       const double angle = angle_between(a.rotations[i], b.rotations[i]) / test::degree;
@@ -211,7 +211,7 @@ TEST(Damages, ComposeAndDrawNewNoiseEachTime) {
 }
 
 TEST(Damages, KeepTheMarksOfGapsMadeBefore) {
-  Clip clip = moving_humanoid(300);
+  Take clip = moving_humanoid(300);
   Random random(3);
   apply_damage(clip, "gaps", {}, random);
   const auto lost = clip.observed;
@@ -222,7 +222,7 @@ TEST(Damages, KeepTheMarksOfGapsMadeBefore) {
 }
 
 TEST(Damages, RefuseUnknownNamesAndBadValues) {
-  const Clip clean = moving_humanoid(5);
+  const Take clean = moving_humanoid(5);
   const auto usage = Throws<Error>(Property(&Error::kind, ErrorKind::usage));
   EXPECT_THAT(
       [&] { damaged(clean, "gausian"); },
@@ -248,8 +248,8 @@ TEST(Damages, RefuseUnknownNamesAndBadValues) {
 }
 
 TEST(Damages, TakeJointsByPatterns) {
-  const Clip clean = moving_humanoid(20);
-  const Clip clip =
+  const Take clean = moving_humanoid(20);
+  const Take clip =
       damaged(clean, "gaussian", {{"joints", std::string("Left*Arm,Hea?,*ToeBase")}}).clip;
   for (std::size_t j = 0; j < clean.joint_count(); ++j) {
     const std::string& name = clean.skeleton.names[j];

@@ -16,12 +16,12 @@ namespace {
 using test::moving_humanoid;
 
 // The positions of the joints, some of them missing, and a point that is none.
-MarkerClip markers(std::size_t frames = 400) {
-  const Clip clip = moving_humanoid(frames);
+Take markers(std::size_t frames = 400) {
+  const Take clip = moving_humanoid(frames);
   const std::size_t joints = clip.joint_count();
   std::vector<std::string> names = clip.skeleton.names;
   names.emplace_back("LKneeAngles");
-  MarkerClip result = make_marker_clip(names, frames, clip.frame_rate_hz);
+  Take result = make_marker_take(names, frames, clip.frame_rate_hz);
   const std::vector<Vec3> positions = joint_positions(clip);
   for (std::size_t f = 0; f < frames; ++f) {
     for (std::size_t m = 0; m < joints; ++m) {
@@ -38,20 +38,10 @@ MarkerClip markers(std::size_t frames = 400) {
   return result;
 }
 
-struct DamagedMarkers {
-  MarkerClip clip;
-  DamageReport report;
-};
-DamagedMarkers damaged(const MarkerClip& clean, std::string_view name,
-                       const OptionValues& values = {}, std::uint64_t seed = 1) {
-  DamagedMarkers result{clean, {}};
-  Random random(seed);
-  result.report = apply_damage(result.clip, name, values, random);
-  return result;
-}
+using test::damaged;
 
 // All joints of a clip as rotation vectors in degrees.
-VectorMotion rotation_vectors(const Clip& clip) {
+VectorMotion rotation_vectors(const Take& clip) {
   VectorMotion motion;
   motion.values = PoseMatrix(clip.frame_count(), 3 * clip.joint_count());
   for (std::size_t i = 0; i < clip.rotations.size(); ++i) {
@@ -89,9 +79,9 @@ INSTANTIATE_TEST_SUITE_P(Table, DamageOfVectors, testing::ValuesIn([] {
                          });
 
 TEST_P(DamageOfVectors, GivesMarkersTheSameForTheSameSeedAndOthersForAnother) {
-  const MarkerClip clean = markers();
-  const MarkerClip first = damaged(clean, GetParam(), {}, 7).clip;
-  const MarkerClip again = damaged(clean, GetParam(), {}, 7).clip;
+  const Take clean = markers();
+  const Take first = damaged(clean, GetParam(), {}, 7).clip;
+  const Take again = damaged(clean, GetParam(), {}, 7).clip;
   EXPECT_EQ(first.positions, again.positions);
   EXPECT_EQ(first.observed, again.observed);
   EXPECT_NE(first.positions, clean.positions);
@@ -100,7 +90,7 @@ TEST_P(DamageOfVectors, GivesMarkersTheSameForTheSameSeedAndOthersForAnother) {
 }
 
 TEST_P(DamageOfVectors, LeavesWhatIsMissingAndWhatIsNoPositionAlone) {
-  const MarkerClip clean = markers();
+  const Take clean = markers();
   const auto [clip, report] = damaged(clean, GetParam());
   clip.validate();
   std::size_t samples = 0, changed = 0;
@@ -136,9 +126,9 @@ TEST_P(DamageOfVectors, LeavesWhatIsMissingAndWhatIsNoPositionAlone) {
 
 TEST_P(DamageOfVectors, TouchesNamedTracksOnlyAndGivesThemTheSameAsAmongOthers) {
   if (GetParam() == "long-gap") GTEST_SKIP() << "places its gaps among those that may have one";
-  const MarkerClip clean = markers();
-  const MarkerClip all = damaged(clean, GetParam()).clip;
-  const MarkerClip some = damaged(clean, GetParam(), {{"joints", std::string("Left*")}}).clip;
+  const Take clean = markers();
+  const Take all = damaged(clean, GetParam()).clip;
+  const Take some = damaged(clean, GetParam(), {{"joints", std::string("Left*")}}).clip;
   for (std::size_t f = 0; f < clean.frame_count(); ++f) {
     for (std::size_t m = 0; m < clean.marker_count(); ++m) {
       const bool meant = clean.names[m].starts_with("Left");
@@ -154,7 +144,7 @@ TEST_P(DamageOfVectors, TouchesNamedTracksOnlyAndGivesThemTheSameAsAmongOthers) 
 // Rotation vectors are damaged as the rotations that they are: with the same seed a clip and its
 // vectors are the same afterwards.
 TEST(DamageOfRotationVectors, IsThatOfTheRotations) {
-  Clip clip = moving_humanoid(300);
+  Take clip = moving_humanoid(300);
   for (auto& channels : clip.skeleton.channels) channels.clear();  // nothing is restricted
   const OptionValues with_root = {{"root", true}};
   const std::vector<std::pair<std::string, OptionValues>> cases = {
@@ -162,7 +152,7 @@ TEST(DamageOfRotationVectors, IsThatOfTheRotations) {
       {"bias", {}},     {"sinusoid", {}},      {"outliers", {{"share", 0.2}, {"std_deg", 90.0}}},
       {"impulse", {}},  {"frozen", with_root}, {"gaps", with_root}};
   for (const auto& [name, values] : cases) {
-    const Clip expected = test::damaged(clip, name, values, 5).clip;
+    const Take expected = test::damaged(clip, name, values, 5).clip;
     VectorMotion motion = rotation_vectors(clip);
     Random random(5);
     apply_damage(motion, name, values, random);
@@ -186,9 +176,9 @@ TEST(DamageOfRotationVectors, StaysWithVectorsBeyondAHalfTurn) {
 }
 
 TEST(DamageOfMarkers, HasTheSizeThatIsAskedFor) {
-  const MarkerClip clean = markers(2000);
+  const Take clean = markers(2000);
   const double radius = body_height(clean) / 4;
-  const auto deviation = [&](const MarkerClip& clip) {
+  const auto deviation = [&](const Take& clip) {
     std::vector<double> differences;
     for (std::size_t f = 0; f < clean.frame_count(); ++f) {
       const Vec3 d = clip.position(f, 5) - clean.position(f, 5);
@@ -200,14 +190,14 @@ TEST(DamageOfMarkers, HasTheSizeThatIsAskedFor) {
   EXPECT_NEAR(deviation(damaged(clean, "gaussian", {{"std_deg", 2.0}}).clip),
               2 * radians_per_degree * radius, 0.04 * 2 * radians_per_degree * radius);
   EXPECT_NEAR(deviation(damaged(clean, "position-noise", {{"std_cm", 0.5}}).clip), 0.5, 0.02);
-  MarkerClip in_mm = clean;
+  Take in_mm = clean;
   in_mm.unit = "mm";
   EXPECT_NEAR(deviation(damaged(in_mm, "position-noise", {{"std_cm", 0.5}}).clip), 5, 0.2);
 }
 
 TEST(DamageOfMarkers, HasTheSignalToNoiseRatioThatIsAskedFor) {
-  const MarkerClip clean = markers();
-  const MarkerClip noisy = damaged(clean, "snr", {{"snr_db", 10.0}}).clip;
+  const Take clean = markers();
+  const Take noisy = damaged(clean, "snr", {{"snr_db", 10.0}}).clip;
   double signal = 0, noise = 0;
   for (std::size_t f = 0; f < clean.frame_count(); ++f) {
     Vec3 mean;
@@ -229,8 +219,8 @@ TEST(DamageOfMarkers, HasTheSignalToNoiseRatioThatIsAskedFor) {
 }
 
 TEST(DamageOfMarkers, LosesThemInGapsAndHoldsWhatWasLastSeenWhereFrozen) {
-  const MarkerClip clean = markers();
-  const MarkerClip lost =
+  const Take clean = markers();
+  const Take lost =
       damaged(clean, "gaps", {{"start_probability", 0.05}, {"mean_length_s", 0.1}}).clip;
   std::size_t missing = 0;
   for (std::size_t i = 0; i < clean.observed.size(); ++i) {
@@ -239,7 +229,7 @@ TEST(DamageOfMarkers, LosesThemInGapsAndHoldsWhatWasLastSeenWhereFrozen) {
     EXPECT_EQ(lost.positions[i], Vec3{});
   }
   EXPECT_GT(missing, clean.observed.size() / 10);
-  const MarkerClip frozen = damaged(clean, "frozen", {{"share", 0.5}}).clip;
+  const Take frozen = damaged(clean, "frozen", {{"share", 0.5}}).clip;
   EXPECT_EQ(frozen.observed, clean.observed);
   for (std::size_t f = 0; f < clean.frame_count(); ++f) {
     if (frozen.is_observed(f, 3)) {
@@ -249,7 +239,7 @@ TEST(DamageOfMarkers, LosesThemInGapsAndHoldsWhatWasLastSeenWhereFrozen) {
 }
 
 TEST(DamageOfMarkers, RefusesWhatNeedsASkeletonAndNamesThatAreNotThere) {
-  const MarkerClip clean = markers();
+  const Take clean = markers();
   for (const Damage& damage : damages()) {
     if (damage.apply_to_vectors != nullptr) continue;
     EXPECT_EQ(damage.name, "gaussian-log");

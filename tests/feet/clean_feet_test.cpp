@@ -21,14 +21,14 @@ std::size_t count_held(const FeetReport& report) {
   return static_cast<std::size_t>(std::count(report.held.begin(), report.held.end(), 1));
 }
 
-double largest_turn_deg(const Clip& a, const Clip& b) {
+double largest_turn_deg(const Take& a, const Take& b) {
   double largest = 0;
   for (std::size_t i = 0; i < a.rotations.size(); ++i)
     largest = std::max(largest, angle_between(a.rotations[i], b.rotations[i]));
   return largest * degrees_per_radian;
 }
 
-double largest_root_shift(const Clip& a, const Clip& b) {
+double largest_root_shift(const Take& a, const Take& b) {
   double largest = 0;
   for (std::size_t f = 0; f < a.frame_count(); ++f)
     largest = std::max(largest, norm(a.root_position(f) - b.root_position(f)));
@@ -36,7 +36,7 @@ double largest_root_shift(const Clip& a, const Clip& b) {
 }
 
 // Puts the left foot elsewhere in each frame, the way a leg would.
-Clip with_left_foot_moved(Clip clip, const std::function<Vec3(double)>& shift_at) {
+Take with_left_foot_moved(Take clip, const std::function<Vec3(double)>& shift_at) {
   const std::vector<Leg> legs = find_legs(clip.skeleton);
   const feet::LegMotion motion = feet::leg_motion(clip, legs);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -55,8 +55,8 @@ Clip with_left_foot_moved(Clip clip, const std::function<Vec3(double)>& shift_at
 
 TEST(CleanFeet, TakesTheSlideOfAWanderingRootOut) {
   for (const double rate : {30.0, 120.0}) {
-    const Clip clip = with_drift(synthetic_clip("walk", 8, rate), 4);
-    Clip cleaned = clip;
+    const Take clip = with_drift(synthetic_clip("walk", 8, rate), 4);
+    Take cleaned = clip;
     const FeetReport report = clean_feet(cleaned, forced());
     EXPECT_EQ(count_held(report), report.contacts.size());
     EXPECT_GT(report.before.most_slide, 2);
@@ -64,14 +64,14 @@ TEST(CleanFeet, TakesTheSlideOfAWanderingRootOut) {
     EXPECT_LT(report.after.slide, 0.002);
     EXPECT_LT(report.after.knee_pop_deg, 1.1 * report.before.knee_pop_deg + 0.5);
     EXPECT_TRUE(report.warnings.empty());
-    const Clip& kept = cleaned;
+    const Take& kept = cleaned;
     EXPECT_NO_THROW(kept.validate());
   }
 }
 
 TEST(CleanFeet, HoldsFeetOfJitteryRotationsByForce) {
-  const Clip clip = test::with_noise(synthetic_clip("walk", 6, 60), 0.3);
-  Clip cleaned = clip;
+  const Take clip = test::with_noise(synthetic_clip("walk", 6, 60), 0.3);
+  Take cleaned = clip;
   const FeetReport report = clean_feet(cleaned, forced());
   EXPECT_EQ(count_held(report), report.contacts.size());
   EXPECT_LT(report.after.most_slide, 0.02);
@@ -80,8 +80,8 @@ TEST(CleanFeet, HoldsFeetOfJitteryRotationsByForce) {
 
 // Where noise moves the feet all of the leg is noisy: each joint and the root take their share.
 TEST(CleanFeet, TakesFeetThatJitterForMeasurementsOfAllThatTheyHangFrom) {
-  const Clip truth = synthetic_clip("walk", 6, 60), noisy = test::with_noise(truth, 0.3);
-  Clip cleaned = noisy;
+  const Take truth = synthetic_clip("walk", 6, 60), noisy = test::with_noise(truth, 0.3);
+  Take cleaned = noisy;
   const FeetReport report = clean_feet(cleaned);
   EXPECT_EQ(count_held(report), report.contacts.size());
   EXPECT_LT(report.after.slide, 0.25 * report.before.slide);
@@ -96,10 +96,10 @@ TEST(CleanFeet, TakesFeetThatJitterForMeasurementsOfAllThatTheyHangFrom) {
 }
 
 TEST(CleanFeet, LiftsFeetThatSink) {
-  Clip clip = synthetic_clip("walk", 8);
+  Take clip = synthetic_clip("walk", 8);
   // A tenth of the strides stands 4 cm below the floor.
   for (std::size_t f = 300; f < 420; ++f) clip.root_position(f).y -= 4;
-  Clip cleaned = clip;
+  Take cleaned = clip;
   const FeetReport report = clean_feet(cleaned, forced());
   EXPECT_GT(report.before.sink, 2.5);
   EXPECT_LT(report.after.sink, 0.6);
@@ -107,8 +107,8 @@ TEST(CleanFeet, LiftsFeetThatSink) {
 
 TEST(CleanFeet, LeavesACleanWalkAlone) {
   for (const char* motion : {"walk", "turn", "run", "jump", "still"}) {
-    const Clip clip = synthetic_clip(motion, 6);
-    Clip cleaned = clip;
+    const Take clip = synthetic_clip(motion, 6);
+    Take cleaned = clip;
     const FeetReport report = clean_feet(cleaned);
     EXPECT_EQ(count_held(report), 0u) << motion;
     EXPECT_EQ(cleaned.rotations, clip.rotations) << motion;
@@ -119,8 +119,8 @@ TEST(CleanFeet, LeavesACleanWalkAlone) {
 }
 
 TEST(CleanFeet, HardlyChangesACleanWalkByForce) {
-  const Clip clip = synthetic_clip("walk", 6);
-  Clip cleaned = clip;
+  const Take clip = synthetic_clip("walk", 6);
+  Take cleaned = clip;
   const FeetReport report = clean_feet(cleaned, forced());
   EXPECT_GT(count_held(report), 10u);
   EXPECT_LT(report.after.most_slide, 0.02);
@@ -128,11 +128,11 @@ TEST(CleanFeet, HardlyChangesACleanWalkByForce) {
 }
 
 TEST(CleanFeet, ChangesNothingFartherFromContactsThanTheBlend) {
-  const Clip clip = with_drift(synthetic_clip("run", 6), 4);
+  const Take clip = with_drift(synthetic_clip("run", 6), 4);
   FeetSettings settings;
   const std::vector<FootContact> all = find_contacts(clip);
   settings.contacts = {{all[1], all.back()}};
-  Clip cleaned = clip;
+  Take cleaned = clip;
   const FeetReport report = clean_feet(cleaned, settings);
   const auto blend = static_cast<std::size_t>(std::lround(settings.blend_s * clip.frame_rate_hz));
   std::vector<std::uint8_t> near(clip.frame_count());
@@ -157,7 +157,7 @@ TEST(CleanFeet, ChangesNothingFartherFromContactsThanTheBlend) {
 
 // The largest change of the ankle's velocity from a frame to the next, cm/s, near ends of contacts.
 double largest_kick(double rate, const std::vector<FootContact>& at_120) {
-  const Clip clip = with_drift(synthetic_clip("walk", 6, rate), 4);
+  const Take clip = with_drift(synthetic_clip("walk", 6, rate), 4);
   FeetSettings settings = forced();
   settings.contacts.emplace();
   const auto times = static_cast<std::size_t>(std::lround(rate / 120));
@@ -166,7 +166,7 @@ double largest_kick(double rate, const std::vector<FootContact>& at_120) {
     c.last_frame *= times;
     settings.contacts->push_back(c);
   }
-  Clip cleaned = clip;
+  Take cleaned = clip;
   clean_feet(cleaned, settings);
   double largest = 0;
   const std::vector<Vec3> before = track_of(clip, "LeftFoot"),
@@ -189,13 +189,13 @@ TEST(CleanFeet, KeepsVelocityContinuousAtTheEndsOfContacts) {
 }
 
 TEST(CleanFeet, DoesNotFlingAFootThatJittersWhereItsContactEnds) {
-  Clip clip = synthetic_clip("still", 3);
+  Take clip = synthetic_clip("still", 3);
   constexpr std::size_t last = 200;
   Quat& hip = clip.rotation(last, test::joint_of(clip, "LeftUpLeg"));
   hip = hip * exp({0.1, 0, 0});
   FeetSettings settings;
   settings.contacts = {{{0, FootPart::toe, 100, last}}};
-  Clip cleaned = clip;
+  Take cleaned = clip;
   clean_feet(cleaned, settings);
   const std::vector<Vec3> before = track_of(clip, "LeftToeBase"),
                           after = track_of(cleaned, "LeftToeBase");
@@ -206,12 +206,12 @@ TEST(CleanFeet, DoesNotFlingAFootThatJittersWhereItsContactEnds) {
 }
 
 TEST(CleanFeet, HasNothingLeftToDoTheSecondTime) {
-  const Clip clip = with_drift(synthetic_clip("walk", 8), 4);
-  Clip once = clip;
+  const Take clip = with_drift(synthetic_clip("walk", 8), 4);
+  Take once = clip;
   FeetSettings settings;
   const FeetReport report = clean_feet(once, settings);
   ASSERT_GT(count_held(report), 5u);
-  Clip twice = once;
+  Take twice = once;
   EXPECT_EQ(count_held(clean_feet(twice, settings)), 0u);
   EXPECT_EQ(twice.rotations, once.rotations);
 
@@ -225,21 +225,21 @@ TEST(CleanFeet, HasNothingLeftToDoTheSecondTime) {
 }
 
 TEST(CleanFeet, DoesTheSameWhicheverWayIsUpAndWhateverTheUnit) {
-  const Clip clip = with_drift(synthetic_clip("walk", 5, 60), 4);
+  const Take clip = with_drift(synthetic_clip("walk", 5, 60), 4);
   const Quat turn = exp({pi / 2, 0, 0});
-  const Clip other = test::moved(clip, turn, {30, 40, 50}, 0.01);
-  Clip plain = clip, turned = other;
+  const Take other = test::moved(clip, turn, {30, 40, 50}, 0.01);
+  Take plain = clip, turned = other;
   clean_feet(plain, forced());
   clean_feet(turned, forced());
-  const Clip expected = test::moved(plain, turn, {30, 40, 50}, 0.01);
+  const Take expected = test::moved(plain, turn, {30, 40, 50}, 0.01);
   EXPECT_LT(largest_turn_deg(expected, turned), 1e-4);
   EXPECT_LT(largest_root_shift(expected, turned), 1e-6);
 }
 
 TEST(CleanFeet, LeavesTheCalibrationFrameAlone) {
-  const Clip clip = with_drift(synthetic_clip("walk", 5, 120, 1, true), 4);
+  const Take clip = with_drift(synthetic_clip("walk", 5, 120, 1, true), 4);
   ASSERT_EQ(leading_calibration_frames(clip), 1u);
-  Clip cleaned = clip;
+  Take cleaned = clip;
   const FeetReport report = clean_feet(cleaned, forced());
   EXPECT_TRUE(test::same_bits(clip, cleaned, 0));
   EXPECT_EQ(report.changed.size(), clip.rotations.size());
@@ -249,11 +249,11 @@ TEST(CleanFeet, LeavesTheCalibrationFrameAlone) {
 }
 
 TEST(CleanFeet, LeavesAFootAloneThatIsDrawnAlongWhileTheOtherStands) {
-  const Clip clip = with_left_foot_moved(synthetic_clip("still", 4), [](double t) {
+  const Take clip = with_left_foot_moved(synthetic_clip("still", 4), [](double t) {
     const double u = std::clamp(t - 1.0, 0.0, 1.0);
     return Vec3{9 * u * u * (3 - 2 * u), 0, 0};
   });
-  Clip cleaned = clip;
+  Take cleaned = clip;
   const FeetReport report = clean_feet(cleaned);
   bool said = false;
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {
@@ -263,23 +263,23 @@ TEST(CleanFeet, LeavesAFootAloneThatIsDrawnAlongWhileTheOtherStands) {
   }
   EXPECT_TRUE(said);
   EXPECT_EQ(cleaned.rotations, clip.rotations);
-  Clip held = clip;
+  Take held = clip;
   EXPECT_LT(clean_feet(held, forced()).after.most_slide, 0.1);
 }
 
 TEST(CleanFeet, LeavesAGlideAloneButHoldsASlowDrift) {
   const auto carried = [](double speed) {
-    Clip clip = synthetic_clip("still", 4, 60);
+    Take clip = synthetic_clip("still", 4, 60);
     for (std::size_t f = 0; f < clip.frame_count(); ++f)
       clip.root_position(f).x += speed * static_cast<double>(f) / clip.frame_rate_hz;
     return clip;
   };
-  Clip glide = carried(18);
+  Take glide = carried(18);
   const FeetReport left = clean_feet(glide);
   EXPECT_EQ(count_held(left), 0u);
   ASSERT_FALSE(left.reasons.empty());
   EXPECT_THAT(left.reasons[0], testing::HasSubstr("along with the body"));
-  Clip drift = carried(2);
+  Take drift = carried(2);
   const FeetReport held = clean_feet(drift);
   EXPECT_EQ(count_held(held), held.contacts.size());
   EXPECT_GT(held.before.most_slide, 7);
@@ -287,11 +287,11 @@ TEST(CleanFeet, LeavesAGlideAloneButHoldsASlowDrift) {
 }
 
 TEST(CleanFeet, HoldsWhatIsListedAndNothingElse) {
-  const Clip clip = with_drift(synthetic_clip("walk", 6), 4);
+  const Take clip = with_drift(synthetic_clip("walk", 6), 4);
   FeetSettings settings;
   const std::vector<FootContact> all = find_contacts(clip);
   settings.contacts = {{all[2]}};
-  Clip cleaned = clip;
+  Take cleaned = clip;
   const FeetReport report = clean_feet(cleaned, settings);
   EXPECT_EQ(report.contacts, *settings.contacts);
   EXPECT_EQ(count_held(report), 1u);
@@ -303,12 +303,12 @@ TEST(CleanFeet, HoldsWhatIsListedAndNothingElse) {
 }
 
 TEST(CleanFeet, ManagesWithoutARootThatMoves) {
-  Clip clip = with_drift(synthetic_clip("walk", 6), 6);
-  Clip free = clip;
+  Take clip = with_drift(synthetic_clip("walk", 6), 6);
+  Take free = clip;
   const FeetReport lowered = clean_feet(free, forced());
   EXPECT_GT(std::count(lowered.root_changed.begin(), lowered.root_changed.end(), 1), 0);
   clip.skeleton.channels[0] = make_channels(false, parse_rotation_order("ZXY"));
-  Clip cleaned = clip;
+  Take cleaned = clip;
   const FeetReport report = clean_feet(cleaned, forced());
   EXPECT_EQ(cleaned.positions, clip.positions);
   EXPECT_LT(report.after.slide, 0.5 * report.before.slide);
@@ -316,7 +316,7 @@ TEST(CleanFeet, ManagesWithoutARootThatMoves) {
 }
 
 TEST(CleanFeet, KeepsTranslationsOfJoints) {
-  Clip clip = with_drift(synthetic_clip("walk", 4, 60), 4);
+  Take clip = with_drift(synthetic_clip("walk", 4, 60), 4);
   const std::vector<std::int32_t> joints = {clip.skeleton.find("LeftLeg"),
                                             clip.skeleton.find("LeftFoot")};
   for (const std::int32_t j : joints)
@@ -326,7 +326,7 @@ TEST(CleanFeet, KeepsTranslationsOfJoints) {
     const double stretch = 1 + 0.01 * std::sin(0.1 * static_cast<double>(f));
     return stretch * clip.skeleton.offsets[static_cast<std::size_t>(joints[k])];
   });
-  Clip cleaned = clip;
+  Take cleaned = clip;
   const FeetReport report = clean_feet(cleaned, forced());
   for (const std::size_t track : {1, 2})
     EXPECT_EQ(test::point_track(cleaned, track), test::point_track(clip, track));
@@ -334,17 +334,17 @@ TEST(CleanFeet, KeepsTranslationsOfJoints) {
 }
 
 TEST(CleanFeet, SaysWhereItCanDoNothing) {
-  Clip chain = synthetic_clip("spin", 1);
+  Take chain = synthetic_clip("spin", 1);
   EXPECT_THAT(clean_feet(chain).warnings, testing::ElementsAre(testing::HasSubstr("no legs")));
-  Clip lying = test::moved(synthetic_clip("walk", 1), exp({pi / 4, 0, 0}), {});
+  Take lying = test::moved(synthetic_clip("walk", 1), exp({pi / 4, 0, 0}), {});
   EXPECT_THAT(clean_feet(lying).warnings, testing::ElementsAre(testing::HasSubstr("which way")));
-  Clip empty = slice(synthetic_clip("walk", 1), 0, 0);
+  Take empty = slice(synthetic_clip("walk", 1), 0, 0);
   EXPECT_TRUE(clean_feet(empty).contacts.empty());
   EXPECT_EQ(empty.frame_count(), 0u);
 }
 
 TEST(CleanFeet, RefusesSettingsOutOfRange) {
-  Clip clip = synthetic_clip("walk", 1);
+  Take clip = synthetic_clip("walk", 1);
   FeetSettings settings;
   settings.blend_s = 0;
   EXPECT_THROW(clean_feet(clip, settings), Error);
@@ -357,8 +357,8 @@ TEST(CleanFeet, RefusesSettingsOutOfRange) {
 }
 
 TEST(CleanFeet, DoesNothingWhenItIsOff) {
-  const Clip clip = with_drift(synthetic_clip("walk", 2), 4);
-  Clip cleaned = clip;
+  const Take clip = with_drift(synthetic_clip("walk", 2), 4);
+  Take cleaned = clip;
   FeetSettings settings;
   settings.mode = FeetMode::off;
   EXPECT_TRUE(clean_feet(cleaned, settings).contacts.empty());

@@ -8,7 +8,7 @@ namespace {
 
 using test::synthetic_clip;
 
-std::string error_of(std::string_view text, const Clip& clip) {
+std::string error_of(std::string_view text, const Take& clip) {
   try {
     parse_contacts(text, "walk.contacts", clip);
   } catch (const Error& error) {
@@ -19,14 +19,14 @@ std::string error_of(std::string_view text, const Clip& clip) {
 }
 
 TEST(ContactFile, ReadsBackWhatItWrote) {
-  const Clip clip = synthetic_clip("walk");
+  const Take clip = synthetic_clip("walk");
   const std::vector<FootContact> contacts = find_contacts(clip);
   ASSERT_GT(contacts.size(), 10u);
   EXPECT_EQ(parse_contacts(contacts_text(clip, contacts), "x", clip), contacts);
 }
 
 TEST(ContactFile, TakesCommentsBlankLinesTabsAndAnyLineEnd) {
-  const Clip clip = synthetic_clip("walk", 1);
+  const Take clip = synthetic_clip("walk", 1);
   const std::vector<FootContact> found = parse_contacts(
       "\xEF\xBB\xBF# by hand\r\n\r\n  right\ttoe 5 9 # here\r\nleft heel 1 3", "x", clip);
   const std::vector<FootContact> expected = {{0, FootPart::heel, 0, 2}, {1, FootPart::toe, 4, 8}};
@@ -35,7 +35,7 @@ TEST(ContactFile, TakesCommentsBlankLinesTabsAndAnyLineEnd) {
 }
 
 TEST(ContactFile, SaysWhichLineIsWrongAndWhatItExpected) {
-  const Clip clip = synthetic_clip("walk", 1);  // 120 frames
+  const Take clip = synthetic_clip("walk", 1);  // 120 frames
   EXPECT_EQ(error_of("left heel 1 3\nmiddle heel 1 2\n", clip),
             "walk.contacts:2: expected left or right, found \"middle\"");
   EXPECT_EQ(error_of("left sole 1 3\n", clip),
@@ -53,7 +53,7 @@ TEST(ContactFile, SaysWhichLineIsWrongAndWhatItExpected) {
 }
 
 TEST(ContactFile, RefusesWhatIsNoContactFile) {
-  const Clip clip = synthetic_clip("walk", 1);
+  const Take clip = synthetic_clip("walk", 1);
   for (const std::string& text :
        {std::string("left heel 1"), std::string("left"), std::string("left heel -1 3"),
         std::string("left heel 1e3 2"), std::string("left heel 99999999999999999999999 3"),
@@ -66,7 +66,7 @@ TEST(ContactFile, RefusesWhatIsNoContactFile) {
 }
 
 TEST(ContactFile, PutsWhatWasNotHeldIntoComments) {
-  const Clip clip = synthetic_clip("walk", 1);
+  const Take clip = synthetic_clip("walk", 1);
   FeetReport report;
   report.contacts = {{0, FootPart::heel, 0, 9}, {1, FootPart::toe, 4, 30}};
   report.sides = {"left", "right"};

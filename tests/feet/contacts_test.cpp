@@ -17,7 +17,7 @@ constexpr std::array<const char*, 2> sides{"Left", "Right"};
 
 // The heel about which the synthetic walker turns: below and behind the ankle, on the floor (y = 0)
 // where the foot is level.
-std::vector<Vec3> true_heels(const Clip& clip, std::size_t leg) {
+std::vector<Vec3> true_heels(const Take& clip, std::size_t leg) {
   const std::string side = sides[leg];
   double ankle_height = 0, flattest = 2;
   std::vector<Pose> poses;
@@ -40,7 +40,7 @@ std::vector<Vec3> true_heels(const Clip& clip, std::size_t leg) {
 }
 
 // 1 where the part stands: as good as still and as low as it gets.
-std::vector<std::uint8_t> truth(const Clip& clip, std::size_t leg, FootPart part) {
+std::vector<std::uint8_t> truth(const Take& clip, std::size_t leg, FootPart part) {
   const std::vector<Vec3> track = part == FootPart::toe
                                       ? track_of(clip, std::string(sides[leg]) + "ToeBase")
                                       : true_heels(clip, leg);
@@ -61,7 +61,7 @@ struct Score {
 };
 
 // Frames found that are within `slack` of a true one, and true ones found.
-Score score(const Clip& clean, const std::vector<FootContact>& contacts, double slack_s = 0.035) {
+Score score(const Take& clean, const std::vector<FootContact>& contacts, double slack_s = 0.035) {
   const auto slack = static_cast<std::ptrdiff_t>(std::ceil(slack_s * clean.frame_rate_hz));
   double found = 0, right = 0, there = 0, caught = 0;
   for (std::size_t leg = 0; leg < 2; ++leg) {
@@ -89,7 +89,7 @@ Score score(const Clip& clean, const std::vector<FootContact>& contacts, double 
 TEST(FindContacts, AgreesWithTheWalkersOwnFootfalls) {
   for (const double rate : {24.0, 30.0, 60.0, 120.0, 240.0}) {
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
-      const Clip clip = synthetic_clip("walk", 8, rate, seed);
+      const Take clip = synthetic_clip("walk", 8, rate, seed);
       const Score found = score(clip, find_contacts(clip));
       EXPECT_GT(found.precision, 0.95) << rate << " Hz, seed " << seed;
       EXPECT_GT(found.recall, 0.85) << rate << " Hz, seed " << seed;
@@ -99,7 +99,7 @@ TEST(FindContacts, AgreesWithTheWalkersOwnFootfalls) {
 
 TEST(FindContacts, SeesThroughADegreeOfJitter) {
   for (const double rate : {60.0, 120.0}) {
-    const Clip clip = synthetic_clip("walk", 8, rate);
+    const Take clip = synthetic_clip("walk", 8, rate);
     const Score found = score(clip, find_contacts(test::with_noise(clip, 1.0)), 0.07);
     EXPECT_GT(found.precision, 0.95) << rate << " Hz";
     EXPECT_GT(found.recall, 0.6) << rate << " Hz";
@@ -108,7 +108,7 @@ TEST(FindContacts, SeesThroughADegreeOfJitter) {
 
 TEST(FindContacts, SeesTheStandsOfARunnerThroughWhatAFilterLeaves) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
-    const Clip clip = synthetic_clip("run", 6, 120, seed);
+    const Take clip = synthetic_clip("run", 6, 120, seed);
     const Score clean = score(clip, find_contacts(clip), 0.07);
     EXPECT_GT(clean.precision, 0.95) << "seed " << seed;
     const Score found = score(clip, find_contacts(test::with_smooth_noise(clip, 1.0, seed)), 0.07);
@@ -118,7 +118,7 @@ TEST(FindContacts, SeesTheStandsOfARunnerThroughWhatAFilterLeaves) {
 }
 
 TEST(FindContacts, KnowsNeitherAxesNorUnitsNorTheFloorsHeight) {
-  const Clip clip = synthetic_clip("walk", 6);
+  const Take clip = synthetic_clip("walk", 6);
   const std::vector<FootContact> plain = find_contacts(clip);
   const Quat upright = exp({pi / 2, 0, 0});  // y up to z up
   EXPECT_EQ(find_contacts(test::moved(clip, upright, {10, -20, 333})), plain);
@@ -127,7 +127,7 @@ TEST(FindContacts, KnowsNeitherAxesNorUnitsNorTheFloorsHeight) {
 }
 
 TEST(FindContacts, LeavesTheFloorWithTheFeet) {
-  const Clip clip = synthetic_clip("jump", 6);
+  const Take clip = synthetic_clip("jump", 6);
   const std::vector<Vec3> toes = track_of(clip, "LeftToeBase");
   double lowest = 1e9;
   for (const Vec3 p : toes) lowest = std::min(lowest, p.y);
@@ -141,7 +141,7 @@ TEST(FindContacts, LeavesTheFloorWithTheFeet) {
 }
 
 TEST(FindContacts, StandsOnABoxToo) {
-  const Clip clip = synthetic_clip("landing", 4);
+  const Take clip = synthetic_clip("landing", 4);
   const std::vector<Vec3> toes = track_of(clip, "LeftToeBase");
   bool high = false, low = false;
   for (const FootContact& c : find_contacts(clip)) {
@@ -153,7 +153,7 @@ TEST(FindContacts, StandsOnABoxToo) {
 }
 
 TEST(FindContacts, HoldsAStandingBodyThroughout) {
-  const Clip clip = synthetic_clip("still", 5);
+  const Take clip = synthetic_clip("still", 5);
   const std::vector<FootContact> contacts = find_contacts(clip);
   ASSERT_EQ(contacts.size(), 4u);
   for (const FootContact& c : contacts)
@@ -170,7 +170,7 @@ TEST(FindContacts, CountsFromTheFirstFrameOfTheTake) {
 
 TEST(FindContacts, FindsNoneWithoutFeetFramesOrUp) {
   EXPECT_TRUE(find_contacts(synthetic_clip("spin", 2)).empty());
-  Clip clip = synthetic_clip("walk", 1);
+  Take clip = synthetic_clip("walk", 1);
   EXPECT_TRUE(find_contacts(slice(clip, 0, 1)).empty());
   const Quat lying = exp({pi / 4, 0, 0});
   EXPECT_TRUE(find_contacts(test::moved(clip, lying, {})).empty());

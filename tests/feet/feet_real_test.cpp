@@ -11,9 +11,8 @@
 namespace kinemend {
 namespace {
 
-Clip real_clip(const std::string& path) {
-  return std::get<Clip>(
-      read_take(std::filesystem::path(std::string(KINEMEND_DATA_FOLDER) + "/" + path)).take);
+Take real_clip(const std::string& path) {
+  return read_take(std::filesystem::path(std::string(KINEMEND_DATA_FOLDER) + "/" + path)).take;
 }
 
 std::size_t count_held(const FeetReport& report) {
@@ -25,8 +24,8 @@ double centimetres(const FeetReport& report) { return 100 * report.metres_per_un
 class CmuWalks : public testing::TestWithParam<std::string> {};
 
 TEST_P(CmuWalks, AreHardlyTouchedByItself) {
-  const Clip clip = real_clip("cmu/" + GetParam());
-  Clip cleaned = clip;
+  const Take clip = real_clip("cmu/" + GetParam());
+  Take cleaned = clip;
   const FeetReport report = clean_feet(cleaned);
   EXPECT_GE(report.contacts.size(), 8u);
   std::size_t frames = 0;
@@ -40,7 +39,7 @@ TEST_P(CmuWalks, AreHardlyTouchedByItself) {
 }
 
 TEST_P(CmuWalks, StandWhereTheyShallByForce) {
-  Clip clip = real_clip("cmu/" + GetParam());
+  Take clip = real_clip("cmu/" + GetParam());
   const FeetReport before = clean_feet(clip, [] {
     FeetSettings settings;
     settings.mode = FeetMode::force;
@@ -71,8 +70,8 @@ INSTANTIATE_TEST_SUITE_P(Takes, CmuWalks,
 TEST(FeetOfRealTakes, SlideOnASkeletonThatIsNotTheirsUntilTheyAreHeld) {
   // Rotations and path of one subject on the bones of another.
   for (const char* name : {"38_03", "46_01", "105_39"}) {
-    const Clip sliding = real_clip(std::string("cmu/bvh-rotations/") + name + ".bvh");
-    Clip clip = sliding;
+    const Take sliding = real_clip(std::string("cmu/bvh-rotations/") + name + ".bvh");
+    Take clip = sliding;
     const FeetReport report = clean_feet(clip);
     const double cm = centimetres(report);
     EXPECT_GT(report.before.most_slide * cm, 3) << name;
@@ -97,7 +96,7 @@ TEST(FeetOfRealTakes, AreHeldOnJointsOfEveryDialect) {
         "bvh-other/PyMO/AV_8Walk_Meredith_HVHA_Rep1.bvh", "bvh-other/GPmat/Swagger.bvh",
         "bvh-other/deep-motion-editing/style_transfer_demo_results_comp_3d_2_raw.bvh",
         "paired/S02-Trial-Walk-1-xsens.bvh"}) {
-    Clip clip = real_clip(path);
+    Take clip = real_clip(path);
     FeetSettings settings;
     settings.mode = FeetMode::force;
     const FeetReport report = clean_feet(clip, settings);

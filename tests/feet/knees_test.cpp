@@ -22,7 +22,7 @@ TEST(Knees, DoNotPopInWalksThatDriftAndJitter) {
   for (const double rate : {30.0, 60.0, 120.0}) {
     for (const double noise_deg : {0.0, 0.3, 0.6}) {
       for (const std::uint64_t seed : {1u, 2u, 3u}) {
-        Clip clip = with_smooth_noise(with_drift(synthetic_clip("walk", 8, rate, seed), 4),
+        Take clip = with_smooth_noise(with_drift(synthetic_clip("walk", 8, rate, seed), 4),
                                       noise_deg, seed);
         const FeetReport report = clean_feet(clip, forced());
         EXPECT_LE(report.after.knee_pop_deg, allowed_pop_deg(report))
@@ -34,8 +34,8 @@ TEST(Knees, DoNotPopInWalksThatDriftAndJitter) {
 }
 
 // A standing body whose hips or one foot jump for two frames: what a filter takes for real.
-Clip with_jump(const char* joint, double deg, double rise) {
-  Clip clip = synthetic_clip("still", 3);
+Take with_jump(const char* joint, double deg, double rise) {
+  Take clip = synthetic_clip("still", 3);
   for (const std::size_t f : {180u, 181u}) {
     clip.root_position(f).y += rise;
     Quat& own = clip.rotation(f, test::joint_of(clip, joint));
@@ -45,8 +45,8 @@ Clip with_jump(const char* joint, double deg, double rise) {
 }
 
 TEST(Knees, AreSparedWhatTheHipsJump) {
-  Clip clip = with_jump("Hips", 0, 0.5);
-  const Clip before = clip;
+  Take clip = with_jump("Hips", 0, 0.5);
+  const Take before = clip;
   const FeetReport report = clean_feet(clip, forced());
   ASSERT_FALSE(report.contacts.empty());
   EXPECT_LT(report.after.knee_pop_deg, allowed_pop_deg(report));
@@ -58,7 +58,7 @@ TEST(Knees, AreSparedWhatTheHipsJump) {
 }
 
 TEST(Knees, AreSparedWhatAFootTurnsThatStandsOnItsToe) {
-  Clip clip = with_jump("LeftFoot", 6, 0);
+  Take clip = with_jump("LeftFoot", 6, 0);
   FeetSettings settings;
   settings.contacts = {{{0, FootPart::toe, 100, 260}}};
   const FeetReport report = clean_feet(clip, settings);
@@ -67,9 +67,9 @@ TEST(Knees, AreSparedWhatAFootTurnsThatStandsOnItsToe) {
 }
 
 TEST(Knees, AreSparedWithoutARootThatMoves) {
-  Clip clip = with_smooth_noise(with_drift(synthetic_clip("walk", 8), 2), 0.3, 4);
+  Take clip = with_smooth_noise(with_drift(synthetic_clip("walk", 8), 2), 0.3, 4);
   clip.skeleton.channels[0] = make_channels(false, parse_rotation_order("ZXY"));
-  const Clip before = clip;
+  const Take before = clip;
   const FeetReport report = clean_feet(clip, forced());
   EXPECT_EQ(clip.positions, before.positions);
   EXPECT_LE(report.after.knee_pop_deg, allowed_pop_deg(report));

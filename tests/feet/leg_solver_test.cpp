@@ -11,7 +11,7 @@ namespace {
 
 // Hips, thigh, shank, foot with random bones, rest rotations and pose; what the orders allow.
 struct RandomLeg {
-  Clip clip;
+  Take clip;
   std::vector<Leg> legs;
 
   RandomLeg(Random& random, const char* hip, const char* knee, const char* ankle) {
@@ -66,7 +66,7 @@ FootTarget target_at(const LegPose& pose, Vec3 pivot) {
   return target;
 }
 
-void put(Clip& clip, const LegRotations& turned) {
+void put(Take& clip, const LegRotations& turned) {
   clip.rotations[1] = turned.hip;
   clip.rotations[2] = turned.knee;
   clip.rotations[3] = turned.ankle;

@@ -41,7 +41,7 @@ const std::vector<Dialect>& dialects() {
 }
 
 TEST(FindLegs, KnowsTheLegsOfManyDialects) {
-  const Clip clip = synthetic_clip("walk", 0.1);
+  const Take clip = synthetic_clip("walk", 0.1);
   for (const Dialect& dialect : dialects()) {
     Skeleton skeleton = clip.skeleton;
     const std::array<const char*, 4> joints{"UpLeg", "Leg", "Foot", "ToeBase"};

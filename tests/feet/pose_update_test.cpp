@@ -11,7 +11,7 @@ namespace {
 
 // A walk, its legs, and a correction that its parts ask for in frame 10.
 struct Scene {
-  Clip clip = test::synthetic_clip("walk", 1);
+  Take clip = test::synthetic_clip("walk", 1);
   std::vector<Leg> found = find_legs(clip.skeleton);
   LegMotion motion = leg_motion(clip, found);
   std::vector<PartCorrection> parts;

@@ -21,18 +21,18 @@ inline FeetSettings forced() {
   return settings;
 }
 
-inline Clip synthetic_clip(const std::string& motion, double duration_s = 6,
+inline Take synthetic_clip(const std::string& motion, double duration_s = 6,
                            double frame_rate_hz = 120, std::uint64_t seed = 1,
                            bool t_pose_first = false) {
   return synthesize({motion, duration_s, frame_rate_hz, seed, t_pose_first});
 }
 
-inline std::size_t joint_of(const Clip& clip, std::string_view name) {
+inline std::size_t joint_of(const Take& clip, std::string_view name) {
   return static_cast<std::size_t>(clip.skeleton.find(name));
 }
 
 /// Positions of one joint, by frame.
-inline std::vector<Vec3> track_of(const Clip& clip, std::string_view name) {
+inline std::vector<Vec3> track_of(const Take& clip, std::string_view name) {
   const std::vector<Vec3> all = joint_positions(clip);
   std::vector<Vec3> track;
   for (std::size_t f = 0; f < clip.frame_count(); ++f)
@@ -41,7 +41,7 @@ inline std::vector<Vec3> track_of(const Clip& clip, std::string_view name) {
 }
 
 /// Turns and moves the whole scene: R p + shift.
-inline Clip moved(Clip clip, Quat turn, Vec3 shift, double scale = 1) {
+inline Take moved(Take clip, Quat turn, Vec3 shift, double scale = 1) {
   for (Vec3& offset : clip.skeleton.offsets) offset = scale * offset;
   for (EndSite& site : clip.skeleton.end_sites) site.offset = scale * site.offset;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -52,7 +52,7 @@ inline Clip moved(Clip clip, Quat turn, Vec3 shift, double scale = 1) {
 }
 
 /// The root goes astray horizontally by this much, to and fro in `period_s`.
-inline Clip with_drift(Clip clip, double reach, double period_s = 2.5) {
+inline Take with_drift(Take clip, double reach, double period_s = 2.5) {
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     const double phase = 2 * pi * static_cast<double>(f) / clip.frame_rate_hz / period_s;
     clip.root_position(f) += Vec3{reach * std::sin(phase), 0, reach * std::cos(0.7 * phase)};
@@ -61,7 +61,7 @@ inline Clip with_drift(Clip clip, double reach, double period_s = 2.5) {
 }
 
 /// White noise on all rotations.
-inline Clip with_noise(Clip clip, double deg, std::uint64_t seed = 7) {
+inline Take with_noise(Take clip, double deg, std::uint64_t seed = 7) {
   Random random(seed);
   for (Quat& q : clip.rotations) {
     const Vec3 turn{random.normal(), random.normal(), random.normal()};
@@ -71,7 +71,7 @@ inline Clip with_noise(Clip clip, double deg, std::uint64_t seed = 7) {
 }
 
 /// What a filter leaves of white noise: smooth over a few frames.
-inline Clip with_smooth_noise(Clip clip, double deg, std::uint64_t seed) {
+inline Take with_smooth_noise(Take clip, double deg, std::uint64_t seed) {
   constexpr std::size_t reach = 3;
   const std::size_t joints = clip.joint_count();
   Random random(seed);
@@ -86,7 +86,7 @@ inline Clip with_smooth_noise(Clip clip, double deg, std::uint64_t seed) {
   return clip;
 }
 
-inline bool same_bits(const Clip& a, const Clip& b, std::size_t frame) {
+inline bool same_bits(const Take& a, const Take& b, std::size_t frame) {
   for (std::size_t j = 0; j < a.joint_count(); ++j) {
     if (!(a.rotation(frame, j) == b.rotation(frame, j))) return false;
   }

@@ -14,13 +14,13 @@
 namespace kinemend {
 namespace {
 
-Clip motion_of(const std::string& take) {
+Take motion_of(const std::string& take) {
   const auto path = std::filesystem::path(KINEMEND_DATA_FOLDER) / "cmu/bvh" / (take + ".bvh");
-  const Clip clip = read_clip(path).clip;
+  const Take clip = read_joints(path).take;
   return slice(clip, leading_calibration_frames(clip), clip.frame_count());
 }
 
-std::vector<std::size_t> moving_joints(const Clip& clip) {
+std::vector<std::size_t> moving_joints(const Take& clip) {
   std::vector<std::size_t> joints;
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
     double farthest = 0;
@@ -32,7 +32,7 @@ std::vector<std::size_t> moving_joints(const Clip& clip) {
 }
 
 // Three gaps in each of five joints; none where the take is too short for them.
-Clip damaged(const Clip& clip, double gap_s, std::uint64_t seed) {
+Take damaged(const Take& clip, double gap_s, std::uint64_t seed) {
   const auto length = static_cast<std::size_t>(std::lround(gap_s * clip.frame_rate_hz));
   if (clip.frame_count() < length + 12) return {};
   Random random(seed);
@@ -45,7 +45,7 @@ Clip damaged(const Clip& clip, double gap_s, std::uint64_t seed) {
       gaps.push_back({name, first, first + length - 1});
     }
   }
-  Clip result = clip;
+  Take result = clip;
   mark_gaps(result, gaps);
   for (std::size_t i = 0; i < result.observed.size(); ++i) {
     if (!result.observed[i]) result.rotations[i] = Quat{};
@@ -53,8 +53,8 @@ Clip damaged(const Clip& clip, double gap_s, std::uint64_t seed) {
   return result;
 }
 
-double mean_error_deg(const Clip& truth, const Clip& holed, const std::string& method) {
-  Clip clip = holed;
+double mean_error_deg(const Take& truth, const Take& holed, const std::string& method) {
+  Take clip = holed;
   FillSettings settings;
   settings.method = method;
   settings.fill_all = true;
@@ -73,9 +73,9 @@ std::map<std::string, double> errors_of(double gap_s) {
   std::map<std::string, double> sums;
   double count = 0;
   for (const char* take : {"35_01", "02_05", "09_03"}) {
-    const Clip truth = motion_of(take);
+    const Take truth = motion_of(take);
     for (const std::uint64_t seed : {100u, 101u, 102u, 103u}) {
-      const Clip holed = damaged(truth, gap_s, seed);
+      const Take holed = damaged(truth, gap_s, seed);
       if (holed.frame_count() == 0) continue;
       count += 1;
       for (const FillMethod& method : fill_methods()) {

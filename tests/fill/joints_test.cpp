@@ -25,12 +25,12 @@ std::vector<std::string> joint_methods() {
   return names;
 }
 
-Clip with_gaps(Clip clip, const std::vector<NamedGap>& gaps) {
+Take with_gaps(Take clip, const std::vector<NamedGap>& gaps) {
   mark_gaps(clip, gaps);
   return fill::spoilt(clip);
 }
 
-double error_deg(const Clip& a, const Clip& b, std::size_t joint, std::size_t first,
+double error_deg(const Take& a, const Take& b, std::size_t joint, std::size_t first,
                  std::size_t last) {
   double largest = 0;
   for (std::size_t f = first; f <= last; ++f)
@@ -39,8 +39,8 @@ double error_deg(const Clip& a, const Clip& b, std::size_t joint, std::size_t fi
 }
 
 TEST(FillJoints, SlerpIsTheGeodesic) {
-  Clip truth = test::moving_chain(3, 100);
-  Clip clip = with_gaps(truth, {{"joint1", 40, 48}});
+  Take truth = test::moving_chain(3, 100);
+  Take clip = with_gaps(truth, {{"joint1", 40, 48}});
   fill_with(clip, "slerp", true);
   for (std::size_t f = 40; f <= 48; ++f) {
     const Quat expected =
@@ -50,8 +50,8 @@ TEST(FillJoints, SlerpIsTheGeodesic) {
 }
 
 // A joint that spins about its own axis, with a wobble.
-Clip spinning(double degrees_per_frame) {
-  Clip clip = test::chain_clip(2, 300);
+Take spinning(double degrees_per_frame) {
+  Take clip = test::chain_clip(2, 300);
   for (std::size_t f = 0; f < 300; ++f) {
     const auto t = static_cast<double>(f);
     clip.rotation(f, 1) =
@@ -62,9 +62,9 @@ Clip spinning(double degrees_per_frame) {
 
 TEST(FillJoints, TurnsOnThroughHalfATurnAndMore) {
   for (const double speed : {9.0, 10.0, 13.0, 20.0, -14.0}) {  // 189 to 420 degrees in the gap
-    const Clip truth = spinning(speed);
+    const Take truth = spinning(speed);
     for (const char* method : {"spline", "hermite", "quintic"}) {
-      Clip clip = with_gaps(truth, {{"joint1", 150, 169}});
+      Take clip = with_gaps(truth, {{"joint1", 150, 169}});
       fill_with(clip, method, true);
       EXPECT_LT(error_deg(clip, truth, 1, 150, 169), 5) << method << " " << speed;
     }
@@ -73,12 +73,12 @@ TEST(FillJoints, TurnsOnThroughHalfATurnAndMore) {
 
 TEST(FillJoints, PassesThroughGimbalLock) {
   // ZXY is locked where x is 90 degrees, which is in the middle of the gap.
-  Clip truth = test::chain_clip(2, 200);
+  Take truth = test::chain_clip(2, 200);
   for (std::size_t f = 0; f < 200; ++f) {
     const double t = static_cast<double>(f) - 100;
     truth.rotation(f, 1) = about_x((90 + 0.8 * t) * degree) * about_y(0.3 * t * degree);
   }
-  Clip clip = with_gaps(truth, {{"joint1", 92, 108}});
+  Take clip = with_gaps(truth, {{"joint1", 92, 108}});
   fill_with(clip, "hermite");
   EXPECT_LT(error_deg(clip, truth, 1, 92, 108), 1.0);
 }
@@ -87,7 +87,7 @@ TEST(FillJoints, GivesHingesWhatTheirChannelsCanHold) {
   Skeleton skeleton = test::chain_skeleton(4);
   skeleton.channels[1] = make_channels(false, parse_rotation_order("X"));
   skeleton.channels[2] = make_channels(false, parse_rotation_order("ZX"));
-  Clip truth = test::resting_clip(skeleton, 200, 100);
+  Take truth = test::resting_clip(skeleton, 200, 100);
   for (std::size_t f = 0; f < 200; ++f) {
     const double t = 0.06 * static_cast<double>(f);
     truth.rotation(f, 1) = from_euler({std::sin(t)}, parse_rotation_order("X"));
@@ -95,7 +95,7 @@ TEST(FillJoints, GivesHingesWhatTheirChannelsCanHold) {
         from_euler({std::cos(t), 0.7 * std::sin(1.3 * t)}, parse_rotation_order("ZX"));
   }
   for (const std::string& method : joint_methods()) {
-    Clip clip = with_gaps(truth, {{"joint1", 100, 112}, {"joint2", 100, 112}});
+    Take clip = with_gaps(truth, {{"joint1", 100, 112}, {"joint2", 100, 112}});
     fill_with(clip, method, true);
     for (const std::size_t joint : {1u, 2u}) {
       const RotationOrder order = clip.skeleton.rotation_order(joint);
@@ -109,8 +109,8 @@ TEST(FillJoints, GivesHingesWhatTheirChannelsCanHold) {
 }
 
 // Joint 5 follows from joints 1 to 4, which move without a period.
-Clip follower(std::size_t frames) {
-  Clip clip = test::chain_clip(6, frames);
+Take follower(std::size_t frames) {
+  Take clip = test::chain_clip(6, frames);
   for (std::size_t f = 0; f < frames; ++f) {
     const double t = 0.03 * static_cast<double>(f);
     Vec3 sum;
@@ -127,9 +127,9 @@ Clip follower(std::size_t frames) {
 }
 
 TEST(FillJoints, PredictsAJointFromTheOthers) {
-  const Clip truth = follower(1200);
-  Clip regression = with_gaps(truth, {{"joint5", 600, 749}});
-  Clip curve = regression;
+  const Take truth = follower(1200);
+  Take regression = with_gaps(truth, {{"joint5", 600, 749}});
+  Take curve = regression;
   EXPECT_EQ(fill_with(regression, "pca").filled(), 1u);
   fill_with(curve, "pchip", true);
   EXPECT_LT(error_deg(regression, truth, 5, 600, 749), 3);
@@ -137,8 +137,8 @@ TEST(FillJoints, PredictsAJointFromTheOthers) {
 }
 
 TEST(FillJoints, AutoTakesWhatDoesBestInTheTake) {
-  const Clip truth = follower(1200);
-  Clip clip = with_gaps(truth, {{"joint5", 600, 749}});
+  const Take truth = follower(1200);
+  Take clip = with_gaps(truth, {{"joint5", 600, 749}});
   const FillReport report = fill_with(clip, "auto");
   ASSERT_EQ(report.gaps.size(), 1u);
   EXPECT_EQ(report.gaps[0].method, "pca");
@@ -147,9 +147,9 @@ TEST(FillJoints, AutoTakesWhatDoesBestInTheTake) {
 }
 
 TEST(FillJoints, RefusesWhatItsRulesDoNotAllow) {
-  const Clip truth = test::moving_chain(6, 600);
-  Clip clip = with_gaps(truth, {{"joint1", 50, 99}, {"joint2", 50, 60}});
-  const Clip before = clip;
+  const Take truth = test::moving_chain(6, 600);
+  Take clip = with_gaps(truth, {{"joint1", 50, 99}, {"joint2", 50, 60}});
+  const Take before = clip;
   const FillReport report = fill_with(clip, "spline");
   ASSERT_EQ(report.gaps.size(), 2u);
   EXPECT_EQ(report.refused(), 1u);
@@ -170,12 +170,12 @@ TEST(FillJoints, RefusesWhatItsRulesDoNotAllow) {
 }
 
 TEST(FillJoints, FillsTheRootsPositionToo) {
-  Clip truth = test::moving_chain(4, 300);
+  Take truth = test::moving_chain(4, 300);
   for (std::size_t f = 0; f < 300; ++f) {
     const auto t = static_cast<double>(f);
     truth.root_position(f) = {0.02 * t, 1 + 0.05 * std::sin(0.1 * t), 0};
   }
-  Clip clip = with_gaps(truth, {{"root", 100, 114}});
+  Take clip = with_gaps(truth, {{"root", 100, 114}});
   const FillReport report = fill_with(clip, "auto");
   ASSERT_EQ(report.gaps.size(), 2u);
   EXPECT_FALSE(report.gaps[0].is_position);
@@ -183,20 +183,20 @@ TEST(FillJoints, FillsTheRootsPositionToo) {
   EXPECT_TRUE(report.gaps[1].filled) << report.gaps[1].reason;
   for (std::size_t f = 100; f <= 114; ++f)
     EXPECT_LT(norm(clip.root_position(f) - truth.root_position(f)), 0.02);
-  Clip other = with_gaps(truth, {{"root", 100, 114}});
+  Take other = with_gaps(truth, {{"root", 100, 114}});
   EXPECT_EQ(fill_with(other, "pca").gaps[1].reason, "pca fills no positions");
 }
 
 TEST(FillJoints, TakesNoCalibrationPoseForMotion) {
   // Frame 0 is the rest pose; the motion begins elsewhere.
-  Clip truth = test::moving_chain(6, 300);
+  Take truth = test::moving_chain(6, 300);
   const Quat away = about_x(70 * degree);
   for (std::size_t f = 0; f < 300; ++f) {
     for (std::size_t j = 0; j < 6; ++j)
       truth.rotation(f, j) = f == 0 ? Quat{} : away * truth.rotation(f, j);
   }
   ASSERT_EQ(leading_calibration_frames(truth), 1u);
-  Clip clip = with_gaps(truth, {{"joint2", 1, 3}, {"joint3", 0, 2}});
+  Take clip = with_gaps(truth, {{"joint2", 1, 3}, {"joint3", 0, 2}});
   clip.rotation(0, 3) = Quat{};
   const FillReport report = fill_with(clip, "hermite");
   ASSERT_EQ(report.gaps.size(), 3u);

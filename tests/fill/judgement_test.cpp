@@ -134,14 +134,14 @@ TEST(TrialPlaces, AreShorterWhereThereIsNoRoomAndNoneWhereThereIsNone) {
 
 // The same as a take in which the span is missing: nothing of what stands in it is known.
 TEST(HiddenSpan, IsAsAGapOfTheTake) {
-  const Clip clip = synthesize({.motion = "stroll", .duration_s = 4});
+  const Take clip = synthesize({.motion = "stroll", .duration_s = 4});
   const std::size_t joint = 5;
   const Track whole = rotation_track(clip, joint);
   const PoseRegression poses(clip);
   const JointContext context{clip.frame_rate_hz, poses, 1};
   for (const std::size_t first : {60U, 200U, 333U}) {
     const FrameSpan span{first, first + 11};
-    Clip gapped = clip;
+    Take gapped = clip;
     const NamedGap gap{clip.skeleton.names[joint], span.first, span.last};
     mark_gaps(gapped, {&gap, 1});
     Track missing = rotation_track(gapped, joint);

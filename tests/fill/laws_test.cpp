@@ -39,23 +39,19 @@ std::vector<Case> cases() {
   return all;
 }
 
-template <class AnyClip>
 struct Taken {
-  AnyClip truth;
+  Take truth;
   std::vector<std::string> names;  // of four tracks: the first two of one segment
 };
 
 // Markers sway, so that no guess is right by itself.
-Taken<MarkerClip> moving(const MarkerClip*) {
+Taken moving(bool joints) {
+  if (joints) return {test::moving_chain(6, 500), {"joint1", "joint3", "root", "joint4"}};
   return {marker_take("walk", 5, 0.8), {"LeftLeg_b", "LeftLeg_c", "Head_a", "LeftFoot_a"}};
 }
-Taken<Clip> moving(const Clip*) {
-  return {test::moving_chain(6, 500), {"joint1", "joint3", "root", "joint4"}};
-}
 
-template <class AnyClip>
-AnyClip damaged(const Taken<AnyClip>& take) {
-  AnyClip clip = take.truth;
+Take damaged(const Taken& take) {
+  Take clip = take.truth;
   hide(clip, take.names[0], 200, 223);
   hide(clip, take.names[0], 400, 430);
   hide(clip, take.names[1], 410, 450);
@@ -63,8 +59,7 @@ AnyClip damaged(const Taken<AnyClip>& take) {
   return spoilt(clip);
 }
 
-template <class AnyClip>
-FillReport fill_by(AnyClip& clip, const std::string& method) {
+FillReport fill_by(Take& clip, const std::string& method) {
   FillSettings settings;
   settings.method = method;
   settings.fill_all = true;
@@ -72,7 +67,7 @@ FillReport fill_by(AnyClip& clip, const std::string& method) {
   return fill_gaps(clip, settings);
 }
 
-void expect_observed_equal(const Clip& before, const Clip& after) {
+void expect_observed_joints_equal(const Take& before, const Take& after) {
   for (std::size_t i = 0; i < after.rotations.size(); ++i) {
     if (before.observed[i]) {
       ASSERT_EQ(after.rotations[i], before.rotations[i]);
@@ -85,7 +80,8 @@ void expect_observed_equal(const Clip& before, const Clip& after) {
   }
   EXPECT_THAT(find_position_gaps(after), IsEmpty());
 }
-void expect_observed_equal(const MarkerClip& before, const MarkerClip& after) {
+void expect_observed_equal(const Take& before, const Take& after) {
+  if (before.has_joints()) return expect_observed_joints_equal(before, after);
   for (std::size_t i = 0; i < after.positions.size(); ++i) {
     if (before.observed[i]) {
       ASSERT_EQ(after.positions[i], before.positions[i]);
@@ -97,11 +93,10 @@ void expect_observed_equal(const MarkerClip& before, const MarkerClip& after) {
 // The take as it is seen from elsewhere: markers in another unit too, joints with other signs.
 const Quat turn = exp(Vec3{0.4, -1.1, 0.7});
 constexpr double growth = 10;
-void move(Clip& clip) {
+void move(Take& clip) {
   for (std::size_t i = 0; i < clip.rotations.size(); ++i)
     clip.rotations[i] = (i % 3 == 0 ? -1.0 : 1.0) * (turn * clip.rotations[i]);
-}
-void move(MarkerClip& clip) {
+  if (clip.has_joints()) return;
   for (std::size_t i = 0; i < clip.positions.size(); ++i) {
     if (clip.observed[i])
       clip.positions[i] = growth * rotate(turn, clip.positions[i]) + Vec3{3000, -500, 70};
@@ -109,8 +104,7 @@ void move(MarkerClip& clip) {
 }
 
 // Largest jump or kink over a span's ends and within the whole take; file units or degrees.
-template <class AnyClip>
-double kink(const AnyClip& clip, std::size_t track, const std::vector<std::size_t>& frames) {
+double kink(const Take& clip, std::size_t track, const std::vector<std::size_t>& frames) {
   double largest = 0;
   for (const std::size_t f : frames) {
     const Vec3 change = step_vector(clip, f, track) - step_vector(clip, f - 1, track);
@@ -120,8 +114,7 @@ double kink(const AnyClip& clip, std::size_t track, const std::vector<std::size_
 }
 
 // Largest step from one frame to the next.
-template <class AnyClip>
-double step(const AnyClip& clip, std::size_t track, const std::vector<std::size_t>& frames) {
+double step(const Take& clip, std::size_t track, const std::vector<std::size_t>& frames) {
   double largest = 0;
   for (const std::size_t f : frames) largest = std::max(largest, norm(step_vector(clip, f, track)));
   return largest;
@@ -132,11 +125,7 @@ class Laws : public testing::TestWithParam<Case> {
   // Calls the law with a take of the kind that the case is about.
   template <class Law>
   static void hold(const Law& law) {
-    if (GetParam().joints) {
-      law(moving(static_cast<const Clip*>(nullptr)));
-    } else {
-      law(moving(static_cast<const MarkerClip*>(nullptr)));
-    }
+    law(moving(GetParam().joints));
   }
   static const std::string& method() { return GetParam().method; }
 };
@@ -308,26 +297,26 @@ TEST_P(LawsOfSpikes, ASpikeBesideAGapDoesNotBendTheFilling) {
     }
   };
   if (GetParam().joints) {
-    const Clip truth = synthesize({.motion = "walk", .duration_s = 4});
-    law(truth, truth.skeleton.names[3], [](Clip& clip, std::size_t f, std::size_t joint) {
+    const Take truth = synthesize({.motion = "walk", .duration_s = 4});
+    law(truth, truth.skeleton.names[3], [](Take& clip, std::size_t f, std::size_t joint) {
       clip.rotation(f, joint) = clip.rotation(f, joint) * exp(Vec3{0.8, 0.3, 0});
     });
   } else {
     law(marker_take("walk", 4, 0.5), "LeftLeg_b",
-        [](MarkerClip& clip, std::size_t f, std::size_t marker) {
+        [](Take& clip, std::size_t f, std::size_t marker) {
           clip.position(f, marker) += Vec3{15, 5, 0};
         });
   }
 }
 
 TEST_P(LawsOfMarkers, OrderOfMarkersDoesNotMatter) {
-  MarkerClip clip = damaged(moving(static_cast<const MarkerClip*>(nullptr)));
+  Take clip = damaged(moving(false));
   const std::size_t markers = clip.marker_count();
   std::vector<std::size_t> order(markers);
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::rotate(order.begin(), order.begin() + 17, order.end());
   std::swap(order[3], order[30]);
-  MarkerClip other = clip;
+  Take other = clip;
   for (std::size_t m = 0; m < markers; ++m) {
     other.names[m] = clip.names[order[m]];
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -345,9 +334,8 @@ TEST_P(LawsOfMarkers, OrderOfMarkersDoesNotMatter) {
   EXPECT_LT(largest, 1e-5);
 }
 
-template <class AnyClip>
-std::string complaint(const AnyClip& take, const FillSettings& settings) {
-  AnyClip clip = take;
+std::string complaint(const Take& take, const FillSettings& settings) {
+  Take clip = take;
   try {
     fill_gaps(clip, settings);
   } catch (const Error& error) {
@@ -358,8 +346,8 @@ std::string complaint(const AnyClip& take, const FillSettings& settings) {
 }
 
 TEST(Fill, SaysWhichMethodTrackOrDonorThereIsNot) {
-  const MarkerClip markers = marker_take("walk", 0.5);
-  const Clip joints = test::moving_chain(3, 30);
+  const Take markers = marker_take("walk", 0.5);
+  const Take joints = test::moving_chain(3, 30);
   FillSettings settings;
   settings.method = "magic";
   EXPECT_THAT(complaint(markers, settings),

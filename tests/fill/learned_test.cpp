@@ -22,7 +22,7 @@ constexpr const char* unknown = "the model does not know them";
 const Quat said = exp(Vec3{0.3, -0.2, 0.1});
 
 // A model that gives every missing sample the same rotation, and knows no joint4.
-LearnedFilling same_everywhere(const Clip& clip) {
+LearnedFilling same_everywhere(const Take& clip) {
   LearnedFilling filling{clip.rotations, {}};
   for (std::size_t i = 0; i < filling.rotations.size(); ++i) {
     if (!clip.observed.empty() && clip.observed[i] == 0) filling.rotations[i] = said;
@@ -39,8 +39,8 @@ FillSettings by_model() {
   return settings;
 }
 
-Clip gapped() {
-  Clip clip = test::moving_chain(6, 500);
+Take gapped() {
+  Take clip = test::moving_chain(6, 500);
   hide(clip, "joint1", 200, 260);
   hide(clip, "joint3", 300, 320);
   hide(clip, "joint4", 300, 312);
@@ -48,7 +48,7 @@ Clip gapped() {
 }
 
 TEST(LearnedFilling, HasWhatTheModelSays) {
-  Clip clip = gapped();
+  Take clip = gapped();
   const FillReport report = fill_gaps(clip, by_model());
   ASSERT_EQ(report.gaps.size(), 3u);
   const std::size_t joint = track_of(clip, "joint1");
@@ -59,7 +59,7 @@ TEST(LearnedFilling, HasWhatTheModelSays) {
 }
 
 TEST(LearnedFilling, LeavesToAutoWhatTheModelDoesNotKnowAndSaysSo) {
-  Clip clip = gapped(), automatic = gapped();
+  Take clip = gapped(), automatic = gapped();
   const FillReport report = fill_gaps(clip, by_model());
   fill_gaps(automatic);
   EXPECT_NE(report.gaps[2].method, "recurrent");
@@ -72,7 +72,7 @@ TEST(LearnedFilling, LeavesToAutoWhatTheModelDoesNotKnowAndSaysSo) {
 }
 
 TEST(LearnedFilling, IsRefusedWhereTheGapIsTooLong) {
-  Clip clip = test::moving_chain(6, 500);
+  Take clip = test::moving_chain(6, 500);
   hide(clip, "joint1", 100, 300);
   FillSettings settings = by_model();
   settings.longest_gap_s = 0.5;
@@ -84,7 +84,7 @@ TEST(LearnedFilling, IsRefusedWhereTheGapIsTooLong) {
 }
 
 TEST(LearnedFilling, ComesAgainByThePlanOfItsRun) {
-  Clip clip = gapped(), again = gapped();
+  Take clip = gapped(), again = gapped();
   const PlannedFill made = fill_with_plan(clip, by_model());
   EXPECT_EQ(made.plan[0].method, "recurrent");
   const std::string text = plan_csv(gapped(), made.plan);
@@ -94,7 +94,7 @@ TEST(LearnedFilling, ComesAgainByThePlanOfItsRun) {
 }
 
 TEST(LearnedFilling, StandsInPreviewsWhereThereIsAModel) {
-  Clip clip = gapped();
+  Take clip = gapped();
   std::vector<PlannedGap> plan = fill_with_plan(clip, FillSettings{}).plan;
   const auto by_recurrent = [&] {
     std::vector<GapPreview> found;
@@ -115,15 +115,15 @@ TEST(LearnedFilling, StandsInPreviewsWhereThereIsAModel) {
 // A model sees the doubted sample as missing, and what it then says of it tells that it is a spike.
 TEST(LearnedFilling, IsNotMadeFromASpikeBesideTheGap) {
   constexpr std::size_t frames = 1200, first = 600, last = 620;
-  const Clip truth = test::moving_chain(6, frames);
-  Clip clip = truth;
+  const Take truth = test::moving_chain(6, frames);
+  Take clip = truth;
   hide(clip, "joint3", first, last);
   const std::size_t joint = track_of(clip, "joint3");
   clip.rotation(first - 1, joint) = clip.rotation(first - 1, joint) * exp(Vec3{1.2, 0, 0});
   // This model knows the motion, but where a spike leads it astray.
   FillSettings settings = by_model();
   std::size_t whole_frames = 0;
-  settings.models.recurrent = [&](const Clip& seen) {
+  settings.models.recurrent = [&](const Take& seen) {
     LearnedFilling filling{seen.rotations, {}};
     filling.left_out.assign(seen.joint_count(), "");
     const bool is_whole = seen.frame_count() == frames;
@@ -142,8 +142,8 @@ TEST(LearnedFilling, IsNotMadeFromASpikeBesideTheGap) {
 }
 
 // A model that knows the motion but for a turn, which grows over the take.
-LearnedFill drifting(const Clip& truth) {
-  return [&truth](const Clip& seen) {
+LearnedFill drifting(const Take& truth) {
+  return [&truth](const Take& seen) {
     LearnedFilling filling{truth.rotations, {}, true};
     filling.left_out.assign(seen.joint_count(), "");
     for (std::size_t i = 0; i < filling.rotations.size(); ++i) {
@@ -155,8 +155,8 @@ LearnedFill drifting(const Clip& truth) {
 }
 
 TEST(GuessedFilling, IsMovedToMeetTheSamplesBesideTheGap) {
-  const Clip truth = test::moving_chain(6, 500);
-  Clip clip = truth;
+  const Take truth = test::moving_chain(6, 500);
+  Take clip = truth;
   hide(clip, "joint3", 300, 400);
   FillSettings settings;
   settings.method = "learned";
@@ -176,8 +176,8 @@ TEST(GuessedFilling, IsMovedToMeetTheSamplesBesideTheGap) {
 }
 
 TEST(GuessedFilling, IsRefusedInGapsOfMoreThanTwoSeconds) {
-  const Clip truth = test::moving_chain(6, 500);
-  Clip clip = truth;
+  const Take truth = test::moving_chain(6, 500);
+  Take clip = truth;
   hide(clip, "joint1", 100, 299);
   hide(clip, "joint3", 100, 300);
   FillSettings settings;
@@ -190,12 +190,12 @@ TEST(GuessedFilling, IsRefusedInGapsOfMoreThanTwoSeconds) {
 }
 
 TEST(GuessedFilling, StandsBesideAnotherModelInOnePlan) {
-  const Clip truth = test::moving_chain(6, 500);
-  Clip clip = gapped();
+  const Take truth = test::moving_chain(6, 500);
+  Take clip = gapped();
   std::vector<PlannedGap> plan = fill_with_plan(clip, by_model()).plan;
   ASSERT_EQ(plan.size(), 3u);
   plan[1].method = "learned";
-  Clip both = gapped();
+  Take both = gapped();
   const FillReport report =
       fill_with_plan(both, plan, {}, {same_everywhere, drifting(truth)}).report;
   EXPECT_EQ(report.gaps[0].method, "recurrent");
@@ -206,7 +206,7 @@ TEST(GuessedFilling, StandsBesideAnotherModelInOnePlan) {
 }
 
 TEST(LearnedFilling, NeedsAModelAndSaysHowToMakeOne) {
-  Clip clip = gapped();
+  Take clip = gapped();
   FillSettings settings;
   settings.method = "recurrent";
   try {
@@ -217,12 +217,12 @@ TEST(LearnedFilling, NeedsAModelAndSaysHowToMakeOne) {
     EXPECT_THAT(error.what(), HasSubstr("kinemend-train paper --network ebd"));
   }
   std::vector<PlannedGap> plan = fill_with_plan(clip, by_model()).plan;
-  Clip other = gapped();
+  Take other = gapped();
   EXPECT_THROW(fill_with_plan(other, plan), Error);
 }
 
 TEST(LearnedFilling, IsRefusedOfMarkersWithTheReason) {
-  MarkerClip markers = marker_take("walk", 1, 0.2);
+  Take markers = marker_take("walk", 1, 0.2);
   FillSettings settings = by_model();
   try {
     fill_gaps(markers, settings);

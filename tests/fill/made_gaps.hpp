@@ -50,49 +50,36 @@ inline std::size_t random_length(Random& random, double frame_rate_hz) {
   return static_cast<std::size_t>(std::lround(std::exp(random.uniform(0, longest))));
 }
 
-inline double distance(const MarkerClip& a, const MarkerClip& b, std::size_t frame,
-                       std::size_t marker) {
-  return norm(a.position(frame, marker) - b.position(frame, marker));
-}
-
-/// Degrees.
-inline double distance(const Clip& a, const Clip& b, std::size_t frame, std::size_t joint) {
-  return angle_between(a.rotation(frame, joint), b.rotation(frame, joint)) * degrees_per_radian;
+/// File units, or degrees.
+inline double distance(const Take& a, const Take& b, std::size_t frame, std::size_t track) {
+  if (!a.has_joints()) return norm(a.position(frame, track) - b.position(frame, track));
+  return angle_between(a.rotation(frame, track), b.rotation(frame, track)) * degrees_per_radian;
 }
 
 /// From one frame to the next: file units, or degrees.
-inline Vec3 step_vector(const MarkerClip& clip, std::size_t frame, std::size_t marker) {
-  return clip.position(frame + 1, marker) - clip.position(frame, marker);
-}
-inline Vec3 step_vector(const Clip& clip, std::size_t frame, std::size_t joint) {
+inline Vec3 step_vector(const Take& clip, std::size_t frame, std::size_t track) {
+  if (!clip.has_joints()) return clip.position(frame + 1, track) - clip.position(frame, track);
   return degrees_per_radian *
-         log(conjugate(clip.rotation(frame, joint)) * clip.rotation(frame + 1, joint));
+         log(conjugate(clip.rotation(frame, track)) * clip.rotation(frame + 1, track));
 }
 
-inline const std::string& name_of(const MarkerClip& clip, std::size_t marker) {
-  return clip.names[marker];
-}
-inline const std::string& name_of(const Clip& clip, std::size_t joint) {
-  return clip.skeleton.names[joint];
+inline const std::string& name_of(const Take& clip, std::size_t track) {
+  return clip.owner_names()[track];
 }
 
-inline std::size_t track_of(const MarkerClip& clip, const std::string& name) {
-  return static_cast<std::size_t>(clip.find(name));
-}
-inline std::size_t track_of(const Clip& clip, const std::string& name) {
-  return static_cast<std::size_t>(clip.skeleton.find(name));
+inline std::size_t track_of(const Take& clip, const std::string& name) {
+  return static_cast<std::size_t>(clip.has_joints() ? clip.skeleton.find(name) : clip.find(name));
 }
 
 /// Frames `first` to `last`, inclusive, of a joint or marker as missing.
-template <class AnyClip>
-void hide(AnyClip& clip, const std::string& name, std::size_t first, std::size_t last) {
+inline void hide(Take& clip, const std::string& name, std::size_t first, std::size_t last) {
   const NamedGap gap{name, first, last};
   mark_gaps(clip, {&gap, 1});
 }
 
 /// With what is no evidence in the gaps of joints; markers have nothing there.
-inline MarkerClip spoilt(MarkerClip clip) { return clip; }
-inline Clip spoilt(Clip clip) {
+inline Take spoilt(Take clip) {
+  if (!clip.has_joints()) return clip;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     for (std::size_t j = 0; j < clip.joint_count(); ++j) {
       if (!clip.is_observed(f, j))
@@ -103,16 +90,14 @@ inline Clip spoilt(Clip clip) {
   return clip;
 }
 
-template <class AnyClip>
-FillReport fill_with(AnyClip& clip, const std::string& method, bool fill_all = false) {
+inline FillReport fill_with(Take& clip, const std::string& method, bool fill_all = false) {
   FillSettings settings;
   settings.method = method;
   settings.fill_all = fill_all;
   return fill_gaps(clip, settings);
 }
 
-template <class AnyClip>
-double rms_error(const AnyClip& truth, const AnyClip& filled, const Gap& gap) {
+inline double rms_error(const Take& truth, const Take& filled, const Gap& gap) {
   double sum = 0;
   for (std::size_t f = gap.first_frame; f <= gap.last_frame; ++f)
     sum += std::pow(distance(truth, filled, f, gap.track), 2);
@@ -121,11 +106,10 @@ double rms_error(const AnyClip& truth, const AnyClip& filled, const Gap& gap) {
 
 /// Makes one gap in each of some of the tracks, half of them where the track is fast, and fills
 /// them.
-template <class AnyClip>
-std::vector<Kept> make_and_fill(const AnyClip& truth, std::vector<std::size_t> tracks,
-                                std::size_t most, std::uint64_t seed) {
+inline std::vector<Kept> make_and_fill(const Take& truth, std::vector<std::size_t> tracks,
+                                       std::size_t most, std::uint64_t seed) {
   Random random(seed);
-  AnyClip clip = truth;
+  Take clip = truth;
   std::vector<NamedGap> gaps;
   for (std::size_t i = 0; i < std::min(most, tracks.size()); ++i) {
     std::swap(tracks[i], tracks[i + random.below(tracks.size() - i)]);
@@ -144,7 +128,7 @@ std::vector<Kept> make_and_fill(const AnyClip& truth, std::vector<std::size_t> t
     gaps.push_back({name_of(truth, tracks[i]), first, first + length - 1});
   }
   mark_gaps(clip, gaps);
-  AnyClip splined = clip;
+  Take splined = clip;
   const FillReport report = fill_gaps(clip);
   fill_with(splined, "spline", true);
   std::vector<Kept> all;
@@ -181,7 +165,7 @@ inline std::vector<std::size_t> three_starts(Random& random, std::size_t frames,
 }
 
 /// Markers that are seen in every frame.
-inline std::vector<std::size_t> whole_markers(const MarkerClip& clip) {
+inline std::vector<std::size_t> whole_markers(const Take& clip) {
   std::vector<std::size_t> whole;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
     bool seen = true;
@@ -192,7 +176,7 @@ inline std::vector<std::size_t> whole_markers(const MarkerClip& clip) {
 }
 
 /// Joints that turn by more than 0.02 radians.
-inline std::vector<std::size_t> moving_joints(const Clip& clip) {
+inline std::vector<std::size_t> moving_joints(const Take& clip) {
   std::vector<std::size_t> moving;
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
     double farthest = 0;

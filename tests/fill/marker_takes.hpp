@@ -6,20 +6,19 @@
 #include <vector>
 
 #include "fill/made_gaps.hpp"
-#include "kinemend/clip.hpp"
 #include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/experimental/synth.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::fill {
 
 /// A synthetic motion as an optical system sees it: three markers on each of thirteen segments,
 /// centimetres. `names` are the joint's with _a, _b, _c. Each marker sways on its skin by
 /// `sway_cm`, at a pace of its own that no other marker tells of.
-inline MarkerClip marker_take(const std::string& motion = "walk", double duration_s = 5,
-                              double sway_cm = 0) {
+inline Take marker_take(const std::string& motion = "walk", double duration_s = 5,
+                        double sway_cm = 0) {
   constexpr double frame_rate_hz = 120;
-  const Clip clip =
+  const Take clip =
       synthesize({.motion = motion, .duration_s = duration_s, .frame_rate_hz = frame_rate_hz});
   const char* joints[] = {"Hips",        "LeftUpLeg", "LeftLeg",     "LeftFoot", "RightUpLeg",
                           "RightLeg",    "RightFoot", "Spine1",      "Head",     "LeftArm",
@@ -31,7 +30,7 @@ inline MarkerClip marker_take(const std::string& motion = "walk", double duratio
     used.push_back(static_cast<std::size_t>(clip.skeleton.find(joint)));
     for (const char* suffix : {"_a", "_b", "_c"}) names.push_back(std::string(joint) + suffix);
   }
-  MarkerClip take = make_marker_clip(names, clip.frame_count(), frame_rate_hz);
+  Take take = make_marker_take(names, clip.frame_count(), frame_rate_hz);
   take.unit = "cm";
   take.observed.assign(take.positions.size(), 1);
   take.residuals.assign(take.positions.size(), 0.5F);
@@ -50,7 +49,7 @@ inline MarkerClip marker_take(const std::string& motion = "walk", double duratio
   return take;
 }
 
-inline double mean_error(const MarkerClip& truth, const MarkerClip& filled, const Gap& gap) {
+inline double mean_error(const Take& truth, const Take& filled, const Gap& gap) {
   double sum = 0;
   for (std::size_t f = gap.first_frame; f <= gap.last_frame; ++f) {
     sum += norm(filled.position(f, gap.track) - truth.position(f, gap.track));
@@ -58,8 +57,7 @@ inline double mean_error(const MarkerClip& truth, const MarkerClip& filled, cons
   return sum / static_cast<double>(gap.length());
 }
 
-inline double mean_error(const MarkerClip& truth, const MarkerClip& filled,
-                         const FillReport& report) {
+inline double mean_error(const Take& truth, const Take& filled, const FillReport& report) {
   double sum = 0, count = 0;
   for (const GapOutcome& outcome : report.gaps) {
     const auto length = static_cast<double>(outcome.gap.length());

@@ -12,7 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-double largest_error(const MarkerClip& truth, const MarkerClip& filled) {
+double largest_error(const Take& truth, const Take& filled) {
   double largest = 0;
   for (std::size_t i = 0; i < truth.positions.size(); ++i) {
     if (filled.observed[i]) {
@@ -24,15 +24,15 @@ double largest_error(const MarkerClip& truth, const MarkerClip& filled) {
 
 TEST(RigidBodyFill, IsExactOnARigidCluster) {
   // The thigh's three markers and one of the hips' that is fixed to the thigh as well.
-  const MarkerClip walk = marker_take();
-  MarkerClip truth = walk;
+  const Take walk = marker_take();
+  Take truth = walk;
   const auto a = static_cast<std::size_t>(walk.find("LeftUpLeg_a"));
   const auto fourth = static_cast<std::size_t>(walk.find("Hips_a"));
   for (std::size_t f = 0; f < walk.frame_count(); ++f) {
     const Vec3 p = walk.position(f, a), q = walk.position(f, a + 1), r = walk.position(f, a + 2);
     truth.position(f, fourth) = p + 0.7 * (q - p) - 0.4 * (r - p) + 0.05 * cross(q - p, r - p);
   }
-  MarkerClip clip = truth;
+  Take clip = truth;
   hide(clip, "Hips_a", 150, 400);
   const FillReport report = fill_with(clip, "rigid-body");
   EXPECT_EQ(report.filled(), 1U);
@@ -40,12 +40,12 @@ TEST(RigidBodyFill, IsExactOnARigidCluster) {
 }
 
 TEST(PatternFill, IsExactForADonorAtAConstantOffset) {
-  MarkerClip truth = marker_take();
+  Take truth = marker_take();
   const auto donor = static_cast<std::size_t>(truth.find("Head_a"));
   for (std::size_t f = 0; f < truth.frame_count(); ++f) {
     truth.position(f, donor + 1) = truth.position(f, donor) + Vec3{3, -7, 2};
   }
-  MarkerClip clip = truth;
+  Take clip = truth;
   hide(clip, "Head_b", 100, 300);
   FillSettings settings;
   settings.method = "pattern";
@@ -59,7 +59,7 @@ TEST(PcaFill, IsExactWhereTheMovementHasFewComponents) {
   const std::size_t frames = 600;
   std::vector<std::string> names;
   for (int m = 0; m < 12; ++m) names.push_back(fmt::format("m{}", m));
-  MarkerClip truth = make_marker_clip(names, frames, 100);
+  Take truth = make_marker_take(names, frames, 100);
   truth.observed.assign(truth.positions.size(), 1);
   Random random(3);
   for (std::size_t m = 0; m < 12; ++m) {
@@ -74,15 +74,15 @@ TEST(PcaFill, IsExactWhereTheMovementHasFewComponents) {
       truth.position(f, m) = p;
     }
   }
-  MarkerClip clip = truth;
+  Take clip = truth;
   hide(clip, "m4", 250, 400);
   EXPECT_EQ(fill_with(clip, "pca").filled(), 1U);
   EXPECT_LT(largest_error(truth, clip), 1e-5);
 }
 
 TEST(CyclicFill, FindsTheSamePhaseOfOtherSteps) {
-  const MarkerClip truth = marker_take("walk", 8);
-  MarkerClip clip = truth;
+  const Take truth = marker_take("walk", 8);
+  Take clip = truth;
   hide(clip, "LeftFoot_a", 400, 460);
   const FillReport report = fill_with(clip, "cyclic");
   ASSERT_EQ(report.filled(), 1U) << report.gaps[0].reason;
@@ -90,8 +90,8 @@ TEST(CyclicFill, FindsTheSamePhaseOfOtherSteps) {
 }
 
 TEST(LocalRegressionFill, FollowsALimbWhoseOwnMarkersBend) {
-  const MarkerClip truth = marker_take("walk", 8);
-  MarkerClip clip = truth;
+  const Take truth = marker_take("walk", 8);
+  Take clip = truth;
   hide(clip, "LeftLeg_a", 300, 420);
   hide(clip, "LeftLeg_b", 300, 420);
   const FillReport report = fill_with(clip, "local-regression");
@@ -100,8 +100,8 @@ TEST(LocalRegressionFill, FollowsALimbWhoseOwnMarkersBend) {
 }
 
 TEST(AutoFill, ExpectsAboutTheErrorThatItMakes) {
-  const MarkerClip truth = marker_take("stroll", 12);
-  MarkerClip clip = truth;
+  const Take truth = marker_take("stroll", 12);
+  Take clip = truth;
   for (const char* name : {"LeftFoot_b", "RightForeArm_a", "Head_c", "Spine1_a", "RightLeg_b"}) {
     hide(clip, name, 500, 620);
     hide(clip, name, 900, 930);
@@ -120,7 +120,7 @@ TEST(AutoFill, ExpectsAboutTheErrorThatItMakes) {
 }
 
 TEST(AutoFill, PrefersACurveWhereNoOtherMarkerIsSeen) {
-  MarkerClip clip = marker_take();
+  Take clip = marker_take();
   hide(clip, "*", 300, 306);
   const FillReport report = fill_with(clip, "auto");
   EXPECT_EQ(report.refused(), 0U);
@@ -130,13 +130,13 @@ TEST(AutoFill, PrefersACurveWhereNoOtherMarkerIsSeen) {
 // Its companions tell nothing of it, and the gaps are longer than those in which a spline goes
 // first.
 TEST(AutoFill, TriesASplineAlsoInGapsOfAFifthOfASecond) {
-  MarkerClip truth = marker_take("walk", 6);
+  Take truth = marker_take("walk", 6);
   const auto marker = static_cast<std::size_t>(truth.find("Head_b"));
   for (std::size_t f = 0; f < truth.frame_count(); ++f) {
     const double turn = 2 * pi * 0.9 * static_cast<double>(f) / truth.frame_rate_hz;
     truth.position(f, marker) += Vec3{12 * std::sin(turn), 9 * std::cos(1.3 * turn), 0};
   }
-  MarkerClip clip = truth, splined;
+  Take clip = truth, splined;
   for (const std::size_t first : {150U, 330U, 520U}) hide(clip, "Head_b", first, first + 23);
   splined = clip;
   const FillReport report = fill_with(clip, "auto");
@@ -147,8 +147,8 @@ TEST(AutoFill, TriesASplineAlsoInGapsOfAFifthOfASecond) {
 }
 
 TEST(AutoFill, RefusesALongSpanWithoutAnyMarkerAndSaysSo) {
-  MarkerClip clip = marker_take("punch");
-  const MarkerClip before = [&] {
+  Take clip = marker_take("punch");
+  const Take before = [&] {
     hide(clip, "*", 200, 350);
     return clip;
   }();
@@ -161,14 +161,14 @@ TEST(AutoFill, RefusesALongSpanWithoutAnyMarkerAndSaysSo) {
     EXPECT_FALSE(clip.is_observed(250, outcome.gap.track));
     EXPECT_EQ(clip.position(250, outcome.gap.track), Vec3{});
   }
-  MarkerClip forced = before;
+  Take forced = before;
   EXPECT_EQ(fill_with(forced, "auto", true).refused(), 0U);
 }
 
 TEST(AutoFill, FillsWhatAnEarlierRoundMadePossible) {
   // Only two other markers are seen throughout the long gap; the others go missing one at a time.
-  MarkerClip clip = marker_take();
-  const MarkerClip truth = clip;
+  Take clip = marker_take();
+  const Take truth = clip;
   for (std::size_t m = 0; m + 2 < clip.marker_count(); ++m) {
     hide(clip, clip.names[m], 200 + 5 * m, 205 + 5 * m);
   }
@@ -179,8 +179,8 @@ TEST(AutoFill, FillsWhatAnEarlierRoundMadePossible) {
 }
 
 TEST(AutoFill, FillsToTheEndOfTheTakeWhereOthersAreSeen) {
-  const MarkerClip truth = marker_take();
-  MarkerClip clip = truth;
+  const Take truth = marker_take();
+  Take clip = truth;
   hide(clip, "LeftFoot_a", 0, 60);
   hide(clip, "LeftFoot_b", 520, truth.frame_count() - 1);
   const FillReport report = fill_with(clip, "auto");
@@ -189,7 +189,7 @@ TEST(AutoFill, FillsToTheEndOfTheTakeWhereOthersAreSeen) {
 }
 
 TEST(SplineFill, RefusesWhatIsLongOrOpenAndSaysWhy) {
-  MarkerClip clip = marker_take();
+  Take clip = marker_take();
   hide(clip, "Head_a", 100, 140);
   hide(clip, "Head_b", 0, 5);
   hide(clip, "Head_c", 100, 110);
@@ -206,7 +206,7 @@ TEST(SplineFill, RefusesWhatIsLongOrOpenAndSaysWhy) {
 }
 
 TEST(MarkerFill, RefusesGapsLongerThanAsked) {
-  MarkerClip clip = marker_take("walk", 2);
+  Take clip = marker_take("walk", 2);
   hide(clip, "Head_a", 100, 171);
   FillSettings settings;
   settings.longest_gap_s = 0.5;
@@ -214,16 +214,16 @@ TEST(MarkerFill, RefusesGapsLongerThanAsked) {
 }
 
 TEST(MarkerFill, TakesTheBestGuessWhereAllIsAskedForAndTheMethodHasNone) {
-  MarkerClip clip = marker_take("punch", 3);
+  Take clip = marker_take("punch", 3);
   hide(clip, "Head_a", 100, 180);
-  MarkerClip other = clip;
+  Take other = clip;
   EXPECT_EQ(fill_with(clip, "cyclic").refused(), 1U);
   const FillReport report = fill_with(other, "cyclic", true);
   ASSERT_EQ(report.filled(), 1U);
 }
 
 TEST(MarkerFill, LeavesWhatIsNoPositionAlone) {
-  MarkerClip clip = marker_take();
+  Take clip = marker_take();
   const auto angle = static_cast<std::size_t>(clip.find("Head_a"));
   clip.is_position[angle] = 0;
   hide(clip, "Head_a", 100, 110);
@@ -242,10 +242,10 @@ class MeagreTakes : public testing::TestWithParam<std::string> {
     if (GetParam() == "pattern") settings.donor = "m0";
     return settings;
   }
-  static MarkerClip take(std::size_t markers, std::size_t frames) {
+  static Take take(std::size_t markers, std::size_t frames) {
     std::vector<std::string> names;
     for (std::size_t m = 0; m < markers; ++m) names.push_back(fmt::format("m{}", m));
-    MarkerClip clip = make_marker_clip(names, frames, 100);
+    Take clip = make_marker_take(names, frames, 100);
     clip.observed.assign(clip.positions.size(), 1);
     for (std::size_t i = 0; i < clip.positions.size(); ++i) {
       const auto x = static_cast<double>(i);
@@ -254,9 +254,9 @@ class MeagreTakes : public testing::TestWithParam<std::string> {
     return clip;
   }
   // Fills with and without rules; every result is finite, and what is not filled stays missing.
-  static void check(const MarkerClip& damaged) {
+  static void check(const Take& damaged) {
     for (const bool fill_all : {false, true}) {
-      MarkerClip clip = damaged;
+      Take clip = damaged;
       FillSettings chosen = settings();
       chosen.fill_all = fill_all;
       const FillReport report = fill_gaps(clip, chosen);
@@ -283,10 +283,10 @@ INSTANTIATE_TEST_SUITE_P(Methods, MeagreTakes,
 TEST_P(MeagreTakes, AreFilledOrRefusedWithoutHarm) {
   for (const std::size_t markers : {1U, 2U, 3U, 4U, 7U}) {
     for (const std::size_t frames : {1U, 2U, 3U, 10U, 60U}) {
-      MarkerClip whole = take(markers, frames);
+      Take whole = take(markers, frames);
       SCOPED_TRACE(fmt::format("{} markers, {} frames", markers, frames));
       check(whole);
-      MarkerClip clip = whole;
+      Take clip = whole;
       hide(clip, "m0", 0, 0);
       check(clip);
       clip = whole;
@@ -310,7 +310,7 @@ TEST_P(MeagreTakes, AreFilledOrRefusedWithoutHarm) {
 
 TEST_P(MeagreTakes, MayHaveMarkersOnOneLineOrInOnePlace) {
   for (const double spread : {0.0, 1.0}) {
-    MarkerClip clip = take(6, 80);
+    Take clip = take(6, 80);
     for (std::size_t f = 0; f < 80; ++f) {
       for (std::size_t m = 0; m < 6; ++m) {
         clip.position(f, m) = {0.3 * static_cast<double>(f), spread * static_cast<double>(m), 0};
@@ -324,9 +324,9 @@ TEST_P(MeagreTakes, MayHaveMarkersOnOneLineOrInOnePlace) {
 }
 
 TEST(MarkerFill, ReturnsAnEmptyTakeAsItIs) {
-  MarkerClip clip = make_marker_clip({}, 0, 100);
+  Take clip = make_marker_take({}, 0, 100);
   EXPECT_TRUE(fill_with(clip, "auto").gaps.empty());
-  clip = make_marker_clip({"a"}, 0, 100);
+  clip = make_marker_take({"a"}, 0, 100);
   EXPECT_TRUE(fill_with(clip, "auto").gaps.empty());
 }
 

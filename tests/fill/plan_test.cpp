@@ -16,8 +16,8 @@ namespace {
 
 using testing::HasSubstr;
 
-MarkerClip markers_with_gaps() {
-  MarkerClip clip = marker_take("walk", 4, 0.8);
+Take markers_with_gaps() {
+  Take clip = marker_take("walk", 4, 0.8);
   hide(clip, "LeftLeg_b", 200, 223);
   hide(clip, "LeftLeg_c", 210, 250);
   hide(clip, "Head_a", 0, 5);
@@ -27,23 +27,20 @@ MarkerClip markers_with_gaps() {
   return clip;
 }
 
-Clip joints_with_gaps() {
-  Clip clip = test::moving_chain(6, 500);
+Take joints_with_gaps() {
+  Take clip = test::moving_chain(6, 500);
   hide(clip, "joint1", 200, 223);
   hide(clip, "joint3", 410, 417);
   hide(clip, "root", 210, 214);
   return spoilt(clip);
 }
 
-bool are_same(const MarkerClip& a, const MarkerClip& b) {
-  return a.positions == b.positions && a.observed == b.observed && a.residuals == b.residuals;
-}
-bool are_same(const Clip& a, const Clip& b) {
+bool are_same(const Take& a, const Take& b) {
   return a.rotations == b.rotations && a.positions == b.positions && a.observed == b.observed &&
-         a.observed_positions == b.observed_positions;
+         a.observed_positions == b.observed_positions && a.residuals == b.residuals;
 }
 
-std::string complaint(const std::string& text, const MarkerClip& clip) {
+std::string complaint(const std::string& text, const Take& clip) {
   try {
     parse_plan(text, "plan.csv", clip);
   } catch (const Error& error) {
@@ -53,9 +50,8 @@ std::string complaint(const std::string& text, const MarkerClip& clip) {
   return "";
 }
 
-template <class AnyClip>
-void expect_same_after_plan(const AnyClip& damaged, const FillSettings& settings) {
-  AnyClip filled = damaged, planned = damaged;
+void expect_same_after_plan(const Take& damaged, const FillSettings& settings) {
+  Take filled = damaged, planned = damaged;
   const FillReport report = fill_gaps(filled, settings);
   const PlannedFill made = fill_with_plan(planned, settings);
   EXPECT_TRUE(are_same(planned, filled));
@@ -65,7 +61,7 @@ void expect_same_after_plan(const AnyClip& damaged, const FillSettings& settings
     ASSERT_EQ(plan.size(), report.gaps.size());
     // The order of rows means nothing.
     std::reverse(plan.begin(), plan.end());
-    AnyClip applied = damaged;
+    Take applied = damaged;
     const PlannedFill again = fill_with_plan(applied, plan);
     EXPECT_TRUE(are_same(applied, filled)) << settings.method << text;
     EXPECT_EQ(again.report.filled(), report.filled());
@@ -92,20 +88,20 @@ TEST(GapPlan, GivesTheSameSamplesAsTheRunThatWroteIt) {
 }
 
 TEST(GapPlan, DoesForEachGapWhatItsRowSays) {
-  const MarkerClip damaged = markers_with_gaps();
+  const Take damaged = markers_with_gaps();
   const std::string text =
       "name,first_frame,last_frame,method,verdict,donor\n"
       "LeftLeg_b,201,224,spline,fill,\n"
       "\"LeftFoot_a\",211,241,pattern,fill,LeftFoot_b\n"
       "LeftLeg_c,211,251,auto,refuse,\n"
       "Head_a,1,6,spline,force,\n";
-  MarkerClip clip = damaged;
+  Take clip = damaged;
   const PlannedFill made = fill_with_plan(clip, parse_plan(text, "plan.csv", damaged));
   ASSERT_EQ(made.plan.size(), 4u);
   // A method alone, on that gap alone, makes the same of it.
   for (const auto& [name, method, donor] :
        {std::tuple("LeftLeg_b", "spline", ""), std::tuple("LeftFoot_a", "pattern", "LeftFoot_b")}) {
-    MarkerClip alone = damaged;
+    Take alone = damaged;
     FillSettings settings;
     settings.method = method;
     settings.names = {name};
@@ -126,9 +122,9 @@ TEST(GapPlan, DoesForEachGapWhatItsRowSays) {
 }
 
 TEST(GapPlan, SaysWhichMarkersAGapWasFilledFrom) {
-  MarkerClip clip = marker_take("walk", 4, 0.8);
+  Take clip = marker_take("walk", 4, 0.8);
   hide(clip, "LeftLeg_b", 200, 240);
-  MarkerClip by_donor = clip;
+  Take by_donor = clip;
   const PlannedFill made = fill_with_plan(clip, FillSettings{});
   ASSERT_EQ(made.plan.size(), 1u);
   EXPECT_THAT(made.plan[0].evidence, testing::Contains("LeftLeg_a"));
@@ -140,14 +136,14 @@ TEST(GapPlan, SaysWhichMarkersAGapWasFilledFrom) {
 }
 
 TEST(GapPlan, PreviewsEveryMethodBesideWhatFillsTheGap) {
-  MarkerClip clip = marker_take("walk", 4, 0.8);
+  Take clip = marker_take("walk", 4, 0.8);
   hide(clip, "LeftLeg_b", 200, 215);
-  const MarkerClip damaged = clip;
+  const Take damaged = clip;
   PlannedFill made = fill_with_plan(clip, FillSettings{});
   preview_methods(damaged, made.plan);
   std::size_t seen = 0;
   for (const GapPreview& preview : made.plan[0].previews) {
-    MarkerClip other = damaged;
+    Take other = damaged;
     FillSettings settings;
     settings.method = preview.method;
     if (preview.method == "pattern") {
@@ -164,19 +160,18 @@ TEST(GapPlan, PreviewsEveryMethodBesideWhatFillsTheGap) {
 }
 
 // What the plan makes of the take once the row has that method.
-template <class AnyClip>
-AnyClip filled_with(const AnyClip& damaged, std::vector<PlannedGap> plan, std::size_t row,
-                    const std::string& method, GapVerdict verdict) {
+Take filled_with(const Take& damaged, std::vector<PlannedGap> plan, std::size_t row,
+                 const std::string& method, GapVerdict verdict) {
   plan[row].method = method;
   plan[row].verdict = verdict;
-  AnyClip clip = damaged;
+  Take clip = damaged;
   fill_with_plan(clip, plan);
   return clip;
 }
 
 TEST(GapPlan, ShowsTheCurvesThatTheRowsMethodsWouldMakeOfMarkers) {
-  const MarkerClip damaged = markers_with_gaps();
-  MarkerClip clip = damaged;
+  const Take damaged = markers_with_gaps();
+  Take clip = damaged;
   const std::vector<PlannedGap> plan = fill_with_plan(clip, FillSettings{}).plan;
   const std::size_t marker = track_of(clip, "LeftLeg_c");
   std::size_t row = 0;
@@ -193,7 +188,7 @@ TEST(GapPlan, ShowsTheCurvesThatTheRowsMethodsWouldMakeOfMarkers) {
       continue;
     }
     const GapVerdict verdict = curve.preview.filled ? GapVerdict::fill : GapVerdict::force;
-    const MarkerClip other = filled_with(damaged, plan, row, method, verdict);
+    const Take other = filled_with(damaged, plan, row, method, verdict);
     ASSERT_EQ(curve.values.size(), made.last_frame - made.first_frame + 1);
     for (std::size_t i = 0; i < curve.values.size(); ++i) {
       if (!curve.values[i]) continue;
@@ -210,8 +205,8 @@ TEST(GapPlan, ShowsTheCurvesThatTheRowsMethodsWouldMakeOfMarkers) {
 }
 
 TEST(GapPlan, ShowsTheCurvesOfAJointAsAnglesOfTheFileWithoutJumps) {
-  const Clip damaged = joints_with_gaps();
-  Clip clip = damaged;
+  const Take damaged = joints_with_gaps();
+  Take clip = damaged;
   const std::vector<PlannedGap> plan = fill_with_plan(clip, FillSettings{}).plan;
   std::size_t row = 0;
   while (plan[row].is_position || plan[row].gap.length() != 8) ++row;
@@ -223,7 +218,7 @@ TEST(GapPlan, ShowsTheCurvesOfAJointAsAnglesOfTheFileWithoutJumps) {
   for (const GapCurve& curve : made.curves) {
     if (!curve.preview.filled) continue;
     ++filled;
-    const Clip other = filled_with(damaged, plan, row, curve.preview.method, GapVerdict::fill);
+    const Take other = filled_with(damaged, plan, row, curve.preview.method, GapVerdict::fill);
     for (std::size_t i = 0; i < curve.values.size(); ++i) {
       const Vec3 angles = (1 / degrees_per_radian) * curve.values[i].value();
       const Quat turned = from_euler({angles.x, angles.y, angles.z}, order);
@@ -238,10 +233,10 @@ TEST(GapPlan, ShowsTheCurvesOfAJointAsAnglesOfTheFileWithoutJumps) {
 TEST(GapPlan, LeavesTheTakeAsItWasWhereARunIsEnded) {
   struct Ended {};
   for (const std::size_t calls : {0, 1, 2}) {
-    MarkerClip markers = markers_with_gaps();
-    Clip joints = joints_with_gaps();
-    const MarkerClip markers_before = markers;
-    const Clip joints_before = joints;
+    Take markers = markers_with_gaps();
+    Take joints = joints_with_gaps();
+    const Take markers_before = markers;
+    const Take joints_before = joints;
     std::atomic<std::size_t> seen = 0;
     const FillCheck check = [&] {
       if (seen++ >= calls) throw Ended{};
@@ -255,7 +250,7 @@ TEST(GapPlan, LeavesTheTakeAsItWasWhereARunIsEnded) {
 }
 
 TEST(GapPlan, NamesTheLineOfWhatIsWrong) {
-  const MarkerClip clip = markers_with_gaps();
+  const Take clip = markers_with_gaps();
   const std::string heading = "name,first_frame,last_frame,method,verdict\n";
   const auto after = [&](const std::string& row) { return complaint(heading + row + "\n", clip); };
   EXPECT_EQ(after("Leg,201,224,auto,fill"), "plan.csv:2: the take has no marker \"Leg\"");
@@ -294,22 +289,22 @@ TEST(GapPlan, NamesTheLineOfWhatIsWrong) {
 }
 
 TEST(GapPlan, TellsTracksOfOneNameApart) {
-  MarkerClip clip = marker_take("walk", 4, 0.8);
+  Take clip = marker_take("walk", 4, 0.8);
   hide(clip, "LeftLeg_b", 200, 210);
   hide(clip, "LeftLeg_c", 200, 210);
   clip.names[track_of(clip, "LeftLeg_c")] = "LeftLeg_b";
-  MarkerClip filled = clip;
+  Take filled = clip;
   const PlannedFill made = fill_with_plan(filled, FillSettings{});
-  MarkerClip applied = clip;
+  Take applied = clip;
   fill_with_plan(applied, parse_plan(plan_csv(clip, made.plan), "plan.csv", clip));
   EXPECT_TRUE(are_same(applied, filled));
 }
 
 TEST(GapPlan, QuotesNamesThatNeedIt) {
-  MarkerClip clip = marker_take("walk", 4, 0.8);
+  Take clip = marker_take("walk", 4, 0.8);
   clip.names[track_of(clip, "LeftLeg_b")] = "a, \"b\" #1";
   hide(clip, "a, \"b\" #1", 200, 210);
-  MarkerClip filled = clip;
+  Take filled = clip;
   const PlannedFill made = fill_with_plan(filled, FillSettings{});
   const std::string text = plan_csv(clip, made.plan);
   EXPECT_THAT(text, HasSubstr("\n\"a, \"\"b\"\" #1\",position,201,211,11,"));

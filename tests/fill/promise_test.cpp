@@ -10,8 +10,7 @@
 namespace kinemend::fill {
 namespace {
 
-template <class AnyClip>
-void add(std::vector<Kept>& all, const AnyClip& truth, std::size_t tracks, std::uint64_t seed) {
+void add(std::vector<Kept>& all, const Take& truth, std::size_t tracks, std::uint64_t seed) {
   std::vector<std::size_t> every(tracks);
   std::iota(every.begin(), every.end(), std::size_t{0});
   for (const Kept& kept : make_and_fill(truth, every, 8, seed)) all.push_back(kept);
@@ -29,7 +28,7 @@ TEST(Promise, HoldsForMarkers) {
   std::vector<Kept> all;
   for (const char* motion : {"walk", "stroll", "punch", "turn"}) {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
-      MarkerClip truth = marker_take(motion, 4, 0.5);
+      Take truth = marker_take(motion, 4, 0.5);
       Random random(seed);
       for (Vec3& p : truth.positions) {
         const double x = random.normal(), y = random.normal(), z = random.normal();
@@ -45,7 +44,7 @@ TEST(Promise, HoldsForJoints) {
   std::vector<Kept> all;
   for (const char* motion : {"walk", "stroll", "punch", "turn"}) {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
-      Clip truth = synthesize({.motion = motion, .duration_s = 4});
+      Take truth = synthesize({.motion = motion, .duration_s = 4});
       Random random(seed);
       for (Quat& q : truth.rotations) {
         const double x = random.normal(), y = random.normal(), z = random.normal();

@@ -65,20 +65,20 @@ std::size_t last_line(const std::string& text) { return text.rfind('\n', text.si
 
 TEST(CutFile, OfBvhIsReadUpToTheLastWholeFrame) {
   const std::string text = bvh_text();
-  const Clip whole = read_text(text);
+  const Take whole = read_text(text);
   for (std::size_t length = last_line(text) + 1; length + 1 < text.size(); ++length) {
     SCOPED_TRACE(length);
-    const ReadResult read = read_clip(text.substr(0, length), "take.bvh");
-    ASSERT_EQ(read.clip.frame_count(), rows - 1);
+    const TakeResult read = read_joints(text.substr(0, length), "take.bvh");
+    ASSERT_EQ(read.take.frame_count(), rows - 1);
     EXPECT_EQ(read.diagnostics.count("file_cut"), 1u);
     EXPECT_EQ(read.diagnostics.entries().size(), 1u);
-    expect_same_motion(read.clip, slice(whole, 0, rows - 1), 0);
+    expect_same_motion(read.take, slice(whole, 0, rows - 1), 0);
     // What is written is whole.
-    const std::string written = write_clip(read.clip);
-    const ReadResult again = read_clip(written, "take.bvh");
+    const std::string written = write_take(read.take);
+    const TakeResult again = read_joints(written, "take.bvh");
     EXPECT_TRUE(again.diagnostics.empty());
-    EXPECT_EQ(again.clip.frame_count(), rows - 1);
-    EXPECT_EQ(write_clip(again.clip), written);
+    EXPECT_EQ(again.take.frame_count(), rows - 1);
+    EXPECT_EQ(write_take(again.take), written);
   }
   ReadOptions strict;
   strict.strict = true;
@@ -116,23 +116,23 @@ TEST(CutFile, OfBvhThatIsCutInAWordOfTwoNumbersIsWrittenWhole) {
   const std::string rows_text =
       "1.25 2.25 3.25 4.25 5.25 6.25\n1.25 2.25 3.25 4.25 5.25 6.25\n"
       "1.25 2.25 3.25 4.25 5.25 6.25\n1.25 2.25 3.25 4.25 5.25 7.8-0.751";
-  const ReadResult read = read_clip(bvh_with_rows(rows_text, 9), "take.bvh");
+  const TakeResult read = read_joints(bvh_with_rows(rows_text, 9), "take.bvh");
   EXPECT_EQ(read.diagnostics.count("file_cut"), 1u);
-  ASSERT_EQ(read.clip.frame_count(), 4u);
-  const std::string written = write_clip(read.clip);
+  ASSERT_EQ(read.take.frame_count(), 4u);
+  const std::string written = write_take(read.take);
   EXPECT_THAT(written, testing::EndsWith(" 7.8\n"));
-  const ReadResult again = read_clip(written, "take.bvh");
+  const TakeResult again = read_joints(written, "take.bvh");
   EXPECT_TRUE(again.diagnostics.empty());
-  EXPECT_EQ(write_clip(again.clip), written);
+  EXPECT_EQ(write_take(again.take), written);
 }
 
 // Two frames, wrapped over as many lines, are no file of 5 channels.
 TEST(CutFile, OfBvhWithWrappedFramesIsWrittenReadably) {
   const std::string rows_text = "1 2 3 4 5\n6 1 2 3 4 5 6\n1 2 3 4 5";
-  const ReadResult read = read_clip(bvh_with_rows(rows_text + " 6 1 2 3 4\n", 1), "take.bvh");
-  ASSERT_EQ(read.clip.frame_count(), 3u);
-  const std::string written = write_clip(read.clip);
-  EXPECT_EQ(write_clip(read_text(written)), written);
+  const TakeResult read = read_joints(bvh_with_rows(rows_text + " 6 1 2 3 4\n", 1), "take.bvh");
+  ASSERT_EQ(read.take.frame_count(), 3u);
+  const std::string written = write_take(read.take);
+  EXPECT_EQ(write_take(read_text(written)), written);
   EXPECT_EQ(read_text(bvh_with_rows("1 2 3 4 5\n6 1 2 3 4 5\n6 1 2 3 4 5\n6\n", 3)).frame_count(),
             3u);
 }
@@ -149,7 +149,7 @@ TEST(CutFile, OfBvhThatComesOutEvenOnlyByTheCutIsStillAnError) {
 TEST(CutFile, OfAmcIsReadUpToTheLastWholeFrame) {
   const std::string frame = figure_amc();
   const std::size_t begin = frame.find("\n1\n") + 1;
-  const Clip figure = read_figure();
+  const Take figure = read_figure();
   ASSERT_GT(figure.frame_count(), 1u);
   const std::string number = fmt::format("\n{}\n", figure.frame_count());
   const std::size_t last = frame.rfind(number) + 1;
@@ -161,15 +161,15 @@ TEST(CutFile, OfAmcIsReadUpToTheLastWholeFrame) {
       EXPECT_THROW(read_pair(frame.substr(0, length), figure_asf()), Error);
       continue;
     }
-    const ReadResult read = read_pair(frame.substr(0, length), figure_asf());
+    const TakeResult read = read_pair(frame.substr(0, length), figure_asf());
     const std::string left = frame.substr(last, length - last);
     if (read.diagnostics.count("file_cut") == 0) {
       // Digits of the last number alone are gone, and too few lines tell.
       EXPECT_GT(length + 12, frame.size());
       continue;
     }
-    ASSERT_EQ(read.clip.frame_count(), figure.frame_count() - 1) << left;
-    const std::string written = write_clip(read.clip);
+    ASSERT_EQ(read.take.frame_count(), figure.frame_count() - 1) << left;
+    const std::string written = write_take(read.take);
     EXPECT_EQ(written, frame.substr(0, last));
     EXPECT_EQ(read_pair(written, figure_asf()).diagnostics.count("file_cut"), 0u);
   }
@@ -179,12 +179,12 @@ TEST(CutFile, OfMarkersIsReadUpToTheLastWholeNumber) {
   for (const auto& [format, text] : {std::pair<std::string, std::string>{"trc", trc_text()},
                                      {"tsv", tsv_text()},
                                      {"csv", csv_text()}}) {
-    const auto whole = std::get<MarkerClip>(read_take(text, "take." + format).take);
+    const auto whole = read_take(text, "take." + format).take;
     const std::size_t line = last_line(text);
     for (std::size_t length = line + 1; length + 1 < text.size(); ++length) {
       SCOPED_TRACE(format + " " + text.substr(line, length - line));
       const TakeResult read = read_take(text.substr(0, length), "take." + format);
-      const auto& clip = std::get<MarkerClip>(read.take);
+      const auto& clip = read.take;
       const char end = text[length - 1];
       if (end != '\t' && end != ',') {
         EXPECT_EQ(read.diagnostics.count("file_cut") + read.diagnostics.count("marker_incomplete"),

@@ -133,21 +133,21 @@ std::string format_names() {
 
 TEST(Formats, AreFoundByContentThenByName) {
   const std::string text = read_file(fixture("good/plain.bvh"));
-  EXPECT_EQ(read_clip(text, "take").clip.source.format, "bvh");
-  EXPECT_EQ(read_clip(text, "take.trc").clip.source.name, "take.trc");
-  EXPECT_EQ(message_of([] { read_clip(std::string("garbage"), "take.BVH"); },
+  EXPECT_EQ(read_joints(text, "take").take.source.format, "bvh");
+  EXPECT_EQ(read_joints(text, "take.trc").take.source.name, "take.trc");
+  EXPECT_EQ(message_of([] { read_joints(std::string("garbage"), "take.BVH"); },
                        ErrorKind::unreadable_input),
             "take.BVH:1: expected HIERARCHY, found \"garbage\"");
   EXPECT_EQ(
-      message_of([] { read_clip(std::string("garbage"), "take"); }, ErrorKind::unreadable_input),
+      message_of([] { read_joints(std::string("garbage"), "take"); }, ErrorKind::unreadable_input),
       "take:1: not a motion file of a known format (bvh, amc, asf, c3d, trc, tsv, csv)");
-  EXPECT_EQ(message_of([] { read_clip(std::string(), "take"); }, ErrorKind::unreadable_input),
+  EXPECT_EQ(message_of([] { read_joints(std::string(), "take"); }, ErrorKind::unreadable_input),
             "take:1: the file is empty");
   ReadOptions options;
   options.format = "fbx";
   EXPECT_EQ(read_error(text, options, ErrorKind::usage),
             "unknown format \"fbx\"; the formats are: " + format_names());
-  EXPECT_EQ(message_of([] { write_clip(Clip{}, "fbx"); }, ErrorKind::usage),
+  EXPECT_EQ(message_of([] { write_take(Take{}, "fbx"); }, ErrorKind::usage),
             "unknown format \"fbx\"; the formats are: " + format_names());
   ASSERT_NE(format_of_path("a/b.Bvh"), nullptr);
   EXPECT_EQ(format_of_path("a/b.Bvh")->name, "bvh");

@@ -20,18 +20,18 @@ const std::string head =
 TEST(JoinedNumbers, OfBvhAreSplitAtTheSign) {
   const std::string rows =
       "0.0 95.5 0.0 0.0-7.5094748 3.25\n0.0-95.5-1.5e-05 1.0-2.25+3.0\n1 2 3 4 5 6\n";
-  const ReadResult read = read_clip(head + rows, "take.bvh");
+  const TakeResult read = read_joints(head + rows, "take.bvh");
   EXPECT_EQ(read.diagnostics.count("numbers_joined"), 5u);
   EXPECT_EQ(read.diagnostics.entries().size(), 1u);
   EXPECT_EQ(read.diagnostics.entries()[0].first_line, 14u);
-  ASSERT_EQ(read.clip.frame_count(), 3u);
-  EXPECT_THAT(read.clip.source.document->channel_values(),
+  ASSERT_EQ(read.take.frame_count(), 3u);
+  EXPECT_THAT(read.take.source.document->channel_values(),
               ElementsAre(0, 95.5, 0, 0, -7.5094748, 3.25, 0, -95.5, -1.5e-5, 1, -2.25, 3, 1, 2, 3,
                           4, 5, 6));
   // What is written has blanks, and every other byte.
   const std::string mended =
       "0.0 95.5 0.0 0.0 -7.5094748 3.25\n0.0 -95.5 -1.5e-05 1.0 -2.25 +3.0\n1 2 3 4 5 6\n";
-  EXPECT_EQ(write_clip(read.clip), head + mended);
+  EXPECT_EQ(write_take(read.take), head + mended);
   ReadOptions strict;
   strict.strict = true;
   EXPECT_THAT(read_error(head + rows, strict, ErrorKind::quality_limit),
@@ -39,9 +39,9 @@ TEST(JoinedNumbers, OfBvhAreSplitAtTheSign) {
 }
 
 TEST(JoinedNumbers, StayApartWhenOneOfThemIsChanged) {
-  Clip clip = read_text(head + "0.0 95.5-1.5 0.0-7.5 3.25\n0 0 0 0 0 0\n1 2 3 4 5 6\n");
+  Take clip = read_text(head + "0.0 95.5-1.5 0.0-7.5 3.25\n0 0 0 0 0 0\n1 2 3 4 5 6\n");
   clip.root_position(0).z = 1.25;
-  const Clip again = read_text(write_clip(clip));
+  const Take again = read_text(write_take(clip));
   EXPECT_EQ(again.root_position(0), (Vec3{0, 95.5, 1.25}));
 }
 
@@ -61,18 +61,18 @@ TEST(JoinedNumbers, AreNoExponentDateOrWord) {
 TEST(JoinedNumbers, OfManyInOneWordCostLinearTime) {
   std::string row;
   for (std::size_t i = 0; i < 300000; ++i) row += "-1.5";
-  EXPECT_EQ(read_clip(head + row + "\n", "take.bvh").clip.frame_count(), 50000u);
+  EXPECT_EQ(read_joints(head + row + "\n", "take.bvh").take.frame_count(), 50000u);
 }
 
 TEST(JoinedNumbers, OfAmcAreSplitAtTheSign) {
   const std::string asf =
       chain_asf({"id 1\ndirection 0 1 0\nlength 1\naxis 0 0 0 XYZ\ndof rx ry rz"});
-  const ReadResult read = read_pair(
+  const TakeResult read = read_pair(
       "1\nroot 0 0 0.5-1.5 2 3\na 1.0-2.0-3.5\n2\nroot 0 0 0 1 2 3\n"
       "a 1 2 3\n",
       asf);
   EXPECT_EQ(read.diagnostics.count("numbers_joined"), 3u);
-  EXPECT_EQ(write_clip(read.clip),
+  EXPECT_EQ(write_take(read.take),
             "1\nroot 0 0 0.5 -1.5 2 3\na 1.0 -2.0 -3.5\n2\nroot 0 0 0 1 2 3\na 1 2 3\n");
 }
 

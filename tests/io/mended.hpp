@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kinemend/diagnostics.hpp"
+#include "kinemend/error.hpp"
 
 namespace kinemend::test {
 

@@ -77,7 +77,7 @@ TEST(NotFinite, MarkersOfATableAreMissingInWhatIsWritten) {
     EXPECT_EQ(written, take.head + with_separator(expected, take.separator));
     const TakeResult again = read_as(written, take.format);
     EXPECT_TRUE(again.diagnostics.empty());
-    EXPECT_EQ(std::get<MarkerClip>(again.take).observed, std::get<MarkerClip>(read.take).observed);
+    EXPECT_EQ(again.take.observed, read.take.observed);
     EXPECT_THAT(message_of([&] { read_as(text, take.format, true); }, ErrorKind::quality_limit),
                 HasSubstr("a coordinate is not finite"));
     for (const char* other : {"trc", "tsv", "csv", "c3d", "glb"}) {
@@ -112,7 +112,7 @@ TEST(NotFinite, RatesOfTablesAreNotWritten) {
     EXPECT_EQ(read.diagnostics.count("head_not_finite"), 1u);
     const std::string written = write_take(read.take);
     EXPECT_THAT(written, HoldsNoNumberThatIsNotFinite());
-    EXPECT_EQ(std::get<MarkerClip>(read_as(written, take.format).take).frame_rate_hz, 100);
+    EXPECT_EQ(read_as(written, take.format).take.frame_rate_hz, 100);
   }
 }
 
@@ -120,7 +120,7 @@ TEST(NotFinite, TableWithoutSeparatorsGetsThem) {
   std::string text =
       text_takes[0].head + with_separator("1,0.00,1,2,3,4,5,6\n2,0.01,nan,nan,nan,4,5,6\n", ' ');
   const TakeResult read = read_as(text, "trc");
-  ASSERT_EQ(std::get<MarkerClip>(read.take).is_observed(1, 0), false);
+  ASSERT_EQ(read.take.is_observed(1, 0), false);
   const std::string written = write_take(read.take);
   EXPECT_THAT(written, HoldsNoNumberThatIsNotFinite());
   EXPECT_THAT(written, HasSubstr("2\t0.010000\t\t\t\t4\t5\t6\n"));
@@ -140,7 +140,7 @@ TEST(NotFinite, JointsOfATableAreMissingInWhatIsWritten) {
 class C3dFile {
  public:
   explicit C3dFile(const std::string& name) : bytes(good_c3d(name)) {
-    const MarkerClip clip = read_c3d_bytes(bytes).clip;
+    const Take clip = read_c3d_bytes(bytes).clip;
     layout = document_of(clip).layout;
     parameters = document_of(clip).parameters;
   }
@@ -165,7 +165,7 @@ class C3dFile {
 
 TEST(NotFinite, PointsOfC3dAreMissingInWhatIsWritten) {
   C3dFile file("intel_real");
-  const MarkerClip before = read_c3d_bytes(file.bytes).clip;
+  const Take before = read_c3d_bytes(file.bytes).clip;
   ASSERT_TRUE(before.is_observed(0, 0) && before.is_observed(3, 2) && before.is_observed(4, 1));
   file.put(file.sample(0, 0), not_a_number);
   file.put(file.sample(3, 2) + 8, -infinite);
@@ -213,7 +213,7 @@ TEST(NotFinite, AnalogSamplesOfC3dAreHeld) {
 
 TEST(NotFinite, RatesAndScalesOfC3dAreUnknown) {
   C3dFile file("intel_real");
-  const MarkerClip before = read_c3d_bytes(file.bytes).clip;
+  const Take before = read_c3d_bytes(file.bytes).clip;
   const C3dParameter* const rate = file.parameters.find("POINT", "RATE");
   const C3dParameter* const scale = file.parameters.find("ANALOG", "GEN_SCALE");
   ASSERT_TRUE(rate != nullptr && scale != nullptr);
@@ -230,12 +230,12 @@ TEST(NotFinite, RatesAndScalesOfC3dAreUnknown) {
 }
 
 TEST(NotFinite, LengthsAreRefusedWhereAFormatCannotHoldThem) {
-  MarkerClip clip = make_marker_clip({"A"}, 2, 100);
+  Take clip = make_marker_take({"A"}, 2, 100);
   clip.observed.assign(2, 1);
   clip.positions[1].x = 1e60;
-  EXPECT_EQ(message_of([&] { write_markers(clip, "glb"); }, ErrorKind::usage),
+  EXPECT_EQ(message_of([&] { write_take(clip, "glb"); }, ErrorKind::usage),
             "a length is too large for a glTF file");
-  EXPECT_THAT(message_of([&] { write_markers(clip, "c3d"); }, ErrorKind::usage),
+  EXPECT_THAT(message_of([&] { write_take(clip, "c3d"); }, ErrorKind::usage),
               HasSubstr("too large for a C3D file"));
 }
 

@@ -11,7 +11,7 @@ namespace {
 TEST(ReadingProgress, OfALongBvhRisesToItsEnd) {
   SynthOptions options;
   options.duration_s = 10;
-  const std::string bytes = write_clip(synthesize(options));
+  const std::string bytes = write_take(synthesize(options));
   std::vector<double> shares;
   ReadOptions reading;
   reading.progress = [&](double done) { shares.push_back(done); };

@@ -17,7 +17,7 @@ using namespace test;
 const double unusable_hz[] = {1e-300, 1e-9, 0.0999, 100001, 1e7, 1e12, 1e30, 1e300};
 const double usable_hz[] = {0.1, 1, 29.97, 120, 1000, 1e5};
 
-Clip still_walk() {
+Take still_walk() {
   SynthOptions options;
   options.duration_s = 0.1;
   return synthesize(options);
@@ -25,17 +25,17 @@ Clip still_walk() {
 
 // A take of the format that states this rate, written by hand where a writer would refuse it.
 std::string stating(const std::string& format, double rate_hz) {
-  const Clip joints = still_walk();
-  MarkerClip markers = joint_markers(joints);
+  const Take joints = still_walk();
+  Take markers = joint_markers(joints);
   markers.unit = "mm";
   if (format == "bvh") {
-    std::string text = write_clip(joints);
+    std::string text = write_take(joints);
     const std::size_t at = text.find("Frame Time: ") + 12;
     text.replace(at, text.find('\n', at) - at, fmt::format("{:.17g}", 1 / rate_hz));
     return text;
   }
   if (format == "csv" || format == "csv of joints") {
-    std::string text = format == "csv" ? write_markers(markers, "csv") : write_clip(joints, "csv");
+    std::string text = format == "csv" ? write_take(markers, "csv") : write_take(joints, "csv");
     const std::size_t at = text.find("# rate_hz: ") + 11;
     text.replace(at, text.find('\n', at) - at, fmt::format("{:.17g}", rate_hz));
     // Without times, which would tell another.
@@ -43,7 +43,7 @@ std::string stating(const std::string& format, double rate_hz) {
     return text;
   }
   if (format == "trc") {
-    std::string text = write_markers(markers, "trc");
+    std::string text = write_take(markers, "trc");
     const std::size_t at = text.find("120.00");
     text.replace(at, 6, fmt::format("{:.17g}", rate_hz));
     for (std::size_t row = text.find("\n1\t") + 1; row < text.size();
@@ -53,7 +53,7 @@ std::string stating(const std::string& format, double rate_hz) {
     }
     return text;
   }
-  std::string bytes = write_markers(markers, "c3d");
+  std::string bytes = write_take(markers, "c3d");
   const auto single = static_cast<float>(rate_hz);
   const float usual = 120;
   const std::string_view old(reinterpret_cast<const char*>(&usual), sizeof usual);
@@ -64,9 +64,7 @@ std::string stating(const std::string& format, double rate_hz) {
   return bytes;
 }
 
-double rate_of(const TakeResult& result) {
-  return std::visit([](const auto& clip) { return clip.frame_rate_hz; }, result.take);
-}
+double rate_of(const TakeResult& result) { return result.take.frame_rate_hz; }
 
 class EveryFormatWithRates : public testing::TestWithParam<const char*> {
  protected:
@@ -97,7 +95,7 @@ TEST_P(EveryFormatWithRates, TakesAnyOtherForUnknownAndSaysSo) {
     EXPECT_GE(rate_of(assumed), 30);
     EXPECT_LE(rate_of(assumed), 120);
     EXPECT_EQ(rate_of(asked), 77);
-    std::visit([](const auto& clip) { clip.validate(); }, assumed.take);
+    assumed.take.validate();
     // A C3D holds single floats, of which the smallest and the largest here are none.
     const bool is_stated = format_ != "c3d" || (rate_hz > 1e-30 && rate_hz < 1e35);
     if (is_stated) {
@@ -112,11 +110,7 @@ TEST_P(EveryFormatWithRates, IsWrittenAtTheRateThatItWasReadWith) {
   for (const double rate_hz : {1e-9, 1e12}) {
     const TakeResult result = read(rate_hz, 77);
     const std::string format = format_.substr(0, format_.find(' '));
-    AnyTake take = std::visit(
-        [](const auto& clip) {
-          return AnyTake(std::decay_t<decltype(clip)>(resample(clip, 38.5)));
-        },
-        result.take);
+    Take take = resample(result.take, 38.5);
     ReadOptions options;
     options.format = format;
     const TakeResult again = read_take(write_take(take, format), "take", options);
@@ -139,10 +133,10 @@ TEST(Rates, AskedForOutsideOfTheRangeAreRefused) {
     options.frame_rate_hz = rate_hz;
     EXPECT_THROW(read_take(figure_amc(), "take.amc", options), Error);
     EXPECT_THROW(resample(still_walk(), rate_hz), Error);
-    Clip clip = still_walk();
+    Take clip = still_walk();
     clip.frame_rate_hz = rate_hz;
     EXPECT_THROW(clip.validate(), Error);
-    EXPECT_THROW(write_clip(clip), Error);
+    EXPECT_THROW(write_take(clip), Error);
   }
 }
 

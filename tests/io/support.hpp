@@ -40,10 +40,10 @@ std::string message_of(Action&& action, ErrorKind kind) {
 
 inline std::string read_error(std::string bytes, const ReadOptions& options = {},
                               ErrorKind kind = ErrorKind::unreadable_input) {
-  return message_of([&] { read_clip(std::move(bytes), "take.bvh", options); }, kind);
+  return message_of([&] { read_joints(std::move(bytes), "take.bvh", options); }, kind);
 }
 
-inline Clip read_text(std::string bytes) { return read_clip(std::move(bytes), "take.bvh").clip; }
+inline Take read_text(std::string bytes) { return read_joints(std::move(bytes), "take.bvh").take; }
 
 /// R of angles in degrees.
 inline Quat rotation_of(std::array<double, 3> degrees, const char* order) {
@@ -51,7 +51,7 @@ inline Quat rotation_of(std::array<double, 3> degrees, const char* order) {
   return from_euler(degrees, parse_rotation_order(order));
 }
 
-inline void expect_same_motion(const Clip& a, const Clip& b, double tolerance) {
+inline void expect_same_motion(const Take& a, const Take& b, double tolerance) {
   ASSERT_EQ(a.joint_count(), b.joint_count());
   ASSERT_EQ(a.frame_count(), b.frame_count());
   ASSERT_EQ(a.translated_joints, b.translated_joints);

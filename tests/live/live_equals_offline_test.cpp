@@ -15,11 +15,11 @@ class LiveText : public testing::TestWithParam<LiveMethod> {
   std::unique_ptr<Cleaner> cleaner_ = make_cleaner(GetParam().name, GetParam().options);
 
   // What the cleaner makes of the file of the same text.
-  Clip offline(const std::string& text) const {
-    Clip clip = read_bvh_text(text);
+  Take offline(const std::string& text) const {
+    Take clip = read_bvh_text(text);
     clean_in_place(*cleaner_, clip);
     clip.source = {};
-    return read_bvh_text(write_clip(clip));
+    return read_bvh_text(write_take(clip));
   }
 };
 

@@ -20,15 +20,15 @@ LiveOptions options_of_markers() {
 }
 
 // A noisy walk with gaps as the lines of a stream.
-MarkerClip live_take() {
-  MarkerClip clip = damaged(marker_take("walk", 1), 3, 0.005, 100, 1);
+Take live_take() {
+  Take clip = damaged(marker_take("walk", 1), 3, 0.005, 100, 1);
   lose(clip, 0, 20, 25);
   lose(clip, 1, 0, 4);
   lose(clip, 2, 40, 90);
   return clip;
 }
 
-StreamText marker_stream_text(const MarkerClip& clip) {
+StreamText marker_stream_text(const Take& clip) {
   StreamText stream{"MARKERS 120 ", {}};
   for (std::size_t m = 0; m < clip.marker_count(); ++m)
     stream.header += (m > 0 ? "," : "") + clip.names[m];
@@ -60,12 +60,12 @@ std::vector<std::string> cells_of(const std::string& line) {
 }
 
 TEST(LiveMarkers, GivesWhatTheMethodMakesOfTheWholeTake) {
-  MarkerClip clip = live_take();
+  Take clip = live_take();
   clip.frame_rate_hz = 120;
   const StreamText stream = marker_stream_text(clip);
   for (const char* method : {"median", "one-euro", "bilateral"}) {
     const auto cleaner = make_cleaner(method);
-    MarkerClip offline = clip;
+    Take offline = clip;
     Selection selection;
     selection.body_height = height;
     clean_in_place(*cleaner, offline, selection);

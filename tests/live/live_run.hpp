@@ -50,8 +50,8 @@ struct StreamText {
   }
 };
 
-inline StreamText stream_text(const Clip& clip) {
-  const std::string bytes = write_clip(clip);
+inline StreamText stream_text(const Take& clip) {
+  const std::string bytes = write_take(clip);
   const std::size_t motion = bytes.find('\n', bytes.find("Frame Time:")) + 1;
   StreamText stream{bytes.substr(0, motion), {}};
   for (std::size_t at = motion; at < bytes.size();) {
@@ -62,16 +62,16 @@ inline StreamText stream_text(const Clip& clip) {
   return stream;
 }
 
-inline Clip noisy_clip(std::size_t frames) {
-  Clip clip = moving_take(frames, 120);
+inline Take noisy_clip(std::size_t frames) {
+  Take clip = moving_take(frames, 120);
   add_noise(clip, 1.5, 0.5, 1);
   return clip;
 }
 
-inline Clip read_bvh_text(const std::string& text) { return read_clip(text, "live.bvh").clip; }
+inline Take read_bvh_text(const std::string& text) { return read_joints(text, "live.bvh").take; }
 
 /// Largest difference of rotations, radians, and of positions.
-inline std::pair<double, double> difference(const Clip& a, const Clip& b) {
+inline std::pair<double, double> difference(const Take& a, const Take& b) {
   EXPECT_EQ(a.frame_count(), b.frame_count());
   double turn = 0, way = 0;
   for (std::size_t f = 0; f < std::min(a.frame_count(), b.frame_count()); ++f) {

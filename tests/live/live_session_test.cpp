@@ -31,7 +31,7 @@ class LiveSessionTest : public testing::Test {
     options.numbered = true;
     return options;
   }
-  Clip truth() const { return read_bvh_text(stream_.text()); }
+  Take truth() const { return read_bvh_text(stream_.text()); }
 };
 
 TEST_F(LiveSessionTest, GivesAnUnchangedFrameBack) {
@@ -106,7 +106,7 @@ TEST_F(LiveSessionTest, MakesUpLostFramesBetweenThoseOnEitherSide) {
   EXPECT_EQ(run.counts().lost, 3);
   EXPECT_EQ(run.counts().made_up, 3);
   EXPECT_EQ(run.counts().frames_in, 5);
-  const Clip clip = read_bvh_text(run.text), whole = truth();
+  const Take clip = read_bvh_text(run.text), whole = truth();
   ASSERT_EQ(clip.frame_count(), 8);
   for (const std::size_t f : {0, 1, 2, 6, 7})
     EXPECT_LT(angle_between(clip.rotation(f, 1), whole.rotation(f, 1)), digits_rad) << f;
@@ -151,7 +151,7 @@ TEST_F(LiveSessionTest, GivesAMalformedLineThePlaceOfItsFrame) {
   run.session.finish();
   EXPECT_EQ(run.counts().malformed, 3);
   EXPECT_EQ(run.counts().made_up, 3);
-  const Clip clip = read_bvh_text(run.text), whole = truth();
+  const Take clip = read_bvh_text(run.text), whole = truth();
   ASSERT_EQ(clip.frame_count(), 30);
   EXPECT_LT(
       angle_between(clip.rotation(6, 1), slerp(whole.rotation(4, 1), whole.rotation(8, 1), 0.5)),
@@ -265,7 +265,7 @@ TEST_F(LiveSessionTest, TakesNumbersThatBeginAgainBehindASenderThatCameBack) {
 
 TEST_F(LiveSessionTest, EndsTheOldStreamWhenAnotherSkeletonComes) {
   const auto median = make_cleaner("median");
-  Clip other = noisy_clip(3);
+  Take other = noisy_clip(3);
   other.skeleton.offsets[1] = {0, 11, 0};
   LiveRun run(*median);
   run.feed(stream_.text() + stream_text(other).text());
@@ -337,7 +337,7 @@ TEST_F(LiveSessionTest, BlendsByStrength) {
     run.session.finish();
     return read_bvh_text(run.text);
   };
-  const Clip none = run_with(0), half = run_with(0.5), all = run_with(1);
+  const Take none = run_with(0), half = run_with(0.5), all = run_with(1);
   EXPECT_LT(difference(none, truth()).first, digits_rad);
   EXPECT_LT(angle_between(half.rotation(9, 1), slerp(none.rotation(9, 1), all.rotation(9, 1), 0.5)),
             digits_rad);
@@ -357,7 +357,7 @@ TEST_F(LiveSessionTest, WritesLinesOfJson) {
   EXPECT_EQ(header["parents"][0], -1);
   EXPECT_EQ(header["translated"], nlohmann::json({6}));
   ASSERT_EQ(run.lines.size(), 4);
-  const Clip whole = truth();
+  const Take whole = truth();
   for (const std::size_t i : {0, 1, 3}) {
     const auto frame = nlohmann::json::parse(run.lines[i]);
     const std::size_t f = i + 4;

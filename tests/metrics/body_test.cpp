@@ -20,8 +20,8 @@ Skeleton one_legged() {
 }
 
 TEST(FootSlide, IsTheHorizontalTravelPerFrameInContact) {
-  const Clip reference = resting_clip(one_legged(), 5, 100);
-  Clip other = reference;
+  const Take reference = resting_clip(one_legged(), 5, 100);
+  Take other = reference;
   // Steps of the toe: (3, up, 4), 0, (0, 7, 0), 0 -> horizontal 5, 0, 0, 0.
   for (std::size_t f = 1; f < 5; ++f) other.root_position(f) += Vec3{3, 2, 4};
   for (std::size_t f = 3; f < 5; ++f) other.root_position(f) += Vec3{0, 7, 0};
@@ -32,11 +32,11 @@ TEST(FootSlide, IsTheHorizontalTravelPerFrameInContact) {
 }
 
 TEST(FootSlide, CountsOnlyWhileTheReferenceIsLowAndSlow) {
-  Clip reference = resting_clip(one_legged(), 6, 100);
+  Take reference = resting_clip(one_legged(), 6, 100);
   // 0.03 of the height is 5.1 units; 0.25 heights per second at 100 Hz is 0.425 a frame.
   reference.root_position(3).y += 6;    // high: steps 2-3 and 3-4 are out
   reference.root_position(5).x += 0.5;  // fast: step 4-5 is out
-  Clip other = reference;
+  Take other = reference;
   for (std::size_t f = 1; f < 6; ++f) other.root_position(f).x += static_cast<double>(f);
   const FootSlide slide = foot_slide(reference, other);
   EXPECT_EQ(slide.contact_steps, 2u);
@@ -46,8 +46,8 @@ TEST(FootSlide, CountsOnlyWhileTheReferenceIsLowAndSlow) {
 }
 
 TEST(FootSlide, TakesTheAxisThatPointsUp) {
-  const Clip reference = resting_clip(one_legged(), 2, 100);
-  Clip other = reference;
+  const Take reference = resting_clip(one_legged(), 2, 100);
+  Take other = reference;
   other.root_position(1) += Vec3{3, 4, 12};
   FootSlideSettings settings;
   settings.up = Axis::z;
@@ -57,7 +57,7 @@ TEST(FootSlide, TakesTheAxisThatPointsUp) {
 }
 
 TEST(FootSlide, TakesJointsByNumber) {
-  const Clip reference = resting_clip(one_legged(), 2, 100);
+  const Take reference = resting_clip(one_legged(), 2, 100);
   FootSlideSettings settings;
   settings.joints = {0, 1};
   EXPECT_EQ(foot_slide(reference, reference, settings).contact_steps, 2u);

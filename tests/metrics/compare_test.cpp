@@ -20,8 +20,8 @@ using testing::Throws;
 using testing::ThrowsMessage;
 
 TEST(CompareClips, AgreesWithEachFigureAlone) {
-  const Clip reference = moving_chain(4, 30);
-  Clip other = reference;
+  const Take reference = moving_chain(4, 30);
+  Take other = reference;
   Random random(5);
   for (Quat& q : other.rotations) q = q * exp(test::random_vector(random, 0.05));
   ComparisonSettings settings;
@@ -52,8 +52,8 @@ TEST(CompareClips, AgreesWithEachFigureAlone) {
 }
 
 TEST(CompareClips, LeavesTheCalibrationFrameOut) {
-  const Clip reference = moving_chain(3, 10);
-  Clip other = reference;
+  const Take reference = moving_chain(3, 10);
+  Take other = reference;
   other.rotation(0, 1) = about_x(100 * degree);
   EXPECT_GT(compare_clips(reference, other).geodesic_max_deg, 50);
   ComparisonSettings settings;
@@ -65,19 +65,19 @@ TEST(CompareClips, LeavesTheCalibrationFrameOut) {
 }
 
 TEST(CompareClips, TellsNoCentimetresWhereTheScaleIsUnknown) {
-  const Clip clip = chain_clip(8, 3);  // 8 units long: no person in any unit
+  const Take clip = chain_clip(8, 3);  // 8 units long: no person in any unit
   EXPECT_FALSE(compare_clips(clip, clip).mpjpe_cm);
   EXPECT_FALSE(compare_clips(clip, clip).rmse_per_marker_m);
 }
 
 TEST(CompareClips, RefusesClipsThatDoNotMatch) {
-  const Clip clip = chain_clip(3, 4);
+  const Take clip = chain_clip(3, 4);
   const auto usage = Throws<Error>(Property(&Error::kind, ErrorKind::usage));
   EXPECT_THAT([&] { compare_clips(clip, chain_clip(4, 4)); },
               AllOf(usage, ThrowsMessage<Error>("the clips differ in joints: 3 and 4")));
   EXPECT_THAT([&] { compare_clips(clip, chain_clip(3, 5)); },
               AllOf(usage, ThrowsMessage<Error>("the clips differ in frames: 4 and 5")));
-  Clip renamed = clip;
+  Take renamed = clip;
   renamed.skeleton.names[1] = "knee";
   EXPECT_THAT(
       [&] { compare_clips(clip, renamed); },

@@ -21,8 +21,8 @@ Vec3 path(double s, std::size_t marker) {
 
 // `place(p, frame, marker)` of each sample of the reference.
 template <class Place>
-MarkerClip take_of(const Place& place, std::size_t count = frames) {
-  MarkerClip clip;
+Take take_of(const Place& place, std::size_t count = frames) {
+  Take clip;
   clip.names = {"LASI", "RASI", "C7"};
   clip.frame_rate_hz = rate_hz;
   clip.unit = "mm";
@@ -33,11 +33,11 @@ MarkerClip take_of(const Place& place, std::size_t count = frames) {
   return clip;
 }
 
-MarkerClip reference() {
+Take reference() {
   return take_of([](Vec3 p, std::size_t, std::size_t) { return p; });
 }
 
-MarkerComparison compared(const MarkerClip& other, MarkerFit fit = MarkerFit::none) {
+MarkerComparison compared(const Take& other, MarkerFit fit = MarkerFit::none) {
   MarkerComparisonSettings settings;
   settings.fit = fit;
   return compare_markers(reference(), other, settings);
@@ -77,7 +77,7 @@ TEST(CompareMarkers, ASineHasTheFiguresOfItsClosedForm) {
 
 TEST(CompareMarkers, ARigidFitTakesOutATurnAndAShiftOfTheWholeTake) {
   const Quat turn = exp(Vec3{0.3, -1.2, 2.0});
-  const MarkerClip turned = take_of([&](Vec3 p, std::size_t, std::size_t) {
+  const Take turned = take_of([&](Vec3 p, std::size_t, std::size_t) {
     return rotate(turn, p) + Vec3{1000, -50, 3};
   });
   EXPECT_GT(compared(turned).all.rms_distance, 500);
@@ -86,7 +86,7 @@ TEST(CompareMarkers, ARigidFitTakesOutATurnAndAShiftOfTheWholeTake) {
 }
 
 TEST(CompareMarkers, GainsAndOffsetsOfEachChannelAreFitted) {
-  const MarkerClip scaled = take_of([](Vec3 p, std::size_t, std::size_t m) {
+  const Take scaled = take_of([](Vec3 p, std::size_t, std::size_t m) {
     const double gain = 1.1 + 0.2 * static_cast<double>(m);
     return Vec3{gain * p.x + 30, 0.8 * p.y, p.z - 1e5};
   });
@@ -95,8 +95,8 @@ TEST(CompareMarkers, GainsAndOffsetsOfEachChannelAreFitted) {
 
 // A take that stands still has no error to a reference that is fitted to it.
 TEST(CompareMarkers, TheFitIsThatToTheTakeBeforeCleaningWhereItIsGiven) {
-  const MarkerClip still = take_of([](Vec3, std::size_t, std::size_t m) { return path(0, m); });
-  const MarkerClip raw = take_of([](Vec3 p, std::size_t f, std::size_t) {
+  const Take still = take_of([](Vec3, std::size_t, std::size_t m) { return path(0, m); });
+  const Take raw = take_of([](Vec3 p, std::size_t f, std::size_t) {
     return p + Vec3{f % 2 == 0 ? 1.0 : -1.0, 0, 0};
   });
   EXPECT_LT(compared(still, MarkerFit::gain_offset).all.rms, 1e-6);
@@ -108,7 +108,7 @@ TEST(CompareMarkers, TheFitIsThatToTheTakeBeforeCleaningWhereItIsGiven) {
 
 TEST(CompareMarkers, ALagIsFoundBetweenFramesAndTakenOutWhereItIsGiven) {
   for (const double lag : {-4.0, 3.0, 2.5}) {
-    const MarkerClip late = take_of(
+    const Take late = take_of(
         [&](Vec3, std::size_t f, std::size_t m) { return path(seconds(f) - lag / rate_hz, m); });
     EXPECT_NEAR(compared(late).lag_s, lag / rate_hz, 1e-4) << lag;
     if (lag != std::round(lag)) continue;
@@ -121,7 +121,7 @@ TEST(CompareMarkers, ALagIsFoundBetweenFramesAndTakenOutWhereItIsGiven) {
 }
 
 TEST(CompareMarkers, SamplesThatOneTakeLacksDoNotCount) {
-  MarkerClip other = take_of([](Vec3 p, std::size_t, std::size_t m) {
+  Take other = take_of([](Vec3 p, std::size_t, std::size_t m) {
     return m == 1 ? p + Vec3{0, 0, 9} : p;
   });
   for (std::size_t f = 100; f < 200; ++f) {
@@ -139,9 +139,7 @@ TEST(CompareMarkers, SamplesThatOneTakeLacksDoNotCount) {
 
 TEST(CompareMarkers, OnlyChannelsThatMoveCountWhereThatIsAskedFor) {
   // z of the reference moves by 106 mm (deviation), x by 212, y by 57.
-  const MarkerClip other = take_of([](Vec3 p, std::size_t, std::size_t) {
-    return p + Vec3{1, 100, 3};
-  });
+  const Take other = take_of([](Vec3 p, std::size_t, std::size_t) { return p + Vec3{1, 100, 3}; });
   MarkerComparisonSettings settings;
   settings.least_motion = 80;
   EXPECT_NEAR(compare_markers(reference(), other, settings).all.rms, std::sqrt((1 + 9) / 2.0),
@@ -149,7 +147,7 @@ TEST(CompareMarkers, OnlyChannelsThatMoveCountWhereThatIsAskedFor) {
 }
 
 TEST(CompareMarkers, NamesAreFoundWithoutTheirSubjectAndUnitsAreBroughtTogether) {
-  MarkerClip metres = take_of([](Vec3 p, std::size_t, std::size_t) {
+  Take metres = take_of([](Vec3 p, std::size_t, std::size_t) {
     return 0.001 * (p + Vec3{0, 2, 0});
   });
   metres.unit = "m";
@@ -157,7 +155,7 @@ TEST(CompareMarkers, NamesAreFoundWithoutTheirSubjectAndUnitsAreBroughtTogether)
   // C7 comes first there.
   for (std::size_t f = 0; f < frames; ++f)
     std::swap(metres.positions[3 * f], metres.positions[3 * f + 2]);
-  MarkerClip whole = reference();
+  Take whole = reference();
   whole.names = {"LASI", "RASI", "C7"};
   const MarkerComparison c = compare_markers(whole, metres);
   EXPECT_EQ(c.names, (std::vector<std::string>{"RASI", "C7"}));
@@ -166,18 +164,18 @@ TEST(CompareMarkers, NamesAreFoundWithoutTheirSubjectAndUnitsAreBroughtTogether)
 }
 
 TEST(CompareMarkers, AtLowRatesAndInShortTakesBandsAreNotKnown) {
-  MarkerClip slow = reference();
+  Take slow = reference();
   slow.frame_rate_hz = 10;
   const MarkerComparison c = compare_markers(slow, slow);
   EXPECT_TRUE(c.all.bands[0] && c.all.bands[1]);
   EXPECT_FALSE(c.all.bands[2] || c.all.bands[3] || c.all.above_6_hz);
-  const MarkerClip brief = slice(reference(), 0, 10);
+  const Take brief = slice(reference(), 0, 10);
   EXPECT_FALSE(compare_markers(brief, brief).all.bands[0]);
 }
 
 TEST(CompareMarkers, TakesThatCannotBeComparedAreRefused) {
   EXPECT_THROW(compared(slice(reference(), 0, 10)), Error);
-  MarkerClip other = reference();
+  Take other = reference();
   other.frame_rate_hz = 50;
   EXPECT_THROW(compared(other), Error);
   other = reference();
@@ -186,7 +184,7 @@ TEST(CompareMarkers, TakesThatCannotBeComparedAreRefused) {
   MarkerComparisonSettings settings;
   settings.lag_frames = frames;
   EXPECT_THROW(compare_markers(reference(), reference(), settings), Error);
-  MarkerClip fewer = reference();
+  Take fewer = reference();
   fewer.names[0] = "LFHD";
   settings = {};
   settings.fit_to = &fewer;

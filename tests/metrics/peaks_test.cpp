@@ -48,8 +48,8 @@ TEST(SampleNoise, KnowsHowFarSamplesThatDependOnEachOtherGoApart) {
   EXPECT_NEAR((SampleNoise{1, 1}.of_difference(3)), std::sqrt(2.0), 1e-12);
 }
 
-Clip turning(double speed_deg_s, std::size_t frames = 240) {
-  Clip clip = test::chain_clip(2, frames);
+Take turning(double speed_deg_s, std::size_t frames = 240) {
+  Take clip = test::chain_clip(2, frames);
   for (std::size_t f = 0; f < frames; ++f) {
     const double t = static_cast<double>(f) / clip.frame_rate_hz;
     clip.rotation(f, 1) = test::about_x(0.3 * std::sin(speed_deg_s * radians_per_degree / 0.3 * t));
@@ -58,8 +58,8 @@ Clip turning(double speed_deg_s, std::size_t frames = 240) {
 }
 
 TEST(PeakSpeeds, AreThoseOfTheMotionBesideNoiseAndSpikes) {
-  const Clip truth = turning(90);
-  Clip other = truth;
+  const Take truth = turning(90);
+  Take other = truth;
   Random random(4);
   for (std::size_t f = 0; f < other.frame_count(); ++f)
     other.rotation(f, 1) = other.rotation(f, 1) * exp(test::random_vector(random, 0.002));
@@ -73,7 +73,7 @@ TEST(PeakSpeeds, AreThoseOfTheMotionBesideNoiseAndSpikes) {
 }
 
 TEST(PeakSpeeds, OfACleanTakeAreFromFrameToFrame) {
-  const Clip clip = turning(40);
+  const Take clip = turning(40);
   const JointComparison joint = compare_clips(clip, clip).joints[1];
   EXPECT_EQ(joint.peak_frames, 1u);
   EXPECT_NEAR(joint.peak_speed_reference_deg_s, peak_angular_speed_deg_s(clip)[1], 1e-9);

@@ -15,8 +15,8 @@ using test::chain_clip;
 TEST(Mpjpe, IsTheMeanDistanceOfJointPositions) {
   // The root turns by 90 degrees in frame 0: joints at 0, 1, 2 along x go to y. Distances 0, sqrt
   // 2, 2 sqrt 2.
-  const Clip reference = chain_clip(3, 2);
-  Clip other = reference;
+  const Take reference = chain_clip(3, 2);
+  Take other = reference;
   other.rotation(0, 0) = about_z(pi / 2);
   const double figure = 3 * std::sqrt(2.0) / 6;
   EXPECT_NEAR(mpjpe(reference, other), figure, 1e-12);
@@ -25,8 +25,8 @@ TEST(Mpjpe, IsTheMeanDistanceOfJointPositions) {
 }
 
 TEST(Mpjpe, SeesTheRootsPosition) {
-  const Clip reference = chain_clip(3, 2);
-  Clip other = reference;
+  const Take reference = chain_clip(3, 2);
+  Take other = reference;
   for (std::size_t f = 0; f < 2; ++f) other.root_position(f) += Vec3{0, 3, 4};
   EXPECT_NEAR(mpjpe(reference, other), 5, 1e-12);
 }
@@ -34,16 +34,16 @@ TEST(Mpjpe, SeesTheRootsPosition) {
 TEST(AccelError, IsTheMeanNormOfTheDifferenceOfSecondDerivatives) {
   // Frames 0..3; the other's root is off by 1 in frame 1. Second differences of the error: -2, 1 at
   // 10 Hz.
-  const Clip reference = chain_clip(2, 4, 10);
-  Clip other = reference;
+  const Take reference = chain_clip(2, 4, 10);
+  Take other = reference;
   other.root_position(1) += Vec3{0, 1, 0};
   EXPECT_NEAR(accel_error(reference, other), 100 * (2.0 + 1.0) / 2, 1e-10);
   EXPECT_NEAR(accel_error(reference, other, 2), 0, 1e-12) << "two frames have no second derivative";
 }
 
 TEST(AccelError, IsZeroForAConstantSpeed) {
-  const Clip reference = chain_clip(2, 6);
-  Clip other = reference;
+  const Take reference = chain_clip(2, 6);
+  Take other = reference;
   for (std::size_t f = 0; f < 6; ++f) other.root_position(f).x += 0.5 * static_cast<double>(f);
   EXPECT_NEAR(accel_error(reference, other), 0, 1e-9);
 }
@@ -71,8 +71,8 @@ TEST(RmsePerMarker, DividesByTheNumberOfNoisyMarkers) {
 }
 
 TEST(RmsePerMarker, OfClipsIsInMetres) {
-  const Clip reference = chain_clip(3, 2);
-  Clip other = reference;
+  const Take reference = chain_clip(3, 2);
+  Take other = reference;
   other.rotation(0, 0) = about_z(pi / 2);  // squared distances 0, 2, 8
   const auto figure = rmse_per_marker_m(reference, other, 0.01);
   EXPECT_NEAR(figure.mean, 0.01 * std::sqrt(10.0 / 3) / 2, 1e-14);

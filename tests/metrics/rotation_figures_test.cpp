@@ -20,8 +20,8 @@ using testing::ThrowsMessage;
 
 // Three joints, two frames; joint 1 turns about z and joint 2 about x in the reference, nothing
 // else moves.
-Clip two_frame_reference() {
-  Clip clip = chain_clip(3, 2);
+Take two_frame_reference() {
+  Take clip = chain_clip(3, 2);
   clip.rotation(1, 0) = about_y(40 * degree);
   clip.rotation(1, 1) = about_z(20 * degree);
   clip.rotation(1, 2) = about_x(30 * degree);
@@ -29,8 +29,8 @@ Clip two_frame_reference() {
 }
 
 TEST(RmsDeg, IsTheRootMeanSquareOverMovingChannelsAveragedOverFrames) {
-  const Clip reference = two_frame_reference();
-  Clip other = reference;
+  const Take reference = two_frame_reference();
+  Take other = reference;
   other.rotation(0, 1) = about_z(3 * degree);
   other.rotation(0, 2) = about_x(4 * degree);
   other.rotation(1, 1) = about_z(21 * degree);
@@ -45,18 +45,18 @@ TEST(RmsDeg, IsTheRootMeanSquareOverMovingChannelsAveragedOverFrames) {
 }
 
 TEST(RmsDeg, LeavesOutTheRootAndChannelsThatDoNotMove) {
-  const Clip reference = two_frame_reference();
-  Clip other = reference;
+  const Take reference = two_frame_reference();
+  Take other = reference;
   other.rotation(0, 0) = about_x(50 * degree);
   other.rotation(0, 1) = about_x(10 * degree);  // the x channel of joint 1 rests in the reference
   EXPECT_NEAR(rms_deg(reference, other), 0.0, 1e-10);
 }
 
 TEST(RmsDeg, WrapsDifferencesThatCrossAHalfTurn) {
-  Clip reference = two_frame_reference();
+  Take reference = two_frame_reference();
   reference.rotation(0, 1) = about_z(179 * degree);
   reference.rotation(1, 1) = about_z(170 * degree);
-  Clip other = reference;
+  Take other = reference;
   other.rotation(0, 1) = about_z(-179 * degree);
   EXPECT_NEAR(rms_deg_per_frame(reference, other)[0], 2 / std::sqrt(2.0), 1e-9);
 }
@@ -64,7 +64,7 @@ TEST(RmsDeg, WrapsDifferencesThatCrossAHalfTurn) {
 TEST(RmsDeg, DoesNotMistakeAnotherEulerBranchForADifference) {
   // ZXY with the x angle above 90 degrees in the reference; the same rotations must give 0, and 1
   // degree about y 1 degree.
-  Clip reference = chain_clip(2, 20), other = reference;
+  Take reference = chain_clip(2, 20), other = reference;
   const RotationOrder order = parse_rotation_order("ZXY");
   for (std::size_t f = 0; f < 20; ++f) {
     const double t = static_cast<double>(f);
@@ -77,16 +77,16 @@ TEST(RmsDeg, DoesNotMistakeAnotherEulerBranchForADifference) {
 }
 
 TEST(RmsDeg, IgnoresTheSignOfQuaternions) {
-  const Clip reference = two_frame_reference();
-  Clip other = reference;
+  const Take reference = two_frame_reference();
+  Take other = reference;
   for (Quat& q : other.rotations) q = -q;
   EXPECT_NEAR(rms_deg(reference, other), 0.0, 1e-10);
   EXPECT_NEAR(geodesic_rms_deg(reference, other), 0.0, 1e-10);
 }
 
 // Angles 3, 0, 0 in frame 0 and 0, 4, 12 in frame 1, about mixed axes.
-Clip geodesic_example(const Clip& reference) {
-  Clip other = reference;
+Take geodesic_example(const Take& reference) {
+  Take other = reference;
   other.rotation(0, 0) = reference.rotation(0, 0) * about_x(3 * degree);
   other.rotation(1, 1) = reference.rotation(1, 1) * about_y(4 * degree);
   other.rotation(1, 2) = reference.rotation(1, 2) * exp(12 * degree * Vec3{0.6, 0, 0.8});
@@ -94,14 +94,14 @@ Clip geodesic_example(const Clip& reference) {
 }
 
 TEST(GeodesicRms, CountsEveryJointAndFrameTheRootIncluded) {
-  const Clip reference = two_frame_reference();
-  const Clip other = geodesic_example(reference);
+  const Take reference = two_frame_reference();
+  const Take other = geodesic_example(reference);
   EXPECT_NEAR(geodesic_rms_deg(reference, other), std::sqrt((9.0 + 16 + 144) / 6), 1e-10);
   EXPECT_NEAR(geodesic_rms_deg(reference, other, 1), std::sqrt((16.0 + 144) / 3), 1e-10);
 }
 
 TEST(GeodesicRms, IsGivenJointByJoint) {
-  const Clip reference = two_frame_reference();
+  const Take reference = two_frame_reference();
   const auto figures = geodesic_rms_deg_per_joint(reference, geodesic_example(reference));
   ASSERT_EQ(figures.size(), 3u);
   EXPECT_NEAR(figures[0], 3 / std::sqrt(2.0), 1e-10);
@@ -110,8 +110,8 @@ TEST(GeodesicRms, IsGivenJointByJoint) {
 }
 
 TEST(GeodesicPercentile, InterpolatesLinearly) {
-  const Clip reference = two_frame_reference();
-  const Clip other = geodesic_example(reference);
+  const Take reference = two_frame_reference();
+  const Take other = geodesic_example(reference);
   // Sorted: 0 0 0 3 4 12. numpy.percentile: 99 -> position 4.95; 70 -> 3.5; 100 -> 12; 0 -> 0.
   EXPECT_NEAR(geodesic_percentile_deg(reference, other), 4 + 0.95 * 8, 1e-10);
   EXPECT_NEAR(geodesic_percentile_deg(reference, other, 70), 3.5, 1e-10);
@@ -122,16 +122,16 @@ TEST(GeodesicPercentile, InterpolatesLinearly) {
 }
 
 TEST(PsnrDb, OfAClipWithBrokenValuesIsNoNumber) {
-  const Clip reference = chain_clip(2, 2);
-  Clip other = reference;
+  const Take reference = chain_clip(2, 2);
+  Take other = reference;
   other.rotation(1, 1).x = std::nan("");
   EXPECT_TRUE(std::isnan(psnr_db(reference, other)));
 }
 
 TEST(PsnrDb, ComparesPeakAndMeanSquareOfHalfTheRotationVector) {
   // One joint of two, one frame of two, turned by 0.4 rad: half vector 0.2; MSE 0.04 / (2 * 2 * 3).
-  const Clip reference = chain_clip(2, 2);
-  Clip other = reference;
+  const Take reference = chain_clip(2, 2);
+  Take other = reference;
   other.rotation(1, 1) = exp({0, 0.4, 0});
   const double mse = 0.04 / 12;
   EXPECT_NEAR(psnr_db(reference, other, 0, 1.0), 10 * std::log10(1 / mse), 1e-9);
@@ -150,8 +150,8 @@ TEST(MseRad2, DividesTheSumOfNPlusOneTermsByN) {
 }
 
 TEST(MseRad2, OfClipsIsTheMeanOverJoints) {
-  const Clip reference = chain_clip(2, 3);
-  Clip other = reference;
+  const Take reference = chain_clip(2, 3);
+  Take other = reference;
   other.rotation(0, 0) = about_x(0.3);
   other.rotation(2, 1) = about_z(0.5);
   EXPECT_NEAR(mse_rad2(reference, other), (0.09 / 2 + 0.25 / 2) / 2, 1e-12);
@@ -159,7 +159,7 @@ TEST(MseRad2, OfClipsIsTheMeanOverJoints) {
 }
 
 TEST(PeakAngularSpeed, IsTheLargestStepTimesTheRate) {
-  Clip clip = chain_clip(2, 4, 120);
+  Take clip = chain_clip(2, 4, 120);
   clip.rotation(0, 1) = about_x(50 * degree);
   clip.rotation(2, 1) = about_x(3 * degree);
   clip.rotation(3, 1) = about_x(1 * degree);

@@ -29,7 +29,7 @@ TEST(LeadingCalibrationFramesOfRealTakes, AreFoundInEveryCmuFile) {
   ASSERT_GT(paths.size(), 200u);
   for (const auto& path : paths) {
     const auto known = longer.find(path.stem().string());
-    EXPECT_EQ(leading_calibration_frames(read_clip(path).clip),
+    EXPECT_EQ(leading_calibration_frames(read_joints(path).take),
               known == longer.end() ? 1u : known->second)
         << path;
   }
@@ -37,9 +37,9 @@ TEST(LeadingCalibrationFramesOfRealTakes, AreFoundInEveryCmuFile) {
 
 TEST(LeadingCalibrationFramesOfRealTakes, AreFoundInNoisyCmuFiles) {
   for (const char* name : {"35_01", "02_05", "09_03", "16_15", "03_02"}) {
-    Clip clip = read_clip(std::filesystem::path(KINEMEND_DATA_FOLDER) / "cmu/bvh" /
-                          (std::string(name) + ".bvh"))
-                    .clip;
+    Take clip = read_joints(std::filesystem::path(KINEMEND_DATA_FOLDER) / "cmu/bvh" /
+                            (std::string(name) + ".bvh"))
+                    .take;
     Random random(1);
     apply_damage(clip, "gaussian", {{"std_deg", 1.5}}, random);
     apply_damage(clip, "outliers", {{"share", 0.004}, {"std_deg", 25.0}}, random);
@@ -54,7 +54,7 @@ TEST(LeadingCalibrationFramesOfRealTakes, AreNotInventedInOthers) {
   std::size_t read = 0;
   for (const auto& path : takes_below("bvh-other")) {
     try {
-      const Clip clip = read_clip(path).clip;
+      const Take clip = read_joints(path).take;
       ++read;
       EXPECT_EQ(leading_calibration_frames(clip), with_pose.count(path.stem().string())) << path;
     } catch (const Error&) {

@@ -12,8 +12,8 @@ namespace {
 constexpr std::size_t joints = 4, frames = 10, tracks = 3;
 
 // Four joints of which two are translated; no sample is like another.
-Clip moving_clip() {
-  Clip clip = test::chain_clip(joints, frames);
+Take moving_clip() {
+  Take clip = test::chain_clip(joints, frames);
   test::add_translations(clip, {1, 3}, Vec3{});
   for (std::size_t f = 0; f < frames; ++f) {
     const double at = static_cast<double>(f);
@@ -26,7 +26,7 @@ Clip moving_clip() {
   return clip;
 }
 
-void damage(Clip& motion) {
+void damage(Take& motion) {
   for (std::size_t f = 0; f < motion.frame_count(); ++f) {
     motion.root_position(f).y += 1;
     for (std::size_t track = 1; track < tracks; ++track) motion.position(f, track).z += 2;
@@ -36,7 +36,7 @@ void damage(Clip& motion) {
   motion.observed_positions.assign(motion.frame_count() * tracks, 0);
 }
 
-void expect_same(const Clip& a, const Clip& b) {
+void expect_same(const Take& a, const Take& b) {
   EXPECT_EQ(a.positions, b.positions);
   EXPECT_EQ(a.rotations, b.rotations);
   EXPECT_EQ(a.observed, b.observed);
@@ -44,19 +44,19 @@ void expect_same(const Clip& a, const Clip& b) {
 }
 
 TEST(OnMotion, ChangesWhatItsWorkChangesAndNothingBefore) {
-  const Clip clip = moving_clip();
+  const Take clip = moving_clip();
   for (const std::size_t first : {0u, 1u, 3u}) {
-    Clip alone = slice(clip, first, frames);
+    Take alone = slice(clip, first, frames);
     damage(alone);
-    Clip whole = clip;
-    on_motion(whole, first, [&](Clip& motion) {
+    Take whole = clip;
+    on_motion(whole, first, [&](Take& motion) {
       EXPECT_EQ(motion.frame_count(), frames - first);
       expect_same(motion, slice(clip, first, frames));
       damage(motion);
     });
     whole.validate();
     expect_same(slice(whole, first, frames), alone);
-    Clip front = slice(clip, 0, first);
+    Take front = slice(clip, 0, first);
     front.observed.assign(first * joints, 1);
     front.observed_positions.assign(first * tracks, 1);
     expect_same(slice(whole, 0, first), front);
@@ -64,14 +64,14 @@ TEST(OnMotion, ChangesWhatItsWorkChangesAndNothingBefore) {
 }
 
 TEST(OnMotion, KeepsWhatIsMissingBeforeTheMotion) {
-  Clip clip = moving_clip();
+  Take clip = moving_clip();
   clip.observed.assign(frames * joints, 1);
   clip.observed_positions.assign(frames * tracks, 1);
   clip.observed[1] = clip.observed_positions[2] = 0;
-  const Clip before = clip;
-  on_motion(clip, 1, [](Clip&) {});
+  const Take before = clip;
+  on_motion(clip, 1, [](Take&) {});
   expect_same(clip, before);
-  on_motion(clip, 1, [](Clip& motion) {
+  on_motion(clip, 1, [](Take& motion) {
     motion.observed.clear();
     motion.observed_positions.clear();
   });
@@ -79,16 +79,16 @@ TEST(OnMotion, KeepsWhatIsMissingBeforeTheMotion) {
 }
 
 TEST(OnMotion, PutsTheFramesBackWhereItsWorkFails) {
-  const Clip before = moving_clip();
-  Clip clip = before;
-  const auto fail = [](Clip&) { throw Error(ErrorKind::usage, "no"); };
+  const Take before = moving_clip();
+  Take clip = before;
+  const auto fail = [](Take&) { throw Error(ErrorKind::usage, "no"); };
   EXPECT_THROW(on_motion(clip, 2, fail), Error);
   expect_same(clip, before);
 }
 
 TEST(FramesFrom, AreTheClipItselfWhereNothingStandsBefore) {
-  const Clip clip = moving_clip();
-  std::optional<Clip> part;
+  const Take clip = moving_clip();
+  std::optional<Take> part;
   EXPECT_EQ(&frames_from(clip, 0, part), &clip);
   EXPECT_FALSE(part);
   expect_same(frames_from(clip, 3, part), slice(clip, 3, frames));

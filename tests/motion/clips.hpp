@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 #include "rotation/random_rotations.hpp"
 
 namespace kinemend::test {
@@ -17,8 +17,8 @@ inline Quat about_y(double angle) { return exp({0, angle, 0}); }
 inline Quat about_z(double angle) { return exp({0, 0, angle}); }
 
 // All joints at rest, the root at its offset.
-inline Clip resting_clip(Skeleton skeleton, std::size_t frames, double frame_rate_hz) {
-  Clip clip;
+inline Take resting_clip(Skeleton skeleton, std::size_t frames, double frame_rate_hz) {
+  Take clip;
   clip.frame_rate_hz = frame_rate_hz;
   clip.positions.assign(frames, skeleton.offsets[0]);
   clip.rotations.assign(frames * skeleton.joint_count(), Quat{});
@@ -40,13 +40,13 @@ inline Skeleton chain_skeleton(std::size_t joints) {
   return skeleton;
 }
 
-inline Clip chain_clip(std::size_t joints, std::size_t frames, double frame_rate_hz = 100) {
+inline Take chain_clip(std::size_t joints, std::size_t frames, double frame_rate_hz = 100) {
   return resting_clip(chain_skeleton(joints), frames, frame_rate_hz);
 }
 
 // Smooth motion of every joint of a chain: sums of slow sines, different for each joint and axis.
-inline Clip moving_chain(std::size_t joints, std::size_t frames, double frame_rate_hz = 100) {
-  Clip clip = chain_clip(joints, frames, frame_rate_hz);
+inline Take moving_chain(std::size_t joints, std::size_t frames, double frame_rate_hz = 100) {
+  Take clip = chain_clip(joints, frames, frame_rate_hz);
   for (std::size_t f = 0; f < frames; ++f) {
     const double t = static_cast<double>(f) / frame_rate_hz;
     clip.root_position(f) = {t, 1 + 0.1 * std::sin(5 * t), 0.2 * t};

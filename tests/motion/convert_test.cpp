@@ -25,9 +25,9 @@ void expect_near(Vec3 a, Vec3 b, double tolerance) {
 
 // A chain whose joints have rest rotations, bones in all directions, a hinge and a joint that
 // moves.
-Clip crooked_clip(std::uint64_t seed) {
+Take crooked_clip(std::uint64_t seed) {
   Random random(seed);
-  Clip clip = moving_chain(5, 40);
+  Take clip = moving_chain(5, 40);
   for (std::size_t j = 0; j < 5; ++j) {
     clip.skeleton.rest_rotations[j] = random_rotation(random);
     clip.skeleton.offsets[j] = random_vector(random);
@@ -43,8 +43,8 @@ Clip crooked_clip(std::uint64_t seed) {
   return clip;
 }
 
-MarkerClip line_of_markers(std::size_t frames, double rate) {
-  MarkerClip clip = make_marker_clip({"A", "B"}, frames, rate);
+Take line_of_markers(std::size_t frames, double rate) {
+  Take clip = make_marker_take({"A", "B"}, frames, rate);
   for (std::size_t f = 0; f < frames; ++f) {
     const double t = static_cast<double>(f) / rate;
     clip.position(f, 0) = {t, 2 * t, 1};
@@ -55,8 +55,8 @@ MarkerClip line_of_markers(std::size_t frames, double rate) {
 }
 
 TEST(Resample, AtHalfTheRateKeepsEverySecondFrameAsItIs) {
-  const Clip clip = moving_chain(4, 21, 120);
-  const Clip half = resample(clip, 60);
+  const Take clip = moving_chain(4, 21, 120);
+  const Take half = resample(clip, 60);
   ASSERT_EQ(half.frame_count(), 11u);
   EXPECT_EQ(half.frame_rate_hz, 60);
   for (std::size_t f = 0; f < 11; ++f) {
@@ -66,15 +66,15 @@ TEST(Resample, AtHalfTheRateKeepsEverySecondFrameAsItIs) {
 }
 
 TEST(Resample, ToTwiceTheRateAndBackIsTheSameClip) {
-  const Clip clip = moving_chain(4, 21, 100);
-  const Clip again = resample(resample(clip, 200), 100);
+  const Take clip = moving_chain(4, 21, 100);
+  const Take again = resample(resample(clip, 200), 100);
   EXPECT_EQ(again.rotations, clip.rotations);
   EXPECT_EQ(again.positions, clip.positions);
 }
 
 TEST(Resample, FollowsASmoothMotionBetweenItsFrames) {
-  const Clip clip = moving_chain(4, 101, 100), fine = moving_chain(4, 161, 160);
-  const Clip result = resample(clip, 160);
+  const Take clip = moving_chain(4, 101, 100), fine = moving_chain(4, 161, 160);
+  const Take result = resample(clip, 160);
   ASSERT_EQ(result.frame_count(), 161u);
   for (std::size_t f = 2; f < 158; ++f) {
     for (std::size_t j = 0; j < 4; ++j)
@@ -84,7 +84,7 @@ TEST(Resample, FollowsASmoothMotionBetweenItsFrames) {
 }
 
 TEST(Resample, TakesStraightMotionStraightOnAtTheEnds) {
-  const MarkerClip fine = resample(line_of_markers(3, 10), 40);
+  const Take fine = resample(line_of_markers(3, 10), 40);
   for (std::size_t f = 0; f < fine.frame_count(); ++f) {
     const double t = static_cast<double>(f) / 40;
     expect_near(fine.position(f, 0), {t, 2 * t, 1}, 1e-12);
@@ -92,10 +92,10 @@ TEST(Resample, TakesStraightMotionStraightOnAtTheEnds) {
 }
 
 TEST(Resample, ObservesASampleOnlyBetweenTwoThatWereObserved) {
-  MarkerClip clip = line_of_markers(6, 10);
+  Take clip = line_of_markers(6, 10);
   clip.observed[2 * 3] = 0;  // marker A in frame 3
   clip.position(3, 0) = {1e30, 1e30, 1e30};
-  const MarkerClip fine = resample(clip, 20);
+  const Take fine = resample(clip, 20);
   for (std::size_t f = 0; f < fine.frame_count(); ++f) {
     EXPECT_EQ(fine.is_observed(f, 0), f <= 4 || f >= 8) << f;
     EXPECT_TRUE(fine.is_observed(f, 1));
@@ -107,13 +107,13 @@ TEST(Resample, ObservesASampleOnlyBetweenTwoThatWereObserved) {
 
 TEST(Resample, LeavesATakeAtItsOwnRateAlone) {
   const auto document = std::make_shared<const SourceDocument>();
-  MarkerClip markers = line_of_markers(6, 119.88012);
+  Take markers = line_of_markers(6, 119.88012);
   markers.source.document = document;
   markers.first_frame = 7;
-  Clip joints = moving_chain(2, 10);
+  Take joints = moving_chain(2, 10);
   joints.source.document = document;
   for (const double rate : {119.88012, 119.88}) {
-    const MarkerClip same = resample(markers, rate);
+    const Take same = resample(markers, rate);
     EXPECT_EQ(same.source.document, document);
     EXPECT_EQ(same.positions, markers.positions);
     EXPECT_EQ(same.frame_rate_hz, markers.frame_rate_hz);
@@ -127,13 +127,13 @@ TEST(Resample, LeavesATakeAtItsOwnRateAlone) {
 
 // The first frame's number is a whole one; what it misses is made up for in the events' times.
 TEST(Resample, LeavesEventsAtTheirMomentOfTheMotion) {
-  MarkerClip clip = line_of_markers(20, 100);
+  Take clip = line_of_markers(20, 100);
   clip.events = {{"Foot Strike", "Left", 0.5}};
   for (const std::int64_t first : {0, 1, 2, 11, 480}) {
     clip.first_frame = first;
     for (const double rate : {25.0, 50.0, 60.0, 240.0}) {
-      const MarkerClip other = resample(clip, rate);
-      const auto moment = [](const MarkerClip& take) {
+      const Take other = resample(clip, rate);
+      const auto moment = [](const Take& take) {
         return take.events[0].time_s -
                static_cast<double>(take.first_frame - 1) / take.frame_rate_hz;
       };
@@ -148,7 +148,7 @@ TEST(Resample, LeavesEventsAtTheirMomentOfTheMotion) {
 }
 
 TEST(Resample, RefusesRatesThatMakeNoSense) {
-  const Clip clip = moving_chain(2, 10);
+  const Take clip = moving_chain(2, 10);
   EXPECT_THROW(resample(clip, 0), Error);
   EXPECT_THROW(resample(clip, std::nan("")), Error);
   EXPECT_THROW(resample(clip, 1e12), Error);
@@ -156,10 +156,10 @@ TEST(Resample, RefusesRatesThatMakeNoSense) {
 }
 
 TEST(TurnAxes, TurnsEveryPositionOfTheBody) {
-  const Clip clip = crooked_clip(1);
+  const Take clip = crooked_clip(1);
   for (const Axis from : {Axis::x, Axis::y, Axis::z}) {
     for (const Axis to : {Axis::x, Axis::y, Axis::z}) {
-      const Clip turned = turn_axes(clip, from, to);
+      const Take turned = turn_axes(clip, from, to);
       turned.validate();
       const auto before = joint_positions(clip, true), after = joint_positions(turned, true);
       const Vec3 e_from{from == Axis::x ? 1. : 0., from == Axis::y ? 1. : 0.,
@@ -174,7 +174,7 @@ TEST(TurnAxes, TurnsEveryPositionOfTheBody) {
 }
 
 TEST(TurnAxes, KeepsAHingeAHinge) {
-  const Clip turned = turn_axes(crooked_clip(2), Axis::y, Axis::z);
+  const Take turned = turn_axes(crooked_clip(2), Axis::y, Axis::z);
   ASSERT_EQ(turned.skeleton.channels[3], std::vector<Channel>{Channel::z_rotation});
   for (std::size_t f = 0; f < turned.frame_count(); ++f) {
     const Quat q = turned.rotation(f, 3);
@@ -184,20 +184,20 @@ TEST(TurnAxes, KeepsAHingeAHinge) {
 }
 
 TEST(TurnAxes, ThereAndBackIsTheSameTakeToTheBit) {
-  const Clip clip = crooked_clip(3);
-  const Clip again = turn_axes(turn_axes(clip, Axis::y, Axis::z), Axis::z, Axis::y);
+  const Take clip = crooked_clip(3);
+  const Take again = turn_axes(turn_axes(clip, Axis::y, Axis::z), Axis::z, Axis::y);
   EXPECT_EQ(again.rotations, clip.rotations);
   EXPECT_EQ(again.positions, clip.positions);
   EXPECT_EQ(again.skeleton.channels, clip.skeleton.channels);
-  const MarkerClip markers = line_of_markers(5, 10);
+  const Take markers = line_of_markers(5, 10);
   EXPECT_EQ(turn_axes(turn_axes(markers, Axis::z, Axis::x), Axis::x, Axis::z).positions,
             markers.positions);
 }
 
 TEST(TurnAxes, LeavesAnglesAndForcesAmongTheMarkersAlone) {
-  MarkerClip clip = line_of_markers(5, 10);
+  Take clip = line_of_markers(5, 10);
   clip.is_position[1] = 0;
-  const MarkerClip turned = turn_axes(clip, Axis::z, Axis::y);
+  const Take turned = turn_axes(clip, Axis::z, Axis::y);
   EXPECT_EQ(turned.position(3, 1), clip.position(3, 1));
   EXPECT_FALSE(turned.position(3, 0) == clip.position(3, 0));
 }
@@ -205,8 +205,8 @@ TEST(TurnAxes, LeavesAnglesAndForcesAmongTheMarkersAlone) {
 TEST(WithoutRestRotations, MovesEveryJointAsBefore) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     SCOPED_TRACE(seed);
-    const Clip clip = crooked_clip(seed);
-    const Clip plain = without_rest_rotations(clip);
+    const Take clip = crooked_clip(seed);
+    const Take plain = without_rest_rotations(clip);
     plain.validate();
     for (const Quat rest : plain.skeleton.rest_rotations) EXPECT_EQ(rest, Quat{});
     const auto before = joint_positions(clip, true), after = joint_positions(plain, true);
@@ -215,14 +215,14 @@ TEST(WithoutRestRotations, MovesEveryJointAsBefore) {
 }
 
 TEST(WithoutRestRotations, GivesAHingeThreeAxes) {
-  const Clip plain = without_rest_rotations(crooked_clip(1));
+  const Take plain = without_rest_rotations(crooked_clip(1));
   EXPECT_EQ(to_string(plain.skeleton.rotation_order(3)), "ZYX");
   EXPECT_EQ(to_string(plain.skeleton.rotation_order(1)), "ZXY");
 }
 
 TEST(JointMarkers, AreTheJointsPositions) {
-  const Clip clip = crooked_clip(7);
-  const MarkerClip markers = joint_markers(clip, true);
+  const Take clip = crooked_clip(7);
+  const Take markers = joint_markers(clip, true);
   markers.validate();
   EXPECT_EQ(markers.unit, "cm");
   EXPECT_EQ(markers.positions, joint_positions(clip, true));
@@ -230,15 +230,15 @@ TEST(JointMarkers, AreTheJointsPositions) {
 }
 
 TEST(JointMarkers, AreMissingBelowARotationThatIsMissing) {
-  Clip clip = moving_chain(4, 3);
+  Take clip = moving_chain(4, 3);
   clip.observed.assign(12, 1);
   clip.observed[4 + 1] = 0;  // joint1 in frame 1
-  const MarkerClip markers = joint_markers(clip, true);
+  const Take markers = joint_markers(clip, true);
   EXPECT_THAT(markers.observed, testing::ElementsAre(1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 1, 1, 1, 1, 1));
 }
 
 TEST(ScaleLengths, ScalesPositionsAndKeepsAngles) {
-  const Clip clip = crooked_clip(4), large = scale_lengths(clip, 10);
+  const Take clip = crooked_clip(4), large = scale_lengths(clip, 10);
   EXPECT_DOUBLE_EQ(large.metres_per_unit, 0.001);
   EXPECT_EQ(large.rotations, clip.rotations);
   const auto before = joint_positions(clip), after = joint_positions(large);
@@ -246,7 +246,7 @@ TEST(ScaleLengths, ScalesPositionsAndKeepsAngles) {
 }
 
 TEST(GuessUpAxis, IsTheOneAlongWhichTheFloorStays) {
-  MarkerClip clip = make_marker_clip({"foot", "head"}, 100, 100);
+  Take clip = make_marker_take({"foot", "head"}, 100, 100);
   for (std::size_t f = 0; f < 100; ++f) {
     const double t = static_cast<double>(f) / 100;
     const Vec3 foot{3 * t, 2 * std::sin(3 * t), 0.1 * std::max(0.0, std::sin(20 * t))};

@@ -33,7 +33,7 @@ std::string complaint(const std::string& text) {
 TEST(GapFile, GivesAFrameTheNumberThatItsTakeGivesIt) {
   EXPECT_THAT(parse_gaps("LeftArm,1,1\nHead,10,24\n", "", 1),
               ElementsAre(NamedGap{"LeftArm", 0, 0}, NamedGap{"Head", 9, 23}));
-  MarkerClip clip = make_marker_clip({"LASI", "RASI"}, 10, 100);
+  Take clip = make_marker_take({"LASI", "RASI"}, 10, 100);
   clip.observed.assign(20, 1);
   clip.first_frame = 300;
   const std::vector<NamedGap> gaps =

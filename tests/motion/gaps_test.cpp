@@ -14,7 +14,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 TEST(MarkGaps, OfAJointMarksItsRotation) {
-  Clip clip = test::chain_clip(3, 20);
+  Take clip = test::chain_clip(3, 20);
   mark_gaps(clip, std::vector<NamedGap>{{"joint1", 4, 6}, {"joint2", 0, 0}, {"joint1", 7, 8}});
   clip.validate();
   EXPECT_THAT(find_gaps(clip), ElementsAre(Gap{1, 4, 8}, Gap{2, 0, 0}));
@@ -22,7 +22,7 @@ TEST(MarkGaps, OfAJointMarksItsRotation) {
 }
 
 TEST(MarkGaps, OfTheRootMarksItsPositionToo) {
-  Clip clip = test::chain_clip(3, 20);
+  Take clip = test::chain_clip(3, 20);
   mark_gaps(clip, std::vector<NamedGap>{{"root", 4, 6}});
   EXPECT_THAT(find_gaps(clip), ElementsAre(Gap{0, 4, 6}));
   EXPECT_THAT(find_position_gaps(clip), ElementsAre(Gap{0, 4, 6}));
@@ -35,13 +35,13 @@ TEST(MarkGaps, OfTheRootMarksItsPositionToo) {
 TEST(MarkGaps, LeavesThePositionOfARootThatHasNoChannelsForIt) {
   Skeleton skeleton;
   skeleton.add_joint("root", -1, {}, make_channels(false, parse_rotation_order("ZXY")));
-  Clip clip = test::resting_clip(skeleton, 9, 100);
+  Take clip = test::resting_clip(skeleton, 9, 100);
   mark_gaps(clip, std::vector<NamedGap>{{"root", 4, 6}});
   EXPECT_THAT(find_position_gaps(clip), IsEmpty());
 }
 
 TEST(MarkGaps, OfATranslatedJointMarksItsTranslation) {
-  Clip clip = test::chain_clip(4, 10);
+  Take clip = test::chain_clip(4, 10);
   test::add_translations(clip, {1, 3}, Vec3{1, 0, 0});
   mark_gaps(clip, std::vector<NamedGap>{{"joint3", 2, 3}, {"joint2", 5, 5}});
   EXPECT_THAT(find_position_gaps(clip), ElementsAre(Gap{2, 2, 3}));
@@ -52,14 +52,14 @@ TEST(MarkGaps, OfATranslatedJointMarksItsTranslation) {
 }
 
 TEST(MarkGaps, KnowsNamesAsEveryOptionDoesButTheExactNameFirst) {
-  Clip clip = test::chain_clip(4, 10);
+  Take clip = test::chain_clip(4, 10);
   clip.skeleton.names = {"Ann:Hips", "Ann:LArm", "*1", "11"};
   mark_gaps(clip, std::vector<NamedGap>{{"hips", 1, 1}, {"L*", 2, 3}, {"*1", 5, 5}});
   EXPECT_THAT(find_gaps(clip), ElementsAre(Gap{0, 1, 1}, Gap{1, 2, 3}, Gap{2, 5, 5}));
 }
 
 TEST(MarkGaps, SaysWhatTheTakeDoesNotHave) {
-  Clip clip = test::chain_clip(2, 10);
+  Take clip = test::chain_clip(2, 10);
   const auto complaint = [&](const NamedGap& gap) -> std::string {
     try {
       mark_gaps(clip, std::vector<NamedGap>{gap});

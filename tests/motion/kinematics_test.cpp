@@ -21,7 +21,7 @@ void expect_close(Vec3 found, Vec3 expected, double tolerance = 1e-14) {
 }
 
 TEST(ForwardKinematics, OfAPlanarChainIsASumOfAngles) {
-  Clip clip = chain_clip(4, 1);
+  Take clip = chain_clip(4, 1);
   const double a = 0.3, b = -0.8, c = 1.9;
   clip.root_position(0) = {10, 20, 30};
   clip.rotation(0, 0) = about_z(a);
@@ -41,7 +41,7 @@ TEST(ForwardKinematics, OfAPlanarChainIsASumOfAngles) {
 }
 
 TEST(ForwardKinematics, TurnsALeafWithoutMovingIt) {
-  Clip clip = chain_clip(3, 1);
+  Take clip = chain_clip(3, 1);
   clip.rotation(0, 2) = about_x(1);
   const Pose pose = forward_kinematics(clip, 0);
   expect_close(pose.positions[2], {2, 0, 0});
@@ -51,7 +51,7 @@ TEST(ForwardKinematics, TurnsALeafWithoutMovingIt) {
 TEST(ForwardKinematics, PutsRestRotationsBeforeLocalOnes) {
   // The joint's frame is turned by 90 degrees about z at rest: its own x axis points along its
   // parent's y.
-  Clip clip = chain_clip(3, 1);
+  Take clip = chain_clip(3, 1);
   clip.skeleton.rest_rotations[1] = about_z(pi / 2);
   expect_close(forward_kinematics(clip, 0).positions[2], {1, 1, 0});
   clip.rotation(0, 1) = about_y(-pi / 2);  // own x to own z, which is the parent's z
@@ -61,7 +61,7 @@ TEST(ForwardKinematics, PutsRestRotationsBeforeLocalOnes) {
 }
 
 TEST(ForwardKinematics, ReplacesOffsetsByTranslations) {
-  Clip clip = chain_clip(4, 2);
+  Take clip = chain_clip(4, 2);
   clip.translated_joints = {1, 3};
   // The root, joint 1 and joint 3, in two frames.
   clip.positions = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 5, 0}, {0, 0, 7}};
@@ -74,7 +74,7 @@ TEST(ForwardKinematics, ReplacesOffsetsByTranslations) {
 }
 
 TEST(ForwardKinematics, TakesRootPositionsForJoint0AndOffsetsForOtherRoots) {
-  Clip clip = chain_clip(2, 1);
+  Take clip = chain_clip(2, 1);
   clip.skeleton.add_joint("prop", -1, {7, 8, 9}, {});
   clip.skeleton.add_joint("tip", 2, {1, 0, 0}, {});
   clip.rotations.resize(4);
@@ -87,7 +87,7 @@ TEST(ForwardKinematics, TakesRootPositionsForJoint0AndOffsetsForOtherRoots) {
 }
 
 TEST(ForwardKinematics, AgreesWithProductsOfMatrices) {
-  Clip clip = chain_clip(6, 1);
+  Take clip = chain_clip(6, 1);
   Random random(1);
   clip.skeleton.parents = {-1, 0, 1, 1, 0, 4};
   for (std::size_t j = 0; j < 6; ++j) {
@@ -113,7 +113,7 @@ TEST(ForwardKinematics, AgreesWithProductsOfMatrices) {
 }
 
 TEST(JointPositions, AreThoseOfEveryFrameWithEndSitesBehind) {
-  Clip clip = chain_clip(3, 2);
+  Take clip = chain_clip(3, 2);
   clip.skeleton.end_sites.push_back({0, {0, 2, 0}, "top"});
   clip.rotation(1, 0) = about_z(pi / 2);
   const auto joints = joint_positions(clip);

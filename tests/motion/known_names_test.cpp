@@ -1,4 +1,4 @@
-#include "kinemend/known_names.hpp"
+#include "kinemend/skeleton.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -88,7 +88,7 @@ TEST(KnownNames, OfWhatIsNotThereAreRefused) {
 }
 
 TEST(Subjects, AreToldApartByWhatStandsBeforeTheColon) {
-  MarkerClip clip = make_marker_clip({"Ann:A", "Bob:A", "wand", "Ann:B", "Bob:angle"}, 2, 100);
+  Take clip = make_marker_take({"Ann:A", "Bob:A", "wand", "Ann:B", "Bob:angle"}, 2, 100);
   clip.is_position = {1, 1, 1, 1, 0};
   const std::vector<Subject> subjects = subjects_of(clip);
   ASSERT_EQ(subjects.size(), 3u);
@@ -102,11 +102,11 @@ TEST(Subjects, AreToldApartByWhatStandsBeforeTheColon) {
 
 TEST(Subjects, AreOneWhereNobodyElseIsThere) {
   const std::vector<Subject> subjects =
-      subjects_of(make_marker_clip({"Ann:A", "wand", "Ann:B"}, 2, 100));
+      subjects_of(make_marker_take({"Ann:A", "wand", "Ann:B"}, 2, 100));
   ASSERT_EQ(subjects.size(), 1u);
   EXPECT_EQ(subjects[0].name, "");
   EXPECT_THAT(subjects[0].markers, ElementsAre(0, 1, 2));
-  EXPECT_TRUE(subjects_of(make_marker_clip({}, 0, 100)).empty());
+  EXPECT_TRUE(subjects_of(make_marker_take({}, 0, 100)).empty());
 }
 
 TEST(FrameNumbers, OfSideFilesStartWhereTheTakeDoes) {
@@ -123,11 +123,11 @@ TEST(FrameNumbers, OfSideFilesStartWhereTheTakeDoes) {
 }
 
 TEST(FrameNumbers, OfClipsAreThoseOfTheirFiles) {
-  MarkerClip markers = make_marker_clip({"A"}, 2, 100);
+  Take markers = make_marker_take({"A"}, 2, 100);
   EXPECT_EQ(first_frame_number(markers), 1);
   markers.first_frame = 300;
   EXPECT_EQ(first_frame_number(markers), 300);
-  Clip clip;
+  Take clip;
   clip.skeleton.names = {"Hips"};
   EXPECT_EQ(first_frame_number(clip), 1);
   clip.source.facts = {{"skeleton", "35.asf"}, {"first frame", "37"}};

@@ -6,8 +6,8 @@ namespace kinemend::test {
 namespace {
 
 // Two joints, the second of which has positions of its own.
-Clip small_clip() {
-  Clip clip;
+Take small_clip() {
+  Take clip;
   clip.skeleton.names = {"Hips", "Spine"};
   clip.skeleton.parents = {-1, 0};
   clip.skeleton.offsets = {{}, {0, 3, 0}};
@@ -23,7 +23,7 @@ Clip small_clip() {
 }
 
 TEST(TakeView, HasTheTracksOfJointsTheRootsPositionAndTranslations) {
-  const Clip clip = small_clip();
+  const Take clip = small_clip();
   const TakeView take = view_of(clip);
   ASSERT_EQ(take.tracks.size(), 4U);
   EXPECT_EQ(take.owners, 2U);
@@ -41,7 +41,7 @@ TEST(TakeView, HasTheTracksOfJointsTheRootsPositionAndTranslations) {
 }
 
 TEST(TakeView, CountsSelectionAndMotion) {
-  const Clip clip = small_clip();
+  const Take clip = small_clip();
   EXPECT_EQ(changeable_tracks(view_of(clip)), (std::vector<std::size_t>{0, 2, 3}));
   Selection selection;
   selection.owners = {0, 1};
@@ -52,7 +52,7 @@ TEST(TakeView, CountsSelectionAndMotion) {
 }
 
 TEST(TakeView, KnowsWhatWasObserved) {
-  Clip clip = small_clip();
+  Take clip = small_clip();
   EXPECT_TRUE(observed_of(view_of(clip).tracks[0]).empty());
   clip.observed = {1, 1, 0, 1, 1, 1, 1, 1};
   clip.observed_positions = {1, 1, 1, 1, 1, 0, 1, 0};
@@ -66,8 +66,8 @@ TEST(TakeView, KnowsWhatWasObserved) {
 }
 
 TEST(TakeView, WritesEachTrackBackWhereItCameFrom) {
-  const Clip clip = small_clip();
-  Clip copy = clip;
+  const Take clip = small_clip();
+  Take copy = clip;
   copy.positions.assign(8, {});
   copy.rotations.assign(8, {});
   const TakeView take = view_of(clip);
@@ -80,7 +80,7 @@ TEST(TakeView, WritesEachTrackBackWhereItCameFrom) {
 }
 
 TEST(TakeView, OfMarkersLeavesOutWhatIsNoPosition) {
-  MarkerClip clip = make_marker_clip({"LASI", "angle", "never seen"}, 3, 100);
+  Take clip = make_marker_take({"LASI", "angle", "never seen"}, 3, 100);
   clip.is_position = {1, 0, 1};
   clip.observed = {1, 1, 0, 0, 1, 0, 1, 1, 0};
   Selection selection;
@@ -94,9 +94,9 @@ TEST(TakeView, OfMarkersLeavesOutWhatIsNoPosition) {
 }
 
 TEST(TakeView, OfNothingHasNothingToChange) {
-  EXPECT_TRUE(changeable_tracks(view_of(Clip{})).empty());
-  EXPECT_TRUE(changeable_tracks(view_of(MarkerClip{})).empty());
-  EXPECT_TRUE(changeable_tracks(view_of(Clip(slice(small_clip(), 0, 0)))).empty());
+  EXPECT_TRUE(changeable_tracks(view_of(Take{})).empty());
+  EXPECT_TRUE(changeable_tracks(view_of(Take{})).empty());
+  EXPECT_TRUE(changeable_tracks(view_of(Take(slice(small_clip(), 0, 0)))).empty());
 }
 
 }  // namespace

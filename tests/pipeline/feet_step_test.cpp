@@ -33,8 +33,8 @@ class Idle final : public Cleaner {
   }
 };
 
-Clip sliding_walk(bool t_pose_first = false) {
-  Clip clip = synthesize({"walk", 5, 120, 1, t_pose_first});
+Take sliding_walk(bool t_pose_first = false) {
+  Take clip = synthesize({"walk", 5, 120, 1, t_pose_first});
   for (std::size_t f = 0; f < clip.frame_count(); ++f)
     clip.root_position(f).x += 5 * std::sin(0.02 * static_cast<double>(f));
   return clip;
@@ -48,13 +48,13 @@ CleanSettings with_feet(FeetMode mode = FeetMode::force) {
 }
 
 TEST(FeetStep, HoldsFeetAndSaysWhere) {
-  const Clip clip = sliding_walk();
-  const CleanResult result = clean_clip(clip, Idle(), with_feet());
+  const Take clip = sliding_walk();
+  const CleanResult result = clean_take(clip, Idle(), with_feet());
   ASSERT_TRUE(result.report.feet);
   const FeetReport& feet = *result.report.feet;
   EXPECT_GT(feet.before.most_slide, 2);
   EXPECT_LT(feet.after.most_slide, 0.05);
-  EXPECT_NEAR(feet_figures(result.clip, feet.contacts).most_slide, feet.after.most_slide, 0.3);
+  EXPECT_NEAR(feet_figures(result.take, feet.contacts).most_slide, feet.after.most_slide, 0.3);
   std::size_t adjusted = 0;
   for (const ReportSpan& span : result.report.spans) {
     EXPECT_EQ(span.action, Action::foot_adjusted);
@@ -63,16 +63,16 @@ TEST(FeetStep, HoldsFeetAndSaysWhere) {
   EXPECT_GT(adjusted, clip.frame_count());
   const auto head = static_cast<std::size_t>(clip.skeleton.find("Head"));
   for (std::size_t f = 0; f < clip.frame_count(); ++f)
-    EXPECT_EQ(result.clip.rotation(f, head), clip.rotation(f, head));
+    EXPECT_EQ(result.take.rotation(f, head), clip.rotation(f, head));
 }
 
 TEST(FeetStep, IsNotTakenUnasked) {
-  const Clip clip = sliding_walk();
-  const CleanResult plain = clean_clip(clip, Idle());
+  const Take clip = sliding_walk();
+  const CleanResult plain = clean_take(clip, Idle());
   EXPECT_FALSE(plain.report.feet);
-  EXPECT_EQ(plain.clip.rotations, clip.rotations);
-  const CleanResult off = clean_clip(clip, Idle(), with_feet(FeetMode::off));
-  EXPECT_EQ(off.clip.rotations, clip.rotations);
+  EXPECT_EQ(plain.take.rotations, clip.rotations);
+  const CleanResult off = clean_take(clip, Idle(), with_feet(FeetMode::off));
+  EXPECT_EQ(off.take.rotations, clip.rotations);
 }
 
 // Learned methods take models of synthetic walks, and the noise that they are for.
@@ -93,7 +93,7 @@ std::unique_ptr<Cleaner> made(const Method& method) {
 
 TEST_P(FeetAfter, AreHeldAndTheRestIsTheMethods) {
   const Method& method = find_method(GetParam());
-  Clip clip = sliding_walk();
+  Take clip = sliding_walk();
   if (method.learned) {
     clip = resample(clip, 60);
     Random random(3);
@@ -106,18 +106,18 @@ TEST_P(FeetAfter, AreHeldAndTheRestIsTheMethods) {
     for (FootContact& contact : *settings.feet->contacts)
       contact.first_frame /= 2, contact.last_frame /= 2;
   }
-  const CleanResult plain = clean_clip(clip, *cleaner), held = clean_clip(clip, *cleaner, settings);
+  const CleanResult plain = clean_take(clip, *cleaner), held = clean_take(clip, *cleaner, settings);
   ASSERT_TRUE(held.report.feet);
   EXPECT_GT(held.report.feet->contacts.size(), 4u);
   EXPECT_GT(held.report.feet->before.most_slide, 1);
   EXPECT_LT(held.report.feet->after.most_slide, 0.05);
   if (method.learned) {
-    EXPECT_NE(plain.clip.rotations, clip.rotations);
+    EXPECT_NE(plain.take.rotations, clip.rotations);
   }
   for (const char* name : {"Head", "LeftArm", "RightForeArm", "Spine"}) {
     const auto j = static_cast<std::size_t>(clip.skeleton.find(name));
     for (std::size_t f = 0; f < clip.frame_count(); ++f)
-      ASSERT_EQ(held.clip.rotation(f, j), plain.clip.rotation(f, j)) << name << ", frame " << f;
+      ASSERT_EQ(held.take.rotation(f, j), plain.take.rotation(f, j)) << name << ", frame " << f;
   }
 }
 
@@ -140,10 +140,10 @@ INSTANTIATE_TEST_SUITE_P(EveryMethod, FeetAfter, testing::ValuesIn(names_of_meth
                          });
 
 TEST(FeetStep, LeavesLegsThatAreNotSelectedAndTheOthersToo) {
-  const Clip clip = sliding_walk();
+  const Take clip = sliding_walk();
   CleanSettings settings = with_feet();
   settings.exclude = {"LeftLeg"};
-  const CleanResult result = clean_clip(clip, Idle(), settings);
+  const CleanResult result = clean_take(clip, Idle(), settings);
   const FeetReport& feet = *result.report.feet;
   for (std::size_t i = 0; i < feet.contacts.size(); ++i) {
     EXPECT_EQ(feet.held[i], feet.contacts[i].leg == 1);
@@ -153,29 +153,29 @@ TEST(FeetStep, LeavesLegsThatAreNotSelectedAndTheOthersToo) {
   for (const char* name : {"LeftUpLeg", "LeftLeg", "LeftFoot"}) {
     const auto j = static_cast<std::size_t>(clip.skeleton.find(name));
     for (std::size_t f = 0; f < clip.frame_count(); ++f)
-      EXPECT_EQ(result.clip.rotation(f, j), clip.rotation(f, j));
+      EXPECT_EQ(result.take.rotation(f, j), clip.rotation(f, j));
   }
-  EXPECT_EQ(result.clip.positions, clip.positions);
+  EXPECT_EQ(result.take.positions, clip.positions);
 }
 
 TEST(FeetStep, LeavesTheRootWhereItMayNotMove) {
-  const Clip clip = sliding_walk();
+  const Take clip = sliding_walk();
   CleanSettings settings = with_feet();
   settings.root_position = false;
-  const CleanResult result = clean_clip(clip, Idle(), settings);
-  EXPECT_EQ(result.clip.positions, clip.positions);
+  const CleanResult result = clean_take(clip, Idle(), settings);
+  EXPECT_EQ(result.take.positions, clip.positions);
   EXPECT_LT(result.report.feet->after.slide, 0.5 * result.report.feet->before.slide);
 }
 
 TEST(FeetStep, StaysWithinTheRangeAndGoesAsFarAsTheStrength) {
-  const Clip clip = sliding_walk(true);
+  const Take clip = sliding_walk(true);
   CleanSettings settings = with_feet();
   settings.range = {200, 399};
-  const CleanResult part = clean_clip(clip, Idle(), settings);
+  const CleanResult part = clean_take(clip, Idle(), settings);
   std::size_t changed = 0;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     for (std::size_t j = 0; j < clip.joint_count(); ++j) {
-      const bool same = part.clip.rotation(f, j) == clip.rotation(f, j);
+      const bool same = part.take.rotation(f, j) == clip.rotation(f, j);
       EXPECT_TRUE(same || (f >= 200 && f <= 399)) << "frame " << f;
       changed += same ? 0 : 1;
     }
@@ -183,19 +183,19 @@ TEST(FeetStep, StaysWithinTheRangeAndGoesAsFarAsTheStrength) {
   EXPECT_GT(changed, 200u);
   settings = with_feet();
   settings.strength = 0.5;
-  const CleanResult half = clean_clip(clip, Idle(), settings);
+  const CleanResult half = clean_take(clip, Idle(), settings);
   const FeetReport& feet = *half.report.feet;
   EXPECT_GT(feet.after.slide, 0.3 * feet.before.slide);
   EXPECT_LT(feet.after.slide, 0.7 * feet.before.slide);
-  EXPECT_EQ(half.clip.rotation(0, 2), clip.rotation(0, 2));
+  EXPECT_EQ(half.take.rotation(0, 2), clip.rotation(0, 2));
 }
 
 // What is said of a leg does not depend on whether feet are held, but for how far it was moved.
 TEST(FeetStep, LeavesTheReportOfTheLegsTrue) {
-  const Clip clip = sliding_walk();
+  const Take clip = sliding_walk();
   const auto strong = make_butterworth({.cutoff_hz = 1});
-  const CleanResult plain = clean_clip(clip, *strong),
-                    held = clean_clip(clip, *strong, with_feet());
+  const CleanResult plain = clean_take(clip, *strong),
+                    held = clean_take(clip, *strong, with_feet());
   for (const char* name : {"LeftUpLeg", "LeftLeg", "LeftFoot", "RightUpLeg", "RightLeg"}) {
     const auto j = static_cast<std::size_t>(clip.skeleton.find(name));
     const TrackSummary &without = plain.report.tracks[j], &with = held.report.tracks[j];
@@ -210,21 +210,21 @@ TEST(FeetStep, LeavesTheReportOfTheLegsTrue) {
 }
 
 TEST(FeetStep, CountsContactsByTheTakesFrames) {
-  const Clip clip = sliding_walk(true);
+  const Take clip = sliding_walk(true);
   CleanSettings settings = with_feet();
   const std::vector<FootContact> found = find_contacts(clip);
   settings.feet->contacts = found;
-  const CleanResult result = clean_clip(clip, Idle(), settings);
+  const CleanResult result = clean_take(clip, Idle(), settings);
   EXPECT_EQ(result.report.feet->contacts, found);
   EXPECT_LT(result.report.feet->after.most_slide, 0.05);
   settings.feet->contacts = {{{0, FootPart::heel, 0, 5}}};  // the T-pose
-  EXPECT_THROW(clean_clip(clip, Idle(), settings), Error);
+  EXPECT_THROW(clean_take(clip, Idle(), settings), Error);
 }
 
 TEST(FeetStep, KeepsMarkersWhereTheyWereMeasured) {
-  MarkerClip markers = make_marker_clip({"LTOE", "LHEE"}, 60, 100);
+  Take markers = make_marker_take({"LTOE", "LHEE"}, 60, 100);
   markers.observed.assign(markers.positions.size(), 1);
-  const MarkerResult result = clean_markers(markers, *make_cleaner("gaussian"), with_feet());
+  const CleanResult result = clean_take(markers, *make_cleaner("gaussian"), with_feet());
   EXPECT_THAT(result.report.warnings, Contains(HasSubstr("markers are measured points")));
 }
 

@@ -10,14 +10,14 @@
 namespace kinemend::test {
 namespace {
 
-MarkerClip take_of(const std::string& path) {
-  return std::get<MarkerClip>(read_take(std::filesystem::path(KINEMEND_DATA_FOLDER) / path).take);
+Take take_of(const std::string& path) {
+  return read_take(std::filesystem::path(KINEMEND_DATA_FOLDER) / path).take;
 }
 
-MarkerResult filled(const MarkerClip& clip) {
+CleanResult filled(const Take& clip) {
   CleanSettings settings;
   settings.fill = FillSettings{};
-  return clean_markers(clip, *make_cleaner("auto"), settings);
+  return clean_take(clip, *make_cleaner("auto"), settings);
 }
 
 TEST(GapStepOfRealTakes, LeavesWhatWasMeasuredAsCleaningAloneMakesIt) {
@@ -25,13 +25,13 @@ TEST(GapStepOfRealTakes, LeavesWhatWasMeasuredAsCleaningAloneMakesIt) {
        {"c3d/btk/c3d.org/sample01/Eb015pr.c3d", "c3d/btk/c3d.org/sample06/MACsample.c3d",
         "c3d/btk/c3d.org/sample28/dynamic.C3D", "c3d/btk/c3d.org/sample02/pc_real.c3d",
         "c3d/btk/others/561xxa01_anonym.C3D", "c3d/kineticstoolkit/c3d_sample.c3d"}) {
-    const MarkerClip clip = take_of(path);
-    const MarkerResult alone = clean_markers(clip, *make_cleaner("auto"));
-    const MarkerResult with = filled(clip);
+    const Take clip = take_of(path);
+    const CleanResult alone = clean_take(clip, *make_cleaner("auto"));
+    const CleanResult with = filled(clip);
     EXPECT_GT(with.report.fill.filled(), 0U) << path;
     for (std::size_t i = 0; i < clip.positions.size(); ++i) {
       if (clip.observed[i] == 0) continue;
-      ASSERT_EQ(with.clip.positions[i], alone.clip.positions[i]) << path << ", sample " << i;
+      ASSERT_EQ(with.take.positions[i], alone.take.positions[i]) << path << ", sample " << i;
     }
     for (std::size_t m = 0; m < clip.marker_count(); ++m)
       EXPECT_EQ(with.report.tracks[m].noise, alone.report.tracks[m].noise) << path;
@@ -39,13 +39,13 @@ TEST(GapStepOfRealTakes, LeavesWhatWasMeasuredAsCleaningAloneMakesIt) {
 }
 
 TEST(GapStepOfRealTakes, ASpikeBesideAGapIsRepairedAndDoesNotBendTheFilling) {
-  const MarkerClip clip = take_of("c3d/btk/c3d.org/sample01/Eb015pr.c3d");
-  const MarkerClip without = filled(clip).clip;
+  const Take clip = take_of("c3d/btk/c3d.org/sample01/Eb015pr.c3d");
+  const Take without = filled(clip).take;
   for (const Gap& gap : find_gaps(clip)) {
     if (gap.first_frame <= 10) continue;
-    MarkerClip spiked = clip;
+    Take spiked = clip;
     spiked.position(gap.first_frame - 1, gap.track) += {0, 0, 400};
-    const MarkerClip with = filled(spiked).clip;
+    const Take with = filled(spiked).take;
     for (std::size_t f = gap.first_frame; f <= gap.last_frame; ++f) {
       if (!without.is_observed(f, gap.track) || !with.is_observed(f, gap.track)) continue;
       EXPECT_LT(norm(with.position(f, gap.track) - without.position(f, gap.track)), 20)

@@ -23,11 +23,8 @@ class EveryWithFill : public testing::TestWithParam<std::string> {
  protected:
   std::unique_ptr<Cleaner> cleaner_ = make_cleaner(GetParam());
 
-  MarkerResult run(const MarkerClip& clip, const CleanSettings& settings) const {
-    return clean_markers(clip, *cleaner_, settings);
-  }
-  CleanResult run(const Clip& clip, const CleanSettings& settings) const {
-    return clean_clip(clip, *cleaner_, settings);
+  CleanResult run(const Take& clip, const CleanSettings& settings) const {
+    return clean_take(clip, *cleaner_, settings);
   }
 };
 
@@ -37,8 +34,8 @@ struct MarkerGaps {
 constexpr MarkerGaps marker_gaps[] = {{4, 100, 107}, {9, 60, 89}, {14, 150, 150}, {21, 110, 199}};
 
 // With noise, and spikes here and there; `spikes_beside`: also next to each gap.
-MarkerClip gappy_markers(bool spikes_beside) {
-  MarkerClip clip = damaged(marker_take("walk", 2), 2, 0.002, 150, 6);
+Take gappy_markers(bool spikes_beside) {
+  Take clip = damaged(marker_take("walk", 2), 2, 0.002, 150, 6);
   for (const auto& [marker, first, last] : marker_gaps) {
     lose(clip, marker, first, last);
     if (spikes_beside) clip.position(first - 1, marker) += {0, 200, 0};
@@ -47,15 +44,15 @@ MarkerClip gappy_markers(bool spikes_beside) {
 }
 
 // A walker whose joints tremble.
-Clip walker() {
-  Clip clip = synthesize({.motion = "walk", .duration_s = 2});
+Take walker() {
+  Take clip = synthesize({.motion = "walk", .duration_s = 2});
   Random random(3);
   for (Quat& q : clip.rotations) q = q * exp(random_vector(random, 0.5 * radians_per_degree));
   return clip;
 }
 
-Clip gappy_joints(bool spikes_beside) {
-  Clip clip = walker();
+Take gappy_joints(bool spikes_beside) {
+  Take clip = walker();
   const std::vector<NamedGap> gaps{{clip.skeleton.names[5], 100, 109},
                                    {clip.skeleton.names[2], 60, 66},
                                    {clip.skeleton.names[0], 150, 157}};
@@ -71,34 +68,34 @@ Clip gappy_joints(bool spikes_beside) {
 }
 
 TEST_P(EveryWithFill, FillingGapsOfMarkersLeavesWhatWasMeasuredAsCleaningAloneMakesIt) {
-  const MarkerClip clip = gappy_markers(true);
-  const MarkerResult alone = run(clip, {}), filled = run(clip, with_fill());
+  const Take clip = gappy_markers(true);
+  const CleanResult alone = run(clip, {}), filled = run(clip, with_fill());
   for (std::size_t i = 0; i < clip.positions.size(); ++i) {
     if (clip.observed[i] == 0) continue;
-    ASSERT_EQ(filled.clip.positions[i], alone.clip.positions[i]) << i;
+    ASSERT_EQ(filled.take.positions[i], alone.take.positions[i]) << i;
   }
   for (std::size_t m = 0; m < clip.marker_count(); ++m)
     EXPECT_EQ(filled.report.tracks[m].noise, alone.report.tracks[m].noise);
 }
 
 TEST_P(EveryWithFill, FillingGapsOfJointsLeavesWhatWasMeasuredAsCleaningAloneMakesIt) {
-  const Clip clip = gappy_joints(true);
+  const Take clip = gappy_joints(true);
   const CleanResult alone = run(clip, {}), filled = run(clip, with_fill());
   for (std::size_t i = 0; i < clip.rotations.size(); ++i) {
     if (clip.observed[i] == 0) continue;
-    ASSERT_EQ(filled.clip.rotations[i], alone.clip.rotations[i]) << i;
+    ASSERT_EQ(filled.take.rotations[i], alone.take.rotations[i]) << i;
   }
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     if (!clip.is_position_observed(f, 0)) continue;
-    ASSERT_EQ(filled.clip.root_position(f), alone.clip.root_position(f)) << f;
+    ASSERT_EQ(filled.take.root_position(f), alone.take.root_position(f)) << f;
   }
   for (std::size_t j = 0; j < clip.joint_count(); ++j)
     EXPECT_EQ(filled.report.tracks[j].noise, alone.report.tracks[j].noise);
 }
 
 TEST_P(EveryWithFill, AFillingOfMarkersRestsOnNoSpikeBesideIt) {
-  const MarkerClip with = run(gappy_markers(true), with_fill()).clip;
-  const MarkerClip without = run(gappy_markers(false), with_fill()).clip;
+  const Take with = run(gappy_markers(true), with_fill()).take;
+  const Take without = run(gappy_markers(false), with_fill()).take;
   for (const auto& [marker, first, last] : marker_gaps) {
     for (std::size_t f = first; f <= last; ++f) {
       ASSERT_TRUE(with.is_observed(f, marker));
@@ -110,9 +107,9 @@ TEST_P(EveryWithFill, AFillingOfMarkersRestsOnNoSpikeBesideIt) {
 }
 
 TEST_P(EveryWithFill, AFillingOfJointsRestsOnNoSpikeBesideIt) {
-  const Clip clip = gappy_joints(true);
-  const Clip with = run(clip, with_fill()).clip;
-  const Clip without = run(gappy_joints(false), with_fill()).clip;
+  const Take clip = gappy_joints(true);
+  const Take with = run(clip, with_fill()).take;
+  const Take without = run(gappy_joints(false), with_fill()).take;
   for (std::size_t i = 0; i < clip.observed.size(); ++i) {
     if (clip.observed[i] != 0) continue;
     ASSERT_NE(with.observed[i], 0);
@@ -135,11 +132,11 @@ void expect_filled_spans(const std::vector<ReportSpan>& spans, std::size_t track
 }
 
 TEST_P(EveryWithFill, WhatIsFilledIsReportedAsFilled) {
-  const MarkerClip markers = gappy_markers(true);
+  const Take markers = gappy_markers(true);
   expect_filled_spans(run(markers, with_fill()).report.spans, markers.marker_count(),
                       markers.frame_count(),
                       [&](std::size_t f, std::size_t m) { return !markers.is_observed(f, m); });
-  const Clip joints = gappy_joints(true);
+  const Take joints = gappy_joints(true);
   expect_filled_spans(run(joints, with_fill()).report.spans, joints.joint_count(),
                       joints.frame_count(),
                       [&](std::size_t f, std::size_t j) { return !joints.is_observed(f, j); });
@@ -147,15 +144,15 @@ TEST_P(EveryWithFill, WhatIsFilledIsReportedAsFilled) {
 
 // As a lab would have it: much missing, and noise that is not small.
 TEST(GapStep, MeasuresTheNoiseOnWhatWasMeasured) {
-  const MarkerClip truth = marker_take("walk", 4);
-  MarkerClip clip = damaged(truth, 4, 0.002, 150, 9);
+  const Take truth = marker_take("walk", 4);
+  Take clip = damaged(truth, 4, 0.002, 150, 9);
   for (std::size_t f = 20; f + 60 < clip.frame_count(); f += 60) lose(clip, 4, f, f + 44);
-  const MarkerResult result = clean_markers(clip, *make_cleaner("auto"), with_fill());
+  const CleanResult result = clean_take(clip, *make_cleaner("auto"), with_fill());
   EXPECT_NEAR(result.report.tracks[4].noise, 4, 1);
 }
 
 TEST(GapStep, MeasuresTheNoiseOfTheRootsPositionOnWhatWasMeasured) {
-  Clip clip = moving_take(480, 120);
+  Take clip = moving_take(480, 120);
   add_noise(clip, 1, 1, 5);
   std::vector<NamedGap> gaps;
   for (std::size_t f = 20; f + 60 < 480; f += 60) gaps.push_back({"Hips", f, f + 44});

@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::size_t gaussian_of_50_ms = 5;
 
-Clip noisy_walking(double duration_s, double rate_hz = 120) {
-  Clip clip = synthesize({.motion = "walk", .duration_s = duration_s, .frame_rate_hz = rate_hz});
+Take noisy_walking(double duration_s, double rate_hz = 120) {
+  Take clip = synthesize({.motion = "walk", .duration_s = duration_s, .frame_rate_hz = rate_hz});
   Random random(5);
   apply_damage(clip, "gaussian", {{"std_deg", 2.0}}, random);
   return clip;
@@ -32,8 +32,7 @@ std::unique_ptr<Cleaner> live_learned(Model model = small_motion_model()) {
   return make_learned({.live = true}, std::make_shared<const Model>(std::move(model)));
 }
 
-template <class AnyClip>
-std::vector<Frame> live_frames(Stream& stream, const AnyClip& clip) {
+std::vector<Frame> live_frames(Stream& stream, const Take& clip) {
   const TakeView view = view_of(clip);
   std::vector<Frame> result;
   Frame out;
@@ -48,12 +47,12 @@ std::vector<Frame> live_frames(Stream& stream, const AnyClip& clip) {
 
 TEST(LearnedStream, GivesWhatItsLiveFormGivesForTheWholeTake) {
   for (const double rate_hz : {30.0, 120.0, 200.0}) {
-    const Clip clip = noisy_walking(2, rate_hz);
+    const Take clip = noisy_walking(2, rate_hz);
     const auto cleaner = live_learned();
     const auto stream = make_stream(*cleaner, clip);
     EXPECT_LE(stream->latency_frames(), 14u);
     const std::vector<Frame> live = live_frames(*stream, clip);
-    Clip whole = clip;
+    Take whole = clip;
     clean_in_place(*cleaner, whole);
     ASSERT_EQ(live.size(), clip.frame_count());
     double change = 0;
@@ -69,9 +68,9 @@ TEST(LearnedStream, GivesWhatItsLiveFormGivesForTheWholeTake) {
 }
 
 TEST(LearnedStream, SmoothsJointsThatItKnowsAndOthersAlikeAndHasNoDelayInTime) {
-  const Clip truth = synthesize({.motion = "walk", .duration_s = 4, .frame_rate_hz = 120});
-  const Clip noisy = noisy_walking(4);
-  Clip known = noisy, unknown = noisy;
+  const Take truth = synthesize({.motion = "walk", .duration_s = 4, .frame_rate_hz = 120});
+  const Take noisy = noisy_walking(4);
+  Take known = noisy, unknown = noisy;
   for (std::size_t j = 0; j < unknown.skeleton.joint_count(); ++j)
     unknown.skeleton.names[j] = "Q" + std::to_string(j);
   const auto cleaner = live_learned(one_smoother_model(gaussian_of_50_ms));
@@ -83,7 +82,7 @@ TEST(LearnedStream, SmoothsJointsThatItKnowsAndOthersAlikeAndHasNoDelayInTime) {
 }
 
 TEST(LearnedStream, SmoothsMarkersAndLeavesThoseThatAreNotSeen) {
-  MarkerClip clip = damaged(marker_take("walk", 3), 3, 0, 1, 1);
+  Take clip = damaged(marker_take("walk", 3), 3, 0, 1, 1);
   for (std::size_t f = 100; f < 130; ++f) {
     clip.observed[f * clip.marker_count() + 4] = 0;
     clip.positions[f * clip.marker_count() + 4] = {};
@@ -108,7 +107,7 @@ TEST(LearnedStream, SmoothsMarkersAndLeavesThoseThatAreNotSeen) {
 }
 
 TEST(LearnedStream, RefusesTakesBelow20HzAndTellsWhatRunsLive) {
-  const Clip slow = noisy_walking(3, 15);
+  const Take slow = noisy_walking(3, 15);
   const auto reason_of = [](auto&& work) -> std::string {
     try {
       work();

@@ -31,8 +31,7 @@ std::vector<Live> every_live_method() {
           {"one-euro", {}}};
 }
 
-template <class AnyClip>
-std::vector<Frame> frames_of(const AnyClip& clip) {
+std::vector<Frame> frames_of(const Take& clip) {
   const TakeView view = view_of(clip);
   std::vector<Frame> frames;
   for (std::size_t f = 0; f < view.frames; ++f) frames.push_back(frame_of(view, f));
@@ -62,19 +61,19 @@ std::size_t taken_when_warm(Stream& stream, const std::vector<Frame>& frames) {
 }
 
 TEST_P(LiveMemory, TakesNoneOnceItIsWarm) {
-  Clip clip = moving_take(700, 120);
+  Take clip = moving_take(700, 120);
   add_noise(clip, 1.5, 0.5, 1);
   EXPECT_EQ(taken_when_warm(*make_stream(*cleaner_, clip), frames_of(clip)), 0);
 }
 
 TEST_P(LiveMemory, TakesNoneForMarkersOnceItIsWarm) {
   if (GetParam().method == "nonlocal") GTEST_SKIP() << "runs live on joints only";
-  const MarkerClip clip = damaged(marker_take("walk", 6), 3, 0.005, 100, 1);
+  const Take clip = damaged(marker_take("walk", 6), 3, 0.005, 100, 1);
   EXPECT_EQ(taken_when_warm(*make_stream(*cleaner_, clip, 1700), frames_of(clip)), 0);
 }
 
 TEST(RecurrentMemory, TakesNoneOnceItIsWarm) {
-  const Clip clip = synthesize({.motion = "walk", .duration_s = 3, .frame_rate_hz = 120});
+  const Take clip = synthesize({.motion = "walk", .duration_s = 3, .frame_rate_hz = 120});
   BodyLayoutBuilder builder;
   builder.add(clip);
   const BodyLayout layout = builder.finish();
@@ -92,7 +91,7 @@ TEST(RecurrentMemory, TakesNoneOnceItIsWarm) {
 }
 
 TEST(LearnedMemory, TakesNoneOnceItIsWarm) {
-  const Clip clip = synthesize({.motion = "walk", .duration_s = 6, .frame_rate_hz = 120});
+  const Take clip = synthesize({.motion = "walk", .duration_s = 6, .frame_rate_hz = 120});
   const auto cleaner =
       make_learned({.live = true}, std::make_shared<const Model>(small_motion_model()));
   EXPECT_EQ(taken_when_warm(*make_stream(*cleaner, clip), frames_of(clip)), 0u);
@@ -102,7 +101,7 @@ TEST(LearnedMemory, TakesNoneOnceItIsWarm) {
 
 // What a value is, is never an error.
 TEST_P(LiveMemory, ThrowsForNoValue) {
-  Clip clip = moving_take(200, 120);
+  Take clip = moving_take(200, 120);
   std::vector<Frame> frames = frames_of(clip);
   const double odd[] = {std::numeric_limits<double>::quiet_NaN(),
                         std::numeric_limits<double>::infinity(), 1e300, -1e300, 0.0};

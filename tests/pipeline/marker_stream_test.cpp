@@ -8,8 +8,8 @@
 namespace kinemend::test {
 namespace {
 
-MarkerClip live_take() {
-  MarkerClip clip = damaged(marker_take("walk", 2), 3, 0.005, 100, 1);
+Take live_take() {
+  Take clip = damaged(marker_take("walk", 2), 3, 0.005, 100, 1);
   clip.is_position[9] = 0;
   lose(clip, 0, 50, 60);
   lose(clip, 1, 0, 9);
@@ -21,8 +21,8 @@ MarkerClip live_take() {
 }
 
 // All frames pushed and flushed; checks that every frame comes out at its time.
-MarkerClip run(Stream& stream, const MarkerClip& clip) {
-  MarkerClip result = clip;
+Take run(Stream& stream, const Take& clip) {
+  Take result = clip;
   const std::size_t markers = clip.marker_count();
   std::size_t next = 0;
   Frame in, out;
@@ -60,11 +60,11 @@ class LiveOnMarkers : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(LiveOnMarkers, GivesWhatItGivesForTheWholeTake) {
-  const MarkerClip clip = live_take();
-  MarkerClip offline = clip;
+  const Take clip = live_take();
+  Take offline = clip;
   clean_in_place(*cleaner_, offline);
   const auto stream = make_stream(*cleaner_, clip, body_height(clip));
-  const MarkerClip first = run(*stream, clip);
+  const Take first = run(*stream, clip);
   EXPECT_LT(max_distance(first, offline), 1e-8);
   stream->reset();
   EXPECT_EQ(run(*stream, clip).positions, first.positions);
@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, LiveOnMarkers,
                          [](const auto& method) { return camel_case(method.param); });
 
 TEST(MarkerStream, RefusesWhatItCannotDo) {
-  const MarkerClip clip = marker_take("walk", 0.5);
+  const Take clip = marker_take("walk", 0.5);
   EXPECT_THROW(make_stream(*make_cleaner("auto"), clip, 1750), Error);
   EXPECT_THROW(make_stream(*make_cleaner("nonlocal", {{"causal", true}}), clip, 1750), Error);
   Frame frame, out;

@@ -47,8 +47,8 @@ class OnlyJoints final : public Cleaner {
   }
 };
 
-MarkerClip small_take() {
-  MarkerClip clip = make_marker_clip({"Ann:LASI", "Ann:RASI", "angle"}, 50, 100);
+Take small_take() {
+  Take clip = make_marker_take({"Ann:LASI", "Ann:RASI", "angle"}, 50, 100);
   clip.unit = "mm";
   clip.is_position = {1, 1, 0};
   clip.residuals.assign(150, 0.5F);
@@ -62,10 +62,9 @@ MarkerClip small_take() {
   return clip;
 }
 
-std::string message_of(const MarkerClip& clip, const Cleaner& cleaner,
-                       const CleanSettings& settings) {
+std::string message_of(const Take& clip, const Cleaner& cleaner, const CleanSettings& settings) {
   try {
-    clean_markers(clip, cleaner, settings);
+    clean_take(clip, cleaner, settings);
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
     return error.what();
@@ -74,25 +73,25 @@ std::string message_of(const MarkerClip& clip, const Cleaner& cleaner,
 }
 
 TEST(MarkerPipeline, BlendsByStrengthAndLimit) {
-  const MarkerClip clip = small_take();
+  const Take clip = small_take();
   const Mover mover({8, 0, 0});
   CleanSettings settings;
   settings.strength = 0.5;
-  EXPECT_EQ(clean_markers(clip, mover, settings).clip.position(7, 1), (Vec3{11, 900, 250}));
+  EXPECT_EQ(clean_take(clip, mover, settings).take.position(7, 1), (Vec3{11, 900, 250}));
   settings.max_change = 3;
-  EXPECT_EQ(clean_markers(clip, mover, settings).clip.position(7, 1), (Vec3{10, 900, 250}));
+  EXPECT_EQ(clean_take(clip, mover, settings).take.position(7, 1), (Vec3{10, 900, 250}));
   settings.strength = 0;
-  EXPECT_EQ(clean_markers(clip, mover, settings).clip.positions, clip.positions);
+  EXPECT_EQ(clean_take(clip, mover, settings).take.positions, clip.positions);
 }
 
 TEST(MarkerPipeline, ChangesWhatIsSelectedAndAPositionAlone) {
-  const MarkerClip clip = small_take();
+  const Take clip = small_take();
   CleanSettings settings;
   settings.joints = {"RAS?"};
-  const MarkerClip right = clean_markers(clip, Mover({8, 0, 0}), settings).clip;
+  const Take right = clean_take(clip, Mover({8, 0, 0}), settings).take;
   settings.joints = {};
   settings.exclude = {"Ann:R*"};
-  const MarkerClip left = clean_markers(clip, Mover({8, 0, 0}), settings).clip;
+  const Take left = clean_take(clip, Mover({8, 0, 0}), settings).take;
   for (std::size_t f = 0; f < 50; ++f) {
     EXPECT_EQ(right.position(f, 0), clip.position(f, 0));
     EXPECT_NE(right.position(f, 1), clip.position(f, 1));
@@ -103,10 +102,10 @@ TEST(MarkerPipeline, ChangesWhatIsSelectedAndAPositionAlone) {
 }
 
 TEST(MarkerPipeline, StaysInItsRangeAndBlendsIntoIt) {
-  const MarkerClip clip = small_take();
+  const Take clip = small_take();
   CleanSettings settings;
   settings.range = {{20, 49}};
-  const MarkerClip result = clean_markers(clip, Mover({8, 0, 0}), settings).clip;
+  const Take result = clean_take(clip, Mover({8, 0, 0}), settings).take;
   EXPECT_EQ(result.position(19, 0), clip.position(19, 0));
   EXPECT_GT(norm(result.position(20, 0) - clip.position(20, 0)), 0);
   EXPECT_LT(norm(result.position(20, 0) - clip.position(20, 0)), 1);
@@ -114,21 +113,21 @@ TEST(MarkerPipeline, StaysInItsRangeAndBlendsIntoIt) {
 }
 
 TEST(MarkerPipeline, LeavesMissingSamplesAndResidualsAsTheyAre) {
-  MarkerClip clip = small_take();
+  Take clip = small_take();
   lose(clip, 0, 10, 14);
-  const MarkerResult result = clean_markers(clip, Mover({8, 0, 0}));
-  EXPECT_EQ(result.clip.observed, clip.observed);
-  EXPECT_EQ(result.clip.residuals, clip.residuals);
+  const CleanResult result = clean_take(clip, Mover({8, 0, 0}));
+  EXPECT_EQ(result.take.observed, clip.observed);
+  EXPECT_EQ(result.take.residuals, clip.residuals);
   EXPECT_EQ(result.report.tracks[0].gaps_left, 1U);
   EXPECT_EQ(result.report.tracks[0].frames_missing, 5U);
   EXPECT_EQ(result.report.tracks[1].gaps_left, 0U);
 }
 
 TEST(MarkerPipeline, CountsNoGapOfAPointThatIsAnAngle) {
-  MarkerClip clip = small_take();
+  Take clip = small_take();
   ASSERT_FALSE(clip.holds_positions(2));
   lose(clip, 2, 10, 14);
-  const CleanReport report = clean_markers(clip, Mover({8, 0, 0})).report;
+  const CleanReport report = clean_take(clip, Mover({8, 0, 0})).report;
   EXPECT_TRUE(report.tracks[0].is_position);
   EXPECT_FALSE(report.tracks[2].is_position);
   EXPECT_EQ(report.tracks[2].gaps_left, 0U);
@@ -136,7 +135,7 @@ TEST(MarkerPipeline, CountsNoGapOfAPointThatIsAnAngle) {
 }
 
 TEST(MarkerPipeline, ReportsInFileUnits) {
-  const MarkerResult result = clean_markers(small_take(), Mover({3, 4, 0}, Action::despiked));
+  const CleanResult result = clean_take(small_take(), Mover({3, 4, 0}, Action::despiked));
   const CleanReport& report = result.report;
   EXPECT_EQ(report.method, "mover");
   EXPECT_EQ(report.unit, "mm");
@@ -157,11 +156,11 @@ TEST(MarkerPipeline, ReportsInFileUnits) {
 }
 
 TEST(MarkerPipeline, WarnsOfALostPeak) {
-  MarkerClip clip = small_take();
+  Take clip = small_take();
   for (std::size_t f = 20; f < 30; ++f)
     clip.position(f, 0) += {0, 40 * static_cast<double>(f - 20), 0};
   for (std::size_t f = 30; f < 50; ++f) clip.position(f, 0) += {0, 360, 0};
-  const MarkerResult result = clean_markers(clip, *make_gaussian({.width_s = 0.1}));
+  const CleanResult result = clean_take(clip, *make_gaussian({.width_s = 0.1}));
   ASSERT_THAT(result.report.warnings, SizeIs(2));
   EXPECT_THAT(result.report.warnings[1], HasSubstr("Ann:LASI: smoothing changes it by "));
   EXPECT_THAT(result.report.warnings[0], HasSubstr("Ann:LASI: peak speed falls from 4001 to "));
@@ -169,22 +168,22 @@ TEST(MarkerPipeline, WarnsOfALostPeak) {
 }
 
 TEST(MarkerPipeline, FillsFromWhatIsDenoised) {
-  MarkerClip truth = marker_take("walk", 2);
+  Take truth = marker_take("walk", 2);
   truth.residuals.assign(truth.positions.size(), 0.5F);
-  MarkerClip clip = damaged(truth, 1, 0, 0, 5);
+  Take clip = damaged(truth, 1, 0, 0, 5);
   lose(clip, 4, 100, 111);
   for (std::size_t f = 100; f < 112; ++f) clip.residuals[f * clip.marker_count() + 4] = -1;
   CleanSettings settings;
   settings.fill = FillSettings{};
-  const MarkerResult result = clean_markers(clip, *make_auto(), settings);
+  const CleanResult result = clean_take(clip, *make_auto(), settings);
   ASSERT_THAT(result.report.fill.gaps, SizeIs(1));
   EXPECT_TRUE(result.report.fill.gaps[0].filled) << result.report.fill.gaps[0].reason;
   for (std::size_t f = 100; f < 112; ++f) {
-    ASSERT_TRUE(result.clip.is_observed(f, 4));
-    EXPECT_EQ(result.clip.residuals[f * clip.marker_count() + 4], 0);
-    EXPECT_LT(norm(result.clip.position(f, 4) - truth.position(f, 4)), 10) << f;
+    ASSERT_TRUE(result.take.is_observed(f, 4));
+    EXPECT_EQ(result.take.residuals[f * clip.marker_count() + 4], 0);
+    EXPECT_LT(norm(result.take.position(f, 4) - truth.position(f, 4)), 10) << f;
   }
-  EXPECT_EQ(result.clip.residuals[99 * clip.marker_count() + 4], 0.5F);
+  EXPECT_EQ(result.take.residuals[99 * clip.marker_count() + 4], 0.5F);
   const auto is_filled = [](const ReportSpan& span) { return span.action == Action::filled; };
   const auto& spans = result.report.spans;
   const auto span = std::find_if(spans.begin(), spans.end(), is_filled);
@@ -197,7 +196,7 @@ TEST(MarkerPipeline, FillsFromWhatIsDenoised) {
 }
 
 TEST(MarkerPipeline, SmoothsNoiseBeforeItFillsGaps) {
-  MarkerClip clip = marker_take("walk", 2);
+  Take clip = marker_take("walk", 2);
   lose(clip, 4, 100, 111);
   CleanSettings settings;
   settings.fill = FillSettings{};
@@ -205,12 +204,12 @@ TEST(MarkerPipeline, SmoothsNoiseBeforeItFillsGaps) {
   settings.progress = [&](std::string_view stage, double) {
     if (stages.empty() || stages.back() != stage) stages.emplace_back(stage);
   };
-  clean_markers(clip, *make_auto(), settings);
+  clean_take(clip, *make_auto(), settings);
   EXPECT_THAT(stages, testing::ElementsAre("cleaning", "filling"));
 }
 
 TEST(MarkerPipeline, FillsOnlyWhatIsSelectedAndInTheRange) {
-  MarkerClip clip = marker_take("walk", 2);
+  Take clip = marker_take("walk", 2);
   lose(clip, 4, 100, 111);
   lose(clip, 6, 30, 41);
   lose(clip, 8, 100, 111);
@@ -218,26 +217,26 @@ TEST(MarkerPipeline, FillsOnlyWhatIsSelectedAndInTheRange) {
   settings.fill = FillSettings{};
   settings.exclude = {clip.names[8]};
   settings.range = {{80, 200}};
-  const MarkerResult result = clean_markers(clip, *make_auto(), settings);
-  EXPECT_TRUE(result.clip.is_observed(105, 4));
-  EXPECT_FALSE(result.clip.is_observed(35, 6));
-  EXPECT_FALSE(result.clip.is_observed(105, 8));
+  const CleanResult result = clean_take(clip, *make_auto(), settings);
+  EXPECT_TRUE(result.take.is_observed(105, 4));
+  EXPECT_FALSE(result.take.is_observed(35, 6));
+  EXPECT_FALSE(result.take.is_observed(105, 8));
 }
 
 TEST(MarkerPipeline, ASpikeAtTheEdgeOfAGapDoesNotBendTheFilling) {
-  const MarkerClip truth = marker_take("walk", 2);
-  MarkerClip clip = damaged(truth, 1, 0, 0, 6);
+  const Take truth = marker_take("walk", 2);
+  Take clip = damaged(truth, 1, 0, 0, 6);
   lose(clip, 4, 100, 107);
   clip.position(99, 4) += {0, 200, 0};
   CleanSettings settings;
   settings.fill = FillSettings{};
-  const MarkerResult result = clean_markers(clip, *make_auto(), settings);
+  const CleanResult result = clean_take(clip, *make_auto(), settings);
   for (std::size_t f = 98; f < 110; ++f)
-    EXPECT_LT(norm(result.clip.position(f, 4) - truth.position(f, 4)), 15) << f;
+    EXPECT_LT(norm(result.take.position(f, 4) - truth.position(f, 4)), 15) << f;
 }
 
 TEST(MarkerPipeline, SaysWhatIsWrongWithSettings) {
-  const MarkerClip clip = small_take();
+  const Take clip = small_take();
   CleanSettings settings;
   settings.joints = {"Toe"};
   EXPECT_THAT(message_of(clip, Mover({}), settings), HasSubstr("no marker matches \"Toe\""));
@@ -254,20 +253,20 @@ TEST(MarkerPipeline, SaysWhatIsWrongWithSettings) {
 TEST(Pipeline, FillsTheGapsOfJoints) {
   SynthOptions options;
   options.duration_s = 2;
-  const Clip truth = synthesize(options);
-  Clip clip = truth;
+  const Take truth = synthesize(options);
+  Take clip = truth;
   const std::vector<NamedGap> gaps{{truth.skeleton.names[5], 100, 109}};
   mark_gaps(clip, gaps);
   for (std::size_t f = 100; f < 110; ++f) clip.rotation(f, 5) = exp({2, 0, 0});
   CleanSettings settings;
   settings.fill = FillSettings{};
   settings.strength = 0.5;  // of the smoothing: a filling is not halfway to what stood in the gap
-  const CleanResult result = clean_clip(clip, *make_auto(), settings);
+  const CleanResult result = clean_take(clip, *make_auto(), settings);
   ASSERT_THAT(result.report.fill.gaps, SizeIs(1));
   EXPECT_TRUE(result.report.fill.gaps[0].filled) << result.report.fill.gaps[0].reason;
   for (std::size_t f = 100; f < 110; ++f) {
-    EXPECT_TRUE(result.clip.is_observed(f, 5));
-    EXPECT_LT(angle_between(result.clip.rotation(f, 5), truth.rotation(f, 5)), 0.1) << f;
+    EXPECT_TRUE(result.take.is_observed(f, 5));
+    EXPECT_LT(angle_between(result.take.rotation(f, 5), truth.rotation(f, 5)), 0.1) << f;
   }
 }
 

@@ -43,13 +43,13 @@ class Turner final : public Cleaner {
   Vec3 turn_, shift_;
 };
 
-double change_deg(const Clip& a, const Clip& b, std::size_t frame, std::size_t joint) {
+double change_deg(const Take& a, const Take& b, std::size_t frame, std::size_t joint) {
   return angle_between(a.rotation(frame, joint), b.rotation(frame, joint)) * degrees_per_radian;
 }
 
-std::string message_of(const Clip& clip, const CleanSettings& settings) {
+std::string message_of(const Take& clip, const CleanSettings& settings) {
   try {
-    clean_clip(clip, Turner({}), settings);
+    clean_take(clip, Turner({}), settings);
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
     return error.what();
@@ -58,10 +58,10 @@ std::string message_of(const Clip& clip, const CleanSettings& settings) {
 }
 
 TEST(Pipeline, BlendsByStrengthAlongTheGeodesic) {
-  const Clip input = moving_take(10, 120);
+  const Take input = moving_take(10, 120);
   CleanSettings settings;
   settings.strength = 0.25;
-  const Clip output = clean_clip(input, Turner({0.4, 0, 0}, {8, 0, 0}), settings).clip;
+  const Take output = clean_take(input, Turner({0.4, 0, 0}, {8, 0, 0}), settings).take;
   const Quat expected = input.rotation(3, 1) * exp({0.1, 0, 0});
   EXPECT_LT(angle_between(output.rotation(3, 1), expected), 1e-12);
   EXPECT_NEAR(output.root_position(3).x, input.root_position(3).x + 2, 1e-12);
@@ -69,21 +69,21 @@ TEST(Pipeline, BlendsByStrengthAlongTheGeodesic) {
 }
 
 TEST(Pipeline, LimitsTheChangeOfRotationsOfEveryNumberOfAxes) {
-  const Clip input = moving_take(10, 120);
+  const Take input = moving_take(10, 120);
   CleanSettings settings;
   settings.max_change_deg = 3;
-  const Clip output = clean_clip(input, Turner({0.3, -0.2, 0.1}), settings).clip;
+  const Take output = clean_take(input, Turner({0.3, -0.2, 0.1}), settings).take;
   EXPECT_NEAR(change_deg(input, output, 2, 1), 3, 1e-9);
   EXPECT_NEAR(change_deg(input, output, 2, 3), 3, 1e-9);  // a hinge
   EXPECT_LE(change_deg(input, output, 2, 4), 3 + 1e-9);   // a saddle
   EXPECT_GT(change_deg(input, output, 2, 4), 2.9);
   settings.max_change_deg = 0;
-  EXPECT_EQ(clean_clip(input, Turner({0.3, -0.2, 0.1}), settings).clip.rotations, input.rotations);
+  EXPECT_EQ(clean_take(input, Turner({0.3, -0.2, 0.1}), settings).take.rotations, input.rotations);
 }
 
 TEST(Pipeline, TheRotationsOfHingesAndSaddlesAreOnesTheirChannelsHold) {
-  const Clip input = moving_take(50, 120);
-  const Clip output = clean_clip(input, Turner({0.3, -0.2, 0.1})).clip;
+  const Take input = moving_take(50, 120);
+  const Take output = clean_take(input, Turner({0.3, -0.2, 0.1})).take;
   for (std::size_t f = 0; f < 50; ++f) {
     for (const std::size_t j : {3, 4}) {
       const RotationOrder order = input.skeleton.rotation_order(j);
@@ -97,23 +97,23 @@ TEST(Pipeline, TheRotationsOfHingesAndSaddlesAreOnesTheirChannelsHold) {
 }
 
 TEST(Pipeline, SamplesThatHardlyChangeKeepTheirExactValue) {
-  const Clip input = moving_take(10, 120);
+  const Take input = moving_take(10, 120);
   const double tiny = 0.9e-9 * radians_per_degree;
-  const CleanResult kept = clean_clip(input, Turner({tiny, 0, 0}, {1e-11, 0, 0}));
-  EXPECT_EQ(kept.clip.rotations, input.rotations);
-  EXPECT_EQ(kept.clip.positions, input.positions);
+  const CleanResult kept = clean_take(input, Turner({tiny, 0, 0}, {1e-11, 0, 0}));
+  EXPECT_EQ(kept.take.rotations, input.rotations);
+  EXPECT_EQ(kept.take.positions, input.positions);
   EXPECT_THAT(kept.report.spans, IsEmpty());
-  const CleanResult changed = clean_clip(input, Turner({20 * tiny, 0, 0}));
-  EXPECT_NE(changed.clip.rotation(4, 1), input.rotation(4, 1));
+  const CleanResult changed = clean_take(input, Turner({20 * tiny, 0, 0}));
+  EXPECT_NE(changed.take.rotation(4, 1), input.rotation(4, 1));
   EXPECT_EQ(changed.report.tracks[1].frames_changed, 10U);
 }
 
 TEST(Pipeline, PatternsChooseJointsAndTheRest) {
-  const Clip input = moving_take(5, 120);
+  const Take input = moving_take(5, 120);
   CleanSettings settings;
   settings.joints = {"Left*", "Spine"};
   settings.exclude = {"*Saddle"};
-  const Clip output = clean_clip(input, Turner({0.1, 0, 0}, {1, 0, 0}), settings).clip;
+  const Take output = clean_take(input, Turner({0.1, 0, 0}, {1, 0, 0}), settings).take;
   std::vector<bool> changed;
   for (std::size_t j = 0; j < input.joint_count(); ++j) {
     changed.push_back(output.rotation(2, j) != input.rotation(2, j));
@@ -123,30 +123,30 @@ TEST(Pipeline, PatternsChooseJointsAndTheRest) {
 }
 
 TEST(Pipeline, TheRootPositionMayBeLeftAlone) {
-  const Clip input = moving_take(5, 120);
+  const Take input = moving_take(5, 120);
   CleanSettings settings;
   settings.root_position = false;
-  const Clip output = clean_clip(input, Turner({0.1, 0, 0}, {1, 0, 0}), settings).clip;
+  const Take output = clean_take(input, Turner({0.1, 0, 0}, {1, 0, 0}), settings).take;
   EXPECT_EQ(point_track(output, 0), point_track(input, 0));
   EXPECT_NE(output.rotation(0, 0), input.rotation(0, 0));
   EXPECT_NE(point_track(output, 1), point_track(input, 1));
 }
 
 TEST(Pipeline, PositionsWithoutAChannelStay) {
-  Clip input = moving_take(5, 120);
+  Take input = moving_take(5, 120);
   input.skeleton.channels[0] = {Channel::y_position, Channel::z_rotation, Channel::x_rotation,
                                 Channel::y_rotation};
-  const Clip output = clean_clip(input, Turner({0.1, 0, 0}, {1, 2, 3})).clip;
+  const Take output = clean_take(input, Turner({0.1, 0, 0}, {1, 2, 3})).take;
   EXPECT_EQ(output.root_position(2).x, input.root_position(2).x);
   EXPECT_EQ(output.root_position(2).y, input.root_position(2).y + 2);
   EXPECT_EQ(output.root_position(2).z, input.root_position(2).z);
 }
 
 TEST(Pipeline, ARangeChangesNothingOutsideAndFadesInOverATenthOfASecond) {
-  const Clip input = moving_take(200, 100);
+  const Take input = moving_take(200, 100);
   CleanSettings settings;
   settings.range = {50, 149};
-  const Clip output = clean_clip(input, Turner({0.2, 0, 0}), settings).clip;
+  const Take output = clean_take(input, Turner({0.2, 0, 0}), settings).take;
   const double whole = 0.2 * degrees_per_radian;
   EXPECT_EQ(output.rotation(49, 1), input.rotation(49, 1));
   EXPECT_EQ(output.rotation(150, 1), input.rotation(150, 1));
@@ -161,20 +161,20 @@ TEST(Pipeline, ARangeChangesNothingOutsideAndFadesInOverATenthOfASecond) {
 }
 
 TEST(Pipeline, ARangeThatReachesAnEndOfTheTakeDoesNotFadeThere) {
-  const Clip input = moving_take(100, 100);
+  const Take input = moving_take(100, 100);
   CleanSettings settings;
   settings.range = {0, 99};
-  const Clip output = clean_clip(input, Turner({0.2, 0, 0}), settings).clip;
+  const Take output = clean_take(input, Turner({0.2, 0, 0}), settings).take;
   EXPECT_NEAR(change_deg(input, output, 0, 1), 0.2 * degrees_per_radian, 1e-9);
   EXPECT_NEAR(change_deg(input, output, 99, 1), 0.2 * degrees_per_radian, 1e-9);
   settings.range = {40, 40};
-  const Clip one = clean_clip(input, Turner({0.2, 0, 0}), settings).clip;
+  const Take one = clean_take(input, Turner({0.2, 0, 0}), settings).take;
   EXPECT_EQ(one.rotation(39, 1), input.rotation(39, 1));
   EXPECT_NE(one.rotation(40, 1), input.rotation(40, 1));
 }
 
 TEST(Pipeline, RefusesSettingsOutOfRange) {
-  const Clip clip = moving_take(10, 120);
+  const Take clip = moving_take(10, 120);
   CleanSettings settings;
   settings.strength = 1.5;
   EXPECT_THAT(message_of(clip, settings), HasSubstr("strength: 1.5 is outside 0 to 1"));
@@ -195,7 +195,7 @@ TEST(Pipeline, RefusesSettingsOutOfRange) {
 }
 
 TEST(Report, SaysWhatWasDoneWhereAndByHowMuch) {
-  const Clip input = moving_take(30, 120);
+  const Take input = moving_take(30, 120);
   Turner cleaner({0, 0.1, 0}, {0, 0, 2});
   cleaner.actions.resize(input.joint_count());
   cleaner.actions[1].assign(30, Action::kept);
@@ -204,7 +204,7 @@ TEST(Report, SaysWhatWasDoneWhereAndByHowMuch) {
   cleaner.trace.warnings = {"a warning"};
   CleanSettings settings;
   settings.joints = {"Spine", "Hips"};
-  const CleanReport report = clean_clip(input, cleaner, settings).report;
+  const CleanReport report = clean_take(input, cleaner, settings).report;
   EXPECT_EQ(report.method, "turner");
   EXPECT_EQ(report.frames, 30U);
   EXPECT_EQ(report.calibration_frames, 0U);
@@ -241,20 +241,20 @@ TEST(Report, SaysWhatWasDoneWhereAndByHowMuch) {
 }
 
 TEST(Report, CountsFramesFromTheTakesFirstAlsoBehindACalibrationPose) {
-  Clip input = moving_take(30, 120);
+  Take input = moving_take(30, 120);
   for (std::size_t j = 0; j < input.joint_count(); ++j) input.rotation(0, j) = {};
   ASSERT_EQ(leading_calibration_frames(input), 1U);
-  const CleanResult result = clean_clip(input, Turner({0, 0.1, 0}));
+  const CleanResult result = clean_take(input, Turner({0, 0.1, 0}));
   EXPECT_EQ(result.report.calibration_frames, 1U);
   EXPECT_EQ(result.report.spans.front().first_frame, 1U);
   EXPECT_EQ(result.report.spans.front().last_frame, 29U);
-  EXPECT_EQ(result.clip.rotation(0, 1), input.rotation(0, 1));
-  EXPECT_EQ(result.clip.source.document, input.source.document);
+  EXPECT_EQ(result.take.rotation(0, 1), input.rotation(0, 1));
+  EXPECT_EQ(result.take.source.document, input.source.document);
 }
 
 // Still, then 90 degrees in a tenth of a second, then still.
-Clip punch() {
-  Clip clip = empty_take(240, 120);
+Take punch() {
+  Take clip = empty_take(240, 120);
   for (std::size_t f = 0; f < 240; ++f) {
     const double x = std::clamp((static_cast<double>(f) - 120) / 12, 0.0, 1.0);
     clip.rotation(f, 2) = exp({0, x * x * (3 - 2 * x) * pi / 2, 0});
@@ -262,7 +262,7 @@ Clip punch() {
   return clip;
 }
 
-double fastest_step_deg_s(const Clip& clip, std::size_t joint) {
+double fastest_step_deg_s(const Take& clip, std::size_t joint) {
   double largest = 0;
   for (std::size_t f = 1; f < clip.frame_count(); ++f) {
     largest =
@@ -272,39 +272,39 @@ double fastest_step_deg_s(const Clip& clip, std::size_t joint) {
 }
 
 TEST(Report, GivesThePeakSpeedsOfACleanTakeFrameByFrame) {
-  const Clip input = punch();
-  const CleanResult result = clean_clip(input, *make_butterworth({.cutoff_hz = 3}));
+  const Take input = punch();
+  const CleanResult result = clean_take(input, *make_butterworth({.cutoff_hz = 3}));
   const TrackSummary& arm = result.report.tracks[2];
   EXPECT_EQ(arm.peak_frames, 1U);
   EXPECT_NEAR(arm.peak_speed_before, fastest_step_deg_s(input, 2), 1e-6);
-  EXPECT_NEAR(arm.peak_speed_after, fastest_step_deg_s(result.clip, 2), 1e-6);
+  EXPECT_NEAR(arm.peak_speed_after, fastest_step_deg_s(result.take, 2), 1e-6);
   EXPECT_LT(arm.peak_speed_after, 0.7 * arm.peak_speed_before);
 }
 
 TEST(Report, WarnsOfALostPeakAndOfNothingElse) {
-  const Clip input = punch();
-  EXPECT_THAT(clean_clip(input, *make_butterworth({.cutoff_hz = 3})).report.warnings,
+  const Take input = punch();
+  EXPECT_THAT(clean_take(input, *make_butterworth({.cutoff_hz = 3})).report.warnings,
               ElementsAre(HasSubstr("LeftArm: peak speed falls from"),
                           HasSubstr("LeftArm: smoothing changes it by ")));
-  EXPECT_THAT(clean_clip(input, *make_butterworth({.cutoff_hz = 20})).report.warnings, IsEmpty());
+  EXPECT_THAT(clean_take(input, *make_butterworth({.cutoff_hz = 20})).report.warnings, IsEmpty());
   CleanSettings settings;
   settings.peak_loss_limit = 0.9;
-  EXPECT_THAT(clean_clip(input, *make_butterworth({.cutoff_hz = 3}), settings).report.warnings,
+  EXPECT_THAT(clean_take(input, *make_butterworth({.cutoff_hz = 3}), settings).report.warnings,
               ElementsAre(HasSubstr("LeftArm: smoothing changes it by ")));
 }
 
 TEST(Report, DoesNotTakeNoiseOrSpikesForPeaks) {
-  Clip input = punch();
+  Take input = punch();
   add_noise(input, 1, 0.1, 4);
   for (const std::size_t f : {30, 70, 190})
     input.rotation(f, 2) = input.rotation(f, 2) * exp({1.6, 0, 0});
-  const CleanResult fine = clean_clip(input, *make_butterworth({.cutoff_hz = 12}));
+  const CleanResult fine = clean_take(input, *make_butterworth({.cutoff_hz = 12}));
   // A spike that a filter smears is no peak that it loses.
   EXPECT_THAT(fine.report.warnings, ElementsAre(HasSubstr("LeftArm: smoothing changes it by ")));
   const TrackSummary& arm = fine.report.tracks[2];
   EXPECT_GT(arm.peak_frames, 1U);
   EXPECT_NEAR(arm.peak_speed_before, fastest_step_deg_s(punch(), 2), 200);
-  EXPECT_THAT(clean_clip(input, *make_butterworth({.cutoff_hz = 3})).report.warnings,
+  EXPECT_THAT(clean_take(input, *make_butterworth({.cutoff_hz = 3})).report.warnings,
               Contains(HasSubstr("LeftArm: peak speed falls from")));
 }
 

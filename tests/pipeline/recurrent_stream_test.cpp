@@ -24,29 +24,29 @@ namespace {
 
 using testing::HasSubstr;
 
-Clip noisy_walk(double duration_s, double rate_hz = 120) {
-  Clip clip = synthesize({.motion = "walk", .duration_s = duration_s, .frame_rate_hz = rate_hz});
+Take noisy_walk(double duration_s, double rate_hz = 120) {
+  Take clip = synthesize({.motion = "walk", .duration_s = duration_s, .frame_rate_hz = rate_hz});
   Random random(5);
   apply_damage(clip, "gaussian", {{"std_deg", 2.0}}, random);
   return clip;
 }
 
-BodyLayout layout_of(const Clip& clip) {
+BodyLayout layout_of(const Take& clip) {
   BodyLayoutBuilder builder;
   builder.add(clip);
   return builder.finish();
 }
 
-std::shared_ptr<const Model> model_of(const Clip& clip, RandomNetwork kind) {
+std::shared_ptr<const Model> model_of(const Take& clip, RandomNetwork kind) {
   const BodyLayout layout = layout_of(clip);
   return std::make_shared<const Model>(random_filter_model(kind, &layout));
 }
 
-std::unique_ptr<Cleaner> live_cleaner(const Clip& clip, RandomNetwork kind = {}) {
+std::unique_ptr<Cleaner> live_cleaner(const Take& clip, RandomNetwork kind = {}) {
   return make_recurrent({.live = true}, model_of(clip, kind));
 }
 
-std::vector<Frame> streamed(Stream& stream, const Clip& clip) {
+std::vector<Frame> streamed(Stream& stream, const Take& clip) {
   const TakeView view = view_of(clip);
   std::vector<Frame> result;
   Frame out;
@@ -59,16 +59,16 @@ std::vector<Frame> streamed(Stream& stream, const Clip& clip) {
   return result;
 }
 
-Clip offline(const Cleaner& cleaner, Clip clip) {
+Take offline(const Cleaner& cleaner, Take clip) {
   clean_in_place(cleaner, clip);
   return clip;
 }
 
-void expect_live_equals_offline(const Cleaner& cleaner, const Clip& clip) {
+void expect_live_equals_offline(const Cleaner& cleaner, const Take& clip) {
   const auto stream = make_stream(cleaner, clip);
   EXPECT_EQ(stream->latency_frames(), 15u);
   const std::vector<Frame> live = streamed(*stream, clip);
-  const Clip whole = offline(cleaner, clip);
+  const Take whole = offline(cleaner, clip);
   ASSERT_EQ(live.size(), clip.frame_count());
   for (std::size_t f = 0; f < live.size(); ++f) {
     for (std::size_t j = 0; j < clip.joint_count(); ++j)
@@ -78,21 +78,21 @@ void expect_live_equals_offline(const Cleaner& cleaner, const Clip& clip) {
 }
 
 TEST(RecurrentStream, GivesWhatItsLiveFormGivesForTheWholeTake) {
-  const Clip clip = noisy_walk(1.2);
+  const Take clip = noisy_walk(1.2);
   for (const RandomNetwork kind :
        {RandomNetwork{.layers = 2, .has_roughness = true}, RandomNetwork{.layers = 0, .reach = 15}})
     expect_live_equals_offline(*live_cleaner(clip, kind), clip);
 }
 
 TEST(RecurrentStream, GivesTheSameForTakesShorterThanItsDelay) {
-  const Clip whole = noisy_walk(1);
+  const Take whole = noisy_walk(1);
   for (const std::size_t frames : {1u, 2u, 9u, 15u, 17u})
     expect_live_equals_offline(*live_cleaner(whole), slice(whole, 0, frames));
 }
 
 TEST(RecurrentStream, FiltersTheJointsThatItsModelKnowsAndLeavesTheRoot) {
-  const Clip clip = noisy_walk(1.2);
-  const Clip cleaned = offline(*live_cleaner(clip), clip);
+  const Take clip = noisy_walk(1.2);
+  const Take cleaned = offline(*live_cleaner(clip), clip);
   const auto knee = static_cast<std::size_t>(clip.skeleton.find("LeftLeg"));
   double change = 0;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -103,7 +103,7 @@ TEST(RecurrentStream, FiltersTheJointsThatItsModelKnowsAndLeavesTheRoot) {
 }
 
 TEST(RecurrentStream, GivesTheSameWhereSamplesAreMissingWhateverStandsThere) {
-  Clip clip = noisy_walk(1.2);
+  Take clip = noisy_walk(1.2);
   const auto knee = static_cast<std::size_t>(clip.skeleton.find("LeftLeg"));
   clip.observed.assign(clip.frame_count() * clip.joint_count(), 1);
   const auto hide = [&](std::size_t joint, std::size_t first, std::size_t last) {
@@ -115,7 +115,7 @@ TEST(RecurrentStream, GivesTheSameWhereSamplesAreMissingWhateverStandsThere) {
   hide(1, 0, 8);
   const auto cleaner = live_cleaner(clip);
   expect_live_equals_offline(*cleaner, clip);
-  Clip other = clip;
+  Take other = clip;
   for (std::size_t i = 0; i < other.observed.size(); ++i) {
     if (other.observed[i] == 0) other.rotations[i] = exp(Vec3{1, -2, 0.5});
   }
@@ -123,7 +123,7 @@ TEST(RecurrentStream, GivesTheSameWhereSamplesAreMissingWhateverStandsThere) {
 }
 
 TEST(RecurrentStream, StartsAfreshWhenReset) {
-  const Clip clip = noisy_walk(0.7);
+  const Take clip = noisy_walk(0.7);
   const auto cleaner = live_cleaner(clip);
   const auto stream = make_stream(*cleaner, clip);
   const std::vector<Frame> first = streamed(*stream, clip);
@@ -135,7 +135,7 @@ TEST(RecurrentStream, StartsAfreshWhenReset) {
 
 // A value that is no number must not go on in what the network remembers.
 TEST(RecurrentStream, ForgetsValuesThatAreNoNumbers) {
-  const Clip clip = noisy_walk(2);
+  const Take clip = noisy_walk(2);
   const auto cleaner = live_cleaner(clip);
   std::vector<Frame> frames;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) frames.push_back(frame_of(view_of(clip), f));
@@ -172,14 +172,13 @@ std::string reason_of(const std::function<void()>& action) {
 }
 
 TEST(RecurrentStream, RefusesWhatDoesNotRunLiveAndSaysWhatDoes) {
-  const Clip clip = noisy_walk(0.5);
+  const Take clip = noisy_walk(0.5);
   EXPECT_THAT(reason_of([&] { make_stream(*make_recurrent(), clip); }), HasSubstr("--live"));
   const auto live = live_cleaner(clip);
   EXPECT_THAT(reason_of([&] { make_stream(*live, noisy_walk(0.5, 60)); }),
               HasSubstr("the network filters 120 Hz"));
-  EXPECT_THAT(
-      reason_of([&] { make_stream(*live, MarkerClip(make_marker_clip({"a"}, 0, 120)), 1); }),
-      HasSubstr("markers"));
+  EXPECT_THAT(reason_of([&] { make_stream(*live, Take(make_marker_take({"a"}, 0, 120)), 1); }),
+              HasSubstr("markers"));
 }
 
 }  // namespace

@@ -7,9 +7,9 @@
 
 #include "kinemend/clean.hpp"
 #include "kinemend/cleaner.hpp"
-#include "kinemend/clip.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/rotation.hpp"
+#include "kinemend/take.hpp"
 
 // The law that a repair is not blended with what it repaired.
 namespace kinemend::test {
@@ -23,7 +23,7 @@ struct Thrown {
 
 /// Throws single samples of the given joints off, each about its own axis, no two within `apart`
 /// frames of one joint.
-inline std::vector<Thrown> throw_spikes(Clip& clip, const std::vector<std::size_t>& joints,
+inline std::vector<Thrown> throw_spikes(Take& clip, const std::vector<std::size_t>& joints,
                                         std::size_t apart, std::uint64_t seed) {
   Random random(seed);
   std::vector<Thrown> thrown;
@@ -50,21 +50,21 @@ inline bool is_stated(const std::vector<ReportSpan>& spans, std::size_t frame, s
 
 /// At every strength above 0 what the method says it repaired is off by less than a tenth of what
 /// it was thrown off by. Returns how many of `thrown` it repaired.
-inline std::size_t expect_whole_repairs(const Clip& input, const std::vector<Thrown>& thrown,
+inline std::size_t expect_whole_repairs(const Take& input, const std::vector<Thrown>& thrown,
                                         const Cleaner& cleaner) {
-  const CleanResult whole = clean_clip(input, cleaner);
+  const CleanResult whole = clean_take(input, cleaner);
   std::size_t repaired = 0;
   for (const double strength : {0.1, 0.5, 0.9}) {
     CleanSettings settings;
     settings.strength = strength;
-    const CleanResult part = clean_clip(input, cleaner, settings);
+    const CleanResult part = clean_take(input, cleaner, settings);
     repaired = 0;
     for (const Thrown& at : thrown) {
       if (!is_stated(whole.report.spans, at.frame, at.joint, Action::despiked)) continue;
       ++repaired;
       EXPECT_TRUE(is_stated(part.report.spans, at.frame, at.joint, Action::despiked));
-      const double left = angle_between(part.clip.rotation(at.frame, at.joint),
-                                        whole.clip.rotation(at.frame, at.joint));
+      const double left = angle_between(part.take.rotation(at.frame, at.joint),
+                                        whole.take.rotation(at.frame, at.joint));
       EXPECT_LT(left * degrees_per_radian, 0.1 * spike_deg)
           << "strength " << strength << ", frame " << at.frame << ", joint " << at.joint;
     }

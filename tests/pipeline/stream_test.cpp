@@ -13,10 +13,10 @@
 namespace kinemend::test {
 namespace {
 
-Frame frame_at(const Clip& clip, std::size_t f) { return frame_of(view_of(clip), f); }
+Frame frame_at(const Take& clip, std::size_t f) { return frame_of(view_of(clip), f); }
 
 // All frames pushed and flushed; checks that every frame comes out at its time.
-std::vector<Frame> run(Stream& stream, const Clip& clip) {
+std::vector<Frame> run(Stream& stream, const Take& clip) {
   std::vector<Frame> result;
   Frame out;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -30,7 +30,7 @@ std::vector<Frame> run(Stream& stream, const Clip& clip) {
   return result;
 }
 
-void expect_equal(const std::vector<Frame>& live, const Clip& offline, std::size_t first = 0) {
+void expect_equal(const std::vector<Frame>& live, const Take& offline, std::size_t first = 0) {
   ASSERT_EQ(live.size(), offline.frame_count());
   double turn = 0, shift = 0;
   for (std::size_t f = first; f < live.size(); ++f) {
@@ -77,8 +77,8 @@ class LiveMethod : public testing::TestWithParam<NamedLive> {
  protected:
   std::unique_ptr<Cleaner> cleaner_ = make_cleaner(GetParam().method, GetParam().options);
 
-  Clip take(std::size_t frames) const {
-    Clip clip = moving_take(frames, 120);
+  Take take(std::size_t frames) const {
+    Take clip = moving_take(frames, 120);
     add_noise(clip, 1.5, 0.5, 1);
     Random random(2);
     for (std::size_t f = 0; f < frames; ++f) {
@@ -88,27 +88,27 @@ class LiveMethod : public testing::TestWithParam<NamedLive> {
     }
     return clip;
   }
-  Clip offline(Clip clip) const {
+  Take offline(Take clip) const {
     clean_in_place(*cleaner_, clip);
     return clip;
   }
 };
 
 TEST_P(LiveMethod, GivesWhatItGivesForTheWholeTake) {
-  const Clip clip = take(200);
+  const Take clip = take(200);
   expect_equal(run(*make_stream(*cleaner_, clip), clip), offline(clip));
 }
 
 TEST_P(LiveMethod, GivesTheSameForTakesShorterThanItsWindow) {
   for (const std::size_t frames : {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 11, 14}) {
-    const Clip clip = take(frames);
+    const Take clip = take(frames);
     SCOPED_TRACE(frames);
     expect_equal(run(*make_stream(*cleaner_, clip), clip), offline(clip));
   }
 }
 
 TEST_P(LiveMethod, StartsAfreshWhenReset) {
-  const Clip clip = take(60);
+  const Take clip = take(60);
   const auto stream = make_stream(*cleaner_, clip);
   const std::vector<Frame> first = run(*stream, clip);
   stream->reset();
@@ -126,7 +126,7 @@ TEST_P(LiveMethod, StartsAfreshWhenReset) {
 }
 
 TEST_P(LiveMethod, IsDelayedByTheSameNumberOfFramesFromTheFirstOn) {
-  const Clip clip = take(50);
+  const Take clip = take(50);
   const auto stream = make_stream(*cleaner_, clip);
   const std::size_t latency = stream->latency_frames();
   EXPECT_EQ(latency, cleaner_->live(view_of(clip))->lookahead());
@@ -135,7 +135,7 @@ TEST_P(LiveMethod, IsDelayedByTheSameNumberOfFramesFromTheFirstOn) {
 }
 
 TEST_P(LiveMethod, TakesNoNoticeOfJointsThatWereNotSeen) {
-  Clip a = take(120), b = a;
+  Take a = take(120), b = a;
   a.observed.assign(a.rotations.size(), 1);
   for (std::size_t f = 60; f < 64; ++f) {
     a.observed[f * a.joint_count() + 2] = 0;
@@ -154,8 +154,8 @@ TEST_P(LiveMethod, TakesNoNoticeOfJointsThatWereNotSeen) {
 
 TEST_P(LiveMethod, AGapOfOneJointChangesNoOther) {
   if (GetParam().method == "nonlocal") GTEST_SKIP() << "compares whole poses";
-  const Clip whole = take(120);
-  Clip gapped = whole;
+  const Take whole = take(120);
+  Take gapped = whole;
   gapped.observed.assign(whole.rotations.size(), 1);
   for (const std::size_t f : {0, 1, 60, 61, 62, 90, 119})
     gapped.observed[f * whole.joint_count() + 2] = 0;
@@ -174,7 +174,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, LiveMethod, testing::ValuesIn(live_methods()),
                          [](const auto& method) { return method.param.name; });
 
 TEST(Stream, RefusesAMethodThatNeedsTheWholeTake) {
-  const Clip clip = moving_take(5, 120);
+  const Take clip = moving_take(5, 120);
   const auto wavelet = make_wavelet();
   try {
     make_stream(*wavelet, clip);
@@ -186,7 +186,7 @@ TEST(Stream, RefusesAMethodThatNeedsTheWholeTake) {
 }
 
 TEST(Stream, RefusesAFrameOfAnotherSkeleton) {
-  const Clip clip = moving_take(5, 120);
+  const Take clip = moving_take(5, 120);
   Frame frame = frame_at(clip, 0), out;
   frame.rotations.pop_back();
   for (const char* method : {"median", "one-euro"}) {

@@ -22,7 +22,7 @@ struct Gate {
 
 // What a method makes of a take at its defaults; `kalman-learned`, of which no model ships, with
 // one of other takes, most of them of the same motions.
-Clip cleaned_by_default(const Clip& clip, const Method& method) {
+Take cleaned_by_default(const Take& clip, const Method& method) {
   if (method.name != "kalman-learned") return cleaned(clip, method.name);
   static const auto model = std::make_shared<const Model>(train_model(
       method.name, {7, [](std::size_t i) {
@@ -30,15 +30,15 @@ Clip cleaned_by_default(const Clip& clip, const Method& method) {
                                                        "02_06", "02_07", "02_08"};
                       return Take(real_clip(names[i]));
                     }}));
-  return clean_clip(clip, *make_kalman_learned({}, model)).clip;
+  return clean_take(clip, *make_kalman_learned({}, model)).take;
 }
 
 class AutoOnRealTakes : public testing::TestWithParam<Gate> {};
 
 TEST_P(AutoOnRealTakes, ReachesTheGateOnEverySeed) {
-  const Clip truth = real_clip(GetParam().clip);
+  const Take truth = real_clip(GetParam().clip);
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const Clip noisy = damaged(truth, 1.5, 0.004, seed);
+    const Take noisy = damaged(truth, 1.5, 0.004, seed);
     const Figures before = figures(truth, noisy);
     const Figures after = figures(truth, cleaned(noisy, "auto"));
     EXPECT_GT(before.rms, 3.0) << "the damage is that of the gate";
@@ -50,9 +50,9 @@ TEST_P(AutoOnRealTakes, ReachesTheGateOnEverySeed) {
 }
 
 TEST_P(AutoOnRealTakes, BeatsEveryFilterWithFixedParameters) {
-  const Clip truth = real_clip(GetParam().clip);
+  const Take truth = real_clip(GetParam().clip);
   for (const double noise_deg : {0.5, 1.5, 3.0}) {
-    const Clip noisy = damaged(truth, noise_deg, 0.004, 11);
+    const Take noisy = damaged(truth, noise_deg, 0.004, 11);
     const double ours = figures(truth, cleaned(noisy, "auto")).rms;
     for (const auto& filter : fixed_filters()) {
       const double theirs = figures(truth, cleaned(noisy, filter.first, filter.second)).rms;
@@ -62,8 +62,8 @@ TEST_P(AutoOnRealTakes, BeatsEveryFilterWithFixedParameters) {
 }
 
 TEST_P(AutoOnRealTakes, AndEveryOtherMethodBeatsTheDamageByItsMargin) {
-  const Clip truth = real_clip(GetParam().clip);
-  const Clip noisy = damaged(truth, 1.5, 0, 21), spiked = damaged(truth, 0, 0.01, 21);
+  const Take truth = real_clip(GetParam().clip);
+  const Take noisy = damaged(truth, 1.5, 0, 21), spiked = damaged(truth, 0, 0.01, 21);
   // Share of the damage that may be left: of white noise, or of spikes for the methods that look
   // for those. The network of `recurrent` has learned noise of each channel's size.
   const std::map<std::string, double, std::less<>> of_noise{
@@ -93,14 +93,14 @@ TEST_P(AutoOnRealTakes, AndEveryOtherMethodBeatsTheDamageByItsMargin) {
 INSTANTIATE_TEST_SUITE_P(Gates, AutoOnRealTakes,
                          testing::Values(Gate{"35_01", 1.15, 3.3}, Gate{"02_05", 0.80, 2.0},
                                          Gate{"09_03", 1.10, 3.0}),
-                         [](const auto& gate) { return "Clip" + std::string(gate.param.clip); });
+                         [](const auto& gate) { return "Take" + std::string(gate.param.clip); });
 
 // Impulses of one size on takes that are otherwise clean: nothing that is the take's own is taken
 // for one.
 TEST(AutoOnImpulses, ReachesSixtyFiveDecibels) {
   for (const char* name : {"09_03", "02_05", "01_01"}) {
-    const Clip truth = real_clip(name);
-    Clip clip = truth;
+    const Take truth = real_clip(name);
+    Take clip = truth;
     Random random(2016);
     apply_damage(clip, "impulse", {}, random);
     EXPECT_GT(psnr_db(truth, cleaned(clip, "auto")), 65) << name;
@@ -110,7 +110,7 @@ TEST(AutoOnImpulses, ReachesSixtyFiveDecibels) {
 class AutoOnCleanTakes : public testing::TestWithParam<const char*> {};
 
 TEST_P(AutoOnCleanTakes, ChangesLessThanATwentiethOfADegree) {
-  const Clip clip = real_clip(GetParam());
+  const Take clip = real_clip(GetParam());
   EXPECT_LT(geodesic_rms_deg(clip, cleaned(clip, "auto")), 0.05);
 }
 
@@ -118,15 +118,15 @@ INSTANTIATE_TEST_SUITE_P(Kinds, AutoOnCleanTakes,
                          testing::Values("35_01", "35_17", "16_15", "16_35", "02_01", "02_05",
                                          "09_03", "13_11", "05_02", "05_05", "05_06", "01_04",
                                          "16_02", "16_33", "08_10", "49_01", "82_04", "131_05"),
-                         [](const auto& clip) { return "Clip" + std::string(clip.param); });
+                         [](const auto& clip) { return "Take" + std::string(clip.param); });
 
 // Captures in which a thumb flips by half a turn for a frame or two: those samples are no motion,
 // and nothing else is touched.
 class AutoOnTakesWithFlips : public testing::TestWithParam<const char*> {};
 
 TEST_P(AutoOnTakesWithFlips, RepairsTheFlipsAndNothingElse) {
-  const Clip clip = real_clip(GetParam());
-  const Clip result = cleaned(clip, "auto");
+  const Take clip = real_clip(GetParam());
+  const Take result = cleaned(clip, "auto");
   std::size_t repaired = 0;
   for (std::size_t i = 0; i < clip.rotations.size(); ++i) {
     const double change =
@@ -141,7 +141,7 @@ TEST_P(AutoOnTakesWithFlips, RepairsTheFlipsAndNothingElse) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, AutoOnTakesWithFlips, testing::Values("06_13", "60_03", "91_49"),
-                         [](const auto& clip) { return "Clip" + std::string(clip.param); });
+                         [](const auto& clip) { return "Take" + std::string(clip.param); });
 
 }  // namespace
 }  // namespace kinemend::quality

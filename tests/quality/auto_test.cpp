@@ -13,7 +13,7 @@
 namespace kinemend::quality {
 namespace {
 
-Clip take(const std::string& motion, double duration_s = 5, double rate_hz = 120) {
+Take take(const std::string& motion, double duration_s = 5, double rate_hz = 120) {
   SynthOptions options;
   options.motion = motion;
   options.duration_s = duration_s;
@@ -21,12 +21,14 @@ Clip take(const std::string& motion, double duration_s = 5, double rate_hz = 120
   return synthesize(options);
 }
 
-Clip shipped(const char* name) { return read_clip(std::string(KINEMEND_TAKES) + "/" + name).clip; }
+Take shipped(const char* name) {
+  return read_joints(std::string(KINEMEND_TAKES) + "/" + name).take;
+}
 
 /// Four joints in a chain: the first turns through +-180 degrees of yaw, the second reaches 88
 /// degrees of pitch.
-Clip turning_chain() {
-  Clip clip;
+Take turning_chain() {
+  Take clip;
   const RotationOrder order = parse_rotation_order("ZYX");
   for (int j = 0; j < 4; ++j) {
     clip.skeleton.add_joint("link" + std::to_string(j), j - 1, {0, 10, 0},
@@ -49,8 +51,8 @@ Clip turning_chain() {
 // Noise that moves some axes much more than others: half of what each channel does.
 TEST(Auto, BeatsGaussiansOfAnyWidthWhereNoiseHasDirections) {
   for (const char* motion : {"walk", "run", "punch"}) {
-    const Clip truth = take(motion);
-    Clip noisy = truth;
+    const Take truth = take(motion);
+    Take noisy = truth;
     Random random(7);
     apply_damage(noisy, "gaussian-channels", {{"k", 0.5}}, random);
     const double ours = figures(truth, cleaned(noisy, "auto")).rms;
@@ -64,8 +66,8 @@ TEST(Auto, BeatsGaussiansOfAnyWidthWhereNoiseHasDirections) {
 class AutoOnShippedMotions : public testing::TestWithParam<const char*> {};
 
 TEST_P(AutoOnShippedMotions, BeatsEveryFilterWithFixedParameters) {
-  const Clip truth = take(GetParam());
-  const Clip noisy = damaged(truth, 1.5, 0.004, 3);
+  const Take truth = take(GetParam());
+  const Take noisy = damaged(truth, 1.5, 0.004, 3);
   const double ours = figures(truth, cleaned(noisy, "auto")).rms;
   EXPECT_LT(ours, 0.45 * figures(truth, noisy).rms);
   for (const auto& filter : fixed_filters()) {
@@ -75,13 +77,13 @@ TEST_P(AutoOnShippedMotions, BeatsEveryFilterWithFixedParameters) {
 }
 
 TEST_P(AutoOnShippedMotions, LeavesACleanTakeAlone) {
-  const Clip truth = take(GetParam());
+  const Take truth = take(GetParam());
   EXPECT_LT(geodesic_rms_deg(truth, cleaned(truth, "auto")), 0.05);
 }
 
 TEST_P(AutoOnShippedMotions, ChangesLittleTheSecondTime) {
-  const Clip noisy = damaged(take(GetParam()), 1.5, 0.004, 5);
-  const Clip once = cleaned(noisy, "auto");
+  const Take noisy = damaged(take(GetParam()), 1.5, 0.004, 5);
+  const Take once = cleaned(noisy, "auto");
   const double first_change = geodesic_rms_deg(noisy, once);
   EXPECT_LT(geodesic_rms_deg(once, cleaned(once, "auto")), 0.1 * first_change);
 }
@@ -91,27 +93,27 @@ INSTANTIATE_TEST_SUITE_P(Motions, AutoOnShippedMotions,
                          [](const auto& motion) { return std::string(motion.param); });
 
 TEST(Auto, CleansTheTakeThatShips) {
-  const Clip truth = shipped("walk.bvh"), noisy = shipped("noisy_walk.bvh");
+  const Take truth = shipped("walk.bvh"), noisy = shipped("noisy_walk.bvh");
   const Figures before = figures(truth, noisy), after = figures(truth, cleaned(noisy, "auto"));
   EXPECT_GT(before.rms, 3.0);
   EXPECT_LT(after.rms, 0.25 * before.rms);
 }
 
 TEST(Auto, HoldsThroughHalfTurnsAndNearGimbalLock) {
-  const Clip truth = turning_chain();
-  const Clip noisy = damaged(truth, 1.0, 0, 7);
+  const Take truth = turning_chain();
+  const Take noisy = damaged(truth, 1.0, 0, 7);
   EXPECT_GT(geodesic_rms_deg(truth, noisy), 1.6);
-  const Clip result = cleaned(noisy, "auto");
+  const Take result = cleaned(noisy, "auto");
   EXPECT_LT(geodesic_rms_deg(truth, result), 0.50);
-  const Clip written = read_clip(write_clip(result), "chain.bvh").clip;
+  const Take written = read_joints(write_take(result), "chain.bvh").take;
   EXPECT_LT(geodesic_rms_deg(truth, written), 0.50);
 }
 
 TEST(Auto, HasNoBumpOrFadeAtTheEnds) {
-  const Clip truth = take("walk");
+  const Take truth = take("walk");
   double ends = 0, middle = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const Clip result = cleaned(damaged(truth, 1.5, 0, seed), "auto");
+    const Take result = cleaned(damaged(truth, 1.5, 0, seed), "auto");
     const std::size_t frames = truth.frame_count();
     ends += geodesic_rms_deg(slice(truth, 0, 5), slice(result, 0, 5)) +
             geodesic_rms_deg(slice(truth, frames - 5, frames), slice(result, frames - 5, frames));
@@ -122,8 +124,8 @@ TEST(Auto, HasNoBumpOrFadeAtTheEnds) {
 }
 
 TEST(Auto, TakesNoNoticeOfTheSignOfAQuaternion) {
-  const Clip noisy = damaged(take("turn", 3), 1.5, 0.004, 9);
-  Clip negated = noisy;
+  const Take noisy = damaged(take("turn", 3), 1.5, 0.004, 9);
+  Take negated = noisy;
   for (std::size_t i = 0; i < negated.rotations.size(); i += 3) {
     negated.rotations[i] = -negated.rotations[i];
   }
@@ -131,8 +133,8 @@ TEST(Auto, TakesNoNoticeOfTheSignOfAQuaternion) {
 }
 
 TEST(Auto, DoesNotShiftTheMotionInTime) {
-  const Clip truth = take("walk");
-  const Clip result = cleaned(damaged(truth, 1.5, 0.004, 2), "auto");
+  const Take truth = take("walk");
+  const Take result = cleaned(damaged(truth, 1.5, 0.004, 2), "auto");
   const std::size_t frames = truth.frame_count();
   const auto error_at = [&](int lag) {
     const auto first = static_cast<std::size_t>(10 + lag);
@@ -144,8 +146,8 @@ TEST(Auto, DoesNotShiftTheMotionInTime) {
 }
 
 TEST(Auto, ReversedInTimeGivesTheReversedResult) {
-  const Clip noisy = damaged(take("walk", 3), 1.5, 0.004, 4);
-  const auto reversed = [](Clip clip) {
+  const Take noisy = damaged(take("walk", 3), 1.5, 0.004, 4);
+  const auto reversed = [](Take clip) {
     const std::size_t joints = clip.joint_count(), frames = clip.frame_count();
     for (std::size_t f = 0; f < frames / 2; ++f) {
       std::swap(clip.root_position(f), clip.root_position(frames - 1 - f));
@@ -161,10 +163,10 @@ TEST(Auto, ReversedInTimeGivesTheReversedResult) {
 class FastEvent : public testing::TestWithParam<const char*> {};
 
 TEST_P(FastEvent, KeepsItsPeakSpeed) {
-  const Clip truth = take(GetParam(), 4);
-  const CleanResult result = clean_clip(damaged(truth, 0.5, 0.002, 6), *make_cleaner("auto"));
+  const Take truth = take(GetParam(), 4);
+  const CleanResult result = clean_take(damaged(truth, 0.5, 0.002, 6), *make_cleaner("auto"));
   const auto before = peak_angular_speed_deg_s(truth),
-             after = peak_angular_speed_deg_s(result.clip);
+             after = peak_angular_speed_deg_s(result.take);
   for (std::size_t j = 0; j < truth.joint_count(); ++j) {
     if (before[j] < 200) continue;
     EXPECT_GT(after[j], 0.85 * before[j]) << truth.skeleton.names[j];
@@ -176,15 +178,15 @@ INSTANTIATE_TEST_SUITE_P(Events, FastEvent, testing::Values("punch", "clap", "la
                          [](const auto& motion) { return std::string(motion.param); });
 
 TEST(Auto, KeepsTheContactOfALanding) {
-  const Clip truth = take("landing", 4);
-  const Clip noisy = damaged(truth, 0.5, 0.002, 8);
-  const Clip result = cleaned(noisy, "auto");
+  const Take truth = take("landing", 4);
+  const Take noisy = damaged(truth, 0.5, 0.002, 8);
+  const Take result = cleaned(noisy, "auto");
   EXPECT_LT(foot_slide(truth, result).per_frame, 0.5 * foot_slide(truth, noisy).per_frame);
 }
 
 TEST(Auto, LeavesUntouchedJointsBitwiseAlone) {
-  Clip noisy = damaged(take("wave", 3), 1.5, 0.004, 12);
-  const Clip truth = take("wave", 3);
+  Take noisy = damaged(take("wave", 3), 1.5, 0.004, 12);
+  const Take truth = take("wave", 3);
   // Fingers as captured by a glove, exact.
   std::vector<std::size_t> exact;
   for (std::size_t j = 0; j < noisy.joint_count(); ++j) {
@@ -194,7 +196,7 @@ TEST(Auto, LeavesUntouchedJointsBitwiseAlone) {
       noisy.rotation(f, j) = truth.rotation(f, j);
   }
   ASSERT_FALSE(exact.empty());
-  const Clip result = cleaned(noisy, "auto");
+  const Take result = cleaned(noisy, "auto");
   for (const std::size_t j : exact) {
     for (std::size_t f = 0; f < noisy.frame_count(); ++f) {
       ASSERT_EQ(noisy.rotation(f, j), result.rotation(f, j))
@@ -205,11 +207,11 @@ TEST(Auto, LeavesUntouchedJointsBitwiseAlone) {
 
 TEST(Auto, UsesTheRateOfTheFile) {
   const double at_60 = [] {
-    const Clip truth = take("walk", 5, 60);
+    const Take truth = take("walk", 5, 60);
     return figures(truth, cleaned(damaged(truth, 1.5, 0.004, 1), "auto")).rms;
   }();
   const double at_240 = [] {
-    const Clip truth = take("walk", 5, 240);
+    const Take truth = take("walk", 5, 240);
     return figures(truth, cleaned(damaged(truth, 1.5, 0.004, 1), "auto")).rms;
   }();
   EXPECT_LT(at_60, 1.4);
@@ -220,19 +222,19 @@ TEST(Auto, KeepsATPoseOutOfTheMotion) {
   SynthOptions options;
   options.duration_s = 3;
   options.t_pose_first = true;
-  const Clip truth = synthesize(options);
+  const Take truth = synthesize(options);
   ASSERT_EQ(leading_calibration_frames(truth), 1U);
-  const Clip noisy = damaged(truth, 1.5, 0.004, 1);
-  const CleanResult with_pose = clean_clip(noisy, *make_cleaner("auto"));
+  const Take noisy = damaged(truth, 1.5, 0.004, 1);
+  const CleanResult with_pose = clean_take(noisy, *make_cleaner("auto"));
   const CleanResult without_pose =
-      clean_clip(slice(noisy, 1, noisy.frame_count()), *make_cleaner("auto"));
+      clean_take(slice(noisy, 1, noisy.frame_count()), *make_cleaner("auto"));
   EXPECT_EQ(with_pose.report.calibration_frames, 1U);
-  EXPECT_EQ(geodesic_rms_deg(slice(with_pose.clip, 1, noisy.frame_count()), without_pose.clip),
+  EXPECT_EQ(geodesic_rms_deg(slice(with_pose.take, 1, noisy.frame_count()), without_pose.take),
             0.0);
 }
 
 // The largest angle between two clips over all joints of some frames, degrees.
-double largest_difference(const Clip& a, const Clip& b, std::size_t first, std::size_t last) {
+double largest_difference(const Take& a, const Take& b, std::size_t first, std::size_t last) {
   double largest = 0;
   for (std::size_t f = first; f < last; ++f) {
     for (std::size_t j = 0; j < a.joint_count(); ++j) {
@@ -244,27 +246,27 @@ double largest_difference(const Clip& a, const Clip& b, std::size_t first, std::
 
 TEST(Auto, KeepsAFrozenFirstFrameOutOfTheMotion) {
   // The recorder wrote the last pose of the take before into its first frame.
-  const Clip truth = take("walk", 4);
-  const Clip noisy = damaged(truth, 1.5, 0, 21);
-  Clip with_stale_frame = noisy;
+  const Take truth = take("walk", 4);
+  const Take noisy = damaged(truth, 1.5, 0, 21);
+  Take with_stale_frame = noisy;
   for (std::size_t j = 0; j < truth.joint_count(); ++j) {
     with_stale_frame.rotation(0, j) = exp({0.5, 0.2 * static_cast<double>(j % 5), -0.4});
   }
-  const Clip expected = cleaned(noisy, "auto"), result = cleaned(with_stale_frame, "auto");
+  const Take expected = cleaned(noisy, "auto"), result = cleaned(with_stale_frame, "auto");
   EXPECT_LT(largest_difference(expected, result, 1, 20), 6);
   EXPECT_LT(largest_difference(expected, result, 20, truth.frame_count()), 0.7);
-  const auto part = [](const Clip& clip) { return slice(clip, 1, clip.frame_count()); };
+  const auto part = [](const Take& clip) { return slice(clip, 1, clip.frame_count()); };
   EXPECT_LT(figures(part(truth), part(result)).rms,
             1.05 * figures(part(truth), part(expected)).rms);
 }
 
 TEST(Auto, RepairsManySpikesInAnOtherwiseCleanTake) {
-  const Clip truth = take("walk", 5);
+  const Take truth = take("walk", 5);
   for (const double share : {0.001, 0.004, 0.01, 0.02}) {
-    Clip spiked = truth;
+    Take spiked = truth;
     Random random(3);
     apply_damage(spiked, "outliers", {{"share", share}, {"std_deg", 25.0}}, random);
-    const Clip result = cleaned(spiked, "auto");
+    const Take result = cleaned(spiked, "auto");
     EXPECT_GT(figures(truth, spiked).rms, 1.0);
     EXPECT_LT(figures(truth, result).rms, 0.1) << "share " << share;
   }
@@ -272,14 +274,14 @@ TEST(Auto, RepairsManySpikesInAnOtherwiseCleanTake) {
 
 TEST(Auto, LeavesToesThatLeaveTheGroundAloneAtLowRates) {
   for (const double rate_hz : {30.0, 60.0}) {
-    const Clip truth = take("run", 10, rate_hz);
+    const Take truth = take("run", 10, rate_hz);
     EXPECT_LT(figures(truth, cleaned(truth, "auto")).rms, 0.05) << rate_hz;
   }
 }
 
 TEST(Auto, RepairsWhatGoesFarBeyondTheHabitOfAToe) {
-  const Clip truth = take("run", 10, 60);
-  Clip thrown = truth;
+  const Take truth = take("run", 10, 60);
+  Take thrown = truth;
   const auto toe = static_cast<std::size_t>(truth.skeleton.find("LeftToeBase"));
   const auto knee = static_cast<std::size_t>(truth.skeleton.find("LeftLeg"));
   for (std::size_t f = 40; f < 560; f += 40) {
@@ -290,9 +292,9 @@ TEST(Auto, RepairsWhatGoesFarBeyondTheHabitOfAToe) {
 }
 
 TEST(Auto, SurvivesTheShortestTakes) {
-  const Clip walk = damaged(take("walk"), 1.5, 0.004, 1);
+  const Take walk = damaged(take("walk"), 1.5, 0.004, 1);
   for (const std::size_t frames : {1U, 2U, 3U, 4U, 5U, 8U, 13U, 30U}) {
-    const Clip result = cleaned(slice(walk, 0, frames), "auto");
+    const Take result = cleaned(slice(walk, 0, frames), "auto");
     EXPECT_NO_THROW(result.validate());
     EXPECT_EQ(result.frame_count(), frames);
   }

@@ -15,7 +15,7 @@ namespace {
 struct Outcome {
   double slide = 0, legs_deg = 0, position = 0;
 
-  Outcome(const Clip& truth, const Clip& clip, const std::vector<FootContact>& contacts) {
+  Outcome(const Take& truth, const Take& clip, const std::vector<FootContact>& contacts) {
     slide = feet_figures(clip, contacts).slide;
     position = mpjpe(truth, clip);
     const std::vector<double> joints = geodesic_rms_deg_per_joint(truth, clip);
@@ -31,14 +31,14 @@ struct Outcome {
 TEST(FeetOfNoisyTakes, SlideLessAndLegsAreNoWorse) {
   for (const char* motion : {"walk", "stroll"}) {
     for (const std::uint64_t seed : {1, 2, 3}) {
-      const Clip truth = test::synthetic_clip(motion, 6, 120, seed);
+      const Take truth = test::synthetic_clip(motion, 6, 120, seed);
       const std::vector<FootContact> contacts = find_contacts(truth);
-      const Clip noisy = test::with_noise(truth, 1, seed + 10);
+      const Take noisy = test::with_noise(truth, 1, seed + 10);
       CleanSettings settings;
       const auto cleaner = make_auto();
-      const Outcome off(truth, clean_clip(noisy, *cleaner, settings).clip, contacts);
+      const Outcome off(truth, clean_take(noisy, *cleaner, settings).take, contacts);
       settings.feet.emplace();
-      const Outcome on(truth, clean_clip(noisy, *cleaner, settings).clip, contacts);
+      const Outcome on(truth, clean_take(noisy, *cleaner, settings).take, contacts);
       EXPECT_LT(on.slide, 0.5 * off.slide) << motion << seed;
       EXPECT_LE(on.legs_deg, off.legs_deg) << motion << seed;
       EXPECT_LE(on.position, off.position) << motion << seed;

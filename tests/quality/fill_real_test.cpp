@@ -18,7 +18,7 @@
 namespace kinemend::quality {
 namespace {
 
-MarkerClip take_points(const std::string& path, std::size_t skip, std::size_t most) {
+Take take_points(const std::string& path, std::size_t skip, std::size_t most) {
   return points_of(std::filesystem::path(KINEMEND_DATA_FOLDER) / path, skip, most);
 }
 
@@ -28,13 +28,12 @@ struct Figures {
   std::size_t refused = 0;
 };
 
-Figures fill_figures(const MarkerClip& truth, std::size_t length,
-                     const std::string& method = "auto") {
+Figures fill_figures(const Take& truth, std::size_t length, const std::string& method = "auto") {
   constexpr std::uint64_t seeds = 10;
   Figures figures;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    const MarkerClip damaged = with_gaps(truth, length, seed);
-    MarkerClip clip = damaged;
+    const Take damaged = with_gaps(truth, length, seed);
+    Take clip = damaged;
     FillSettings settings;
     settings.method = method;
     figures.refused += fill_gaps(clip, settings).refused();
@@ -88,7 +87,7 @@ TEST(FillRealTakes, OtherTakesAreOffByAsLittle) {
 }
 
 TEST(FillRealTakes, AutoIsBetterThanEachMethodByItself) {
-  const MarkerClip truth = take_points("cmu/c3d/85_02.c3d", 0, body_markers);
+  const Take truth = take_points("cmu/c3d/85_02.c3d", 0, body_markers);
   const double chosen = fill_figures(truth, 30).mean;
   for (const char* method :
        {"spline", "quintic", "pchip", "rigid-body", "pca", "local-regression"}) {
@@ -100,8 +99,8 @@ TEST(FillRealTakes, AutoIsBetterThanEachMethodByItself) {
 struct Promises {
   std::vector<fill::Kept> kept;
 
-  template <class AnyClip>
-  void add(const AnyClip& truth, std::vector<std::size_t> tracks, std::uint64_t rounds) {
+  template <class Take>
+  void add(const Take& truth, std::vector<std::size_t> tracks, std::uint64_t rounds) {
     for (std::uint64_t seed = 1; seed <= rounds; ++seed) {
       const auto some = fill::make_and_fill(truth, tracks, 8, seed);
       kept.insert(kept.end(), some.begin(), some.end());
@@ -128,7 +127,7 @@ TEST(FillRealTakes, PromisesOfMarkersHoldOnTakesOfOthers) {
         "paired/S02-Trial-Walk-1-vicon.c3d", "trc/SprintMotion.trc", "trc/MOTEK/ballet_reduced.trc",
         "real/depth-RTK.reference.trc"}) {
     const std::size_t skip = std::string(path).find("HDM") == std::string::npos ? 0 : 3;
-    const MarkerClip truth = take_points(path, skip, body_markers);
+    const Take truth = take_points(path, skip, body_markers);
     promises.add(truth, fill::whole_markers(truth), 8);
   }
   const fill::Figures f = promises.figures("markers", 0.5);
@@ -140,11 +139,11 @@ TEST(FillRealTakes, PromisesOfMarkersHoldOnTakesOfOthers) {
 
 // A heel in its swing, seen for three seconds at 60 Hz: what lies nearest in time is slower.
 TEST(FillRealTakes, PromisesHoldForAHeelInItsSwing) {
-  const MarkerClip truth = take_points("c3d/btk/c3d.org/sample06/MACsample.c3d", 0, body_markers);
+  const Take truth = take_points("c3d/btk/c3d.org/sample06/MACsample.c3d", 0, body_markers);
   const std::size_t heel = fill::track_of(truth, "LHEE"), length = 20;
   std::size_t gaps = 0, within_twice = 0;
   for (std::size_t first = 1; first + length < truth.frame_count(); ++first) {
-    MarkerClip clip = truth;
+    Take clip = truth;
     fill::hide(clip, "LHEE", first, first + length - 1);
     const Gap hidden{heel, first, first + length - 1};
     const FillReport report = fill_gaps(clip);
@@ -163,12 +162,12 @@ TEST(FillRealTakes, PromisesHoldForAHeelInItsSwing) {
 
 // At 50 Hz six frames are longer than the gaps in which a spline goes first.
 TEST(FillRealTakes, GapsOfSixFramesAtFiftyHertzAreSeldomWorseThanTwiceTheSpline) {
-  const MarkerClip truth = take_points("c3d/btk/c3d.org/sample01/Eb015si.c3d", 0, body_markers);
+  const Take truth = take_points("c3d/btk/c3d.org/sample01/Eb015si.c3d", 0, body_markers);
   std::size_t gaps = 0, worse = 0;
   for (std::size_t first = 3; first + 9 < truth.frame_count(); first += 2) {
-    MarkerClip clip = truth;
+    Take clip = truth;
     fill::hide(clip, "LFT2", first, first + 5);
-    MarkerClip splined = clip;
+    Take splined = clip;
     const FillReport report = fill_gaps(clip);
     fill::fill_with(splined, "spline", true);
     for (const GapOutcome& outcome : report.gaps) {
@@ -188,8 +187,8 @@ TEST(FillRealTakes, PromisesOfJointsHoldOnTakesOfOthers) {
   for (const char* name :
        {"01_05", "03_03", "07_04", "09_05", "10_03", "11_01", "35_20", "131_05"}) {
     const std::string path = std::string(KINEMEND_DATA_FOLDER "/cmu/bvh/") + name + ".bvh";
-    const Clip all = read_clip(std::filesystem::path(path)).clip;
-    const Clip truth = slice(all, leading_calibration_frames(all), all.frame_count());
+    const Take all = read_joints(std::filesystem::path(path)).take;
+    const Take truth = slice(all, leading_calibration_frames(all), all.frame_count());
     promises.add(truth, fill::moving_joints(truth), 8);
   }
   const fill::Figures f = promises.figures("joints", 0.1);

@@ -16,15 +16,15 @@
 namespace kinemend::quality {
 
 /// `most` points of a take from number `skip` on: what comes behind them are angles and the like.
-inline MarkerClip points_of(const std::filesystem::path& path, std::size_t skip, std::size_t most) {
-  const MarkerClip all = std::get<MarkerClip>(read_take(path).take);
+inline Take points_of(const std::filesystem::path& path, std::size_t skip, std::size_t most) {
+  const Take all = read_take(path).take;
   std::vector<std::size_t> kept;
   std::vector<std::string> names;
   for (std::size_t m = skip; m < all.marker_count() && kept.size() < most; ++m) {
     kept.push_back(m);
     names.push_back(all.names[m]);
   }
-  MarkerClip clip = make_marker_clip(names, all.frame_count(), all.frame_rate_hz);
+  Take clip = make_marker_take(names, all.frame_count(), all.frame_rate_hz);
   for (std::size_t f = 0; f < all.frame_count(); ++f) {
     for (std::size_t k = 0; k < kept.size(); ++k) {
       clip.position(f, k) = all.position(f, kept[k]);
@@ -35,9 +35,9 @@ inline MarkerClip points_of(const std::filesystem::path& path, std::size_t skip,
 }
 
 /// Three gaps in each of five markers, at places drawn by the seed.
-inline MarkerClip with_gaps(const MarkerClip& truth, std::size_t length, std::uint64_t seed) {
+inline Take with_gaps(const Take& truth, std::size_t length, std::uint64_t seed) {
   constexpr std::size_t damaged_markers = 5, apart = 10;
-  MarkerClip clip = truth;
+  Take clip = truth;
   Random random(seed);
   std::vector<std::size_t> order(clip.marker_count());
   for (std::size_t m = 0; m < order.size(); ++m) order[m] = m;

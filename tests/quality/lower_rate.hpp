@@ -2,13 +2,13 @@
 
 #include <cstddef>
 
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::quality {
 
 /// A clip of which only every step-th frame was measured: the frames between repeat the one before
 /// (`is_held`) or lie on the arc to the next; the take ends with a measurement then.
-inline Clip of_lower_rate(Clip clip, std::size_t step, bool is_held) {
+inline Take of_lower_rate(Take clip, std::size_t step, bool is_held) {
   if (!is_held) clip = slice(clip, 0, clip.frame_count() - (clip.frame_count() - 1) % step);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     const std::size_t before = f - f % step, after = before + step;

@@ -10,13 +10,13 @@
 
 namespace kinemend::quality {
 
-inline MarkerClip cleaned_markers(const MarkerClip& clip, std::string_view method,
-                                  const OptionValues& options = {}) {
-  return clean_markers(clip, *make_cleaner(method, options)).clip;
+inline Take cleaned_markers(const Take& clip, std::string_view method,
+                            const OptionValues& options = {}) {
+  return clean_take(clip, *make_cleaner(method, options)).take;
 }
 
 /// Damage as it happens: white noise of `noise_mm` per axis, and 0.5 % of the samples 100 mm off.
-inline MarkerClip damaged_markers(const MarkerClip& truth, double noise_mm, std::uint64_t seed) {
+inline Take damaged_markers(const Take& truth, double noise_mm, std::uint64_t seed) {
   return test::damaged(truth, noise_mm, 0.005, 100, seed);
 }
 

@@ -14,13 +14,13 @@ namespace {
 using test::max_distance;
 using test::rms_distance;
 
-MarkerClip real_take(const char* name) {
+Take real_take(const char* name) {
   const std::filesystem::path folder = KINEMEND_DATA_FOLDER;
-  return std::get<MarkerClip>(read_take(folder / "cmu" / "c3d" / name).take);
+  return read_take(folder / "cmu" / "c3d" / name).take;
 }
 
 // As much of it as says enough: 10 s of 41 markers, 2 s of 330.
-MarkerClip part(const MarkerClip& clip) {
+Take part(const Take& clip) {
   const std::size_t frames = clip.marker_count() > 100 ? 240 : 1200;
   return slice(clip, 0, std::min(clip.frame_count(), frames));
 }
@@ -28,18 +28,18 @@ MarkerClip part(const MarkerClip& clip) {
 class RealMarkers : public testing::TestWithParam<const char*> {};
 
 TEST_P(RealMarkers, ComeBackAsTheyWereWhereTheyAreClean) {
-  const MarkerClip truth = real_take(GetParam());
+  const Take truth = real_take(GetParam());
   for (const char* method : {"auto", "learned"}) {
-    const MarkerClip result = cleaned_markers(truth, method);
+    const Take result = cleaned_markers(truth, method);
     EXPECT_LT(rms_distance(result, truth), 0.2) << method;
     EXPECT_EQ(result.observed, truth.observed) << method;
   }
 }
 
 TEST_P(RealMarkers, AreCleanedBestByAuto) {
-  const MarkerClip truth = part(real_take(GetParam()));
+  const Take truth = part(real_take(GetParam()));
   for (const double noise_mm : {2.0, 5.0, 10.0}) {
-    const MarkerClip noisy = damaged_markers(truth, noise_mm, 11);
+    const Take noisy = damaged_markers(truth, noise_mm, 11);
     const double ours = rms_distance(cleaned_markers(noisy, "auto"), truth);
     std::string figures =
         fmt::format("noisy {:.2f}, auto {:.2f}", rms_distance(noisy, truth), ours);
@@ -53,11 +53,11 @@ TEST_P(RealMarkers, AreCleanedBestByAuto) {
 }
 
 TEST_P(RealMarkers, MayBeLongOrShortOfSamples) {
-  MarkerClip clip = part(real_take(GetParam()));
+  Take clip = part(real_take(GetParam()));
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
     test::lose(clip, m, 100 + m % 60, 120 + 2 * (m % 60));
   }
-  const MarkerClip result = cleaned_markers(clip, "auto");
+  const Take result = cleaned_markers(clip, "auto");
   EXPECT_EQ(result.observed, clip.observed);
   EXPECT_LT(rms_distance(result, clip), 0.3);
 }

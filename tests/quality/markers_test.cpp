@@ -15,9 +15,9 @@ using test::rms_distance;
 class AutoOnMarkers : public testing::TestWithParam<const char*> {};
 
 TEST_P(AutoOnMarkers, BeatsEveryOtherMethodAtItsDefaults) {
-  const MarkerClip truth = marker_take(GetParam(), 5);
+  const Take truth = marker_take(GetParam(), 5);
   for (const double noise_mm : {2.0, 5.0, 10.0}) {
-    const MarkerClip noisy = damaged_markers(truth, noise_mm, 3);
+    const Take noisy = damaged_markers(truth, noise_mm, 3);
     const double ours = rms_distance(cleaned_markers(noisy, "auto"), truth);
     EXPECT_LT(ours, 0.5 * rms_distance(noisy, truth)) << noise_mm;
     for (const std::string& method : other_methods()) {
@@ -28,14 +28,14 @@ TEST_P(AutoOnMarkers, BeatsEveryOtherMethodAtItsDefaults) {
 }
 
 TEST_P(AutoOnMarkers, LeavesACleanTakeAlone) {
-  const MarkerClip truth = marker_take(GetParam(), 5);
+  const Take truth = marker_take(GetParam(), 5);
   EXPECT_LT(rms_distance(cleaned_markers(truth, "auto"), truth), 0.05);
 }
 
 TEST_P(AutoOnMarkers, LeavesOpticalNoiseAndImpactsAlone) {
-  const MarkerClip truth = marker_take(GetParam(), 5);
-  const MarkerClip optical = test::damaged(truth, 0.1, 0, 0, 5);
-  const MarkerClip result = cleaned_markers(optical, "auto");
+  const Take truth = marker_take(GetParam(), 5);
+  const Take optical = test::damaged(truth, 0.1, 0, 0, 5);
+  const Take result = cleaned_markers(optical, "auto");
   EXPECT_LT(rms_distance(result, optical), 0.2);
   EXPECT_LT(max_distance(result, truth), 2);
 }
@@ -43,16 +43,16 @@ TEST_P(AutoOnMarkers, LeavesOpticalNoiseAndImpactsAlone) {
 class LearnedOnMarkers : public testing::TestWithParam<const char*> {};
 
 TEST_P(LearnedOnMarkers, TakesNoiseOutAboutAsWellAsAuto) {
-  const MarkerClip truth = marker_take(GetParam(), 5);
+  const Take truth = marker_take(GetParam(), 5);
   for (const double noise_mm : {3.0, 15.0}) {
-    const MarkerClip noisy = test::damaged(truth, noise_mm, 0, 0, 3);
+    const Take noisy = test::damaged(truth, noise_mm, 0, 0, 3);
     const double ours = rms_distance(cleaned_markers(noisy, "learned"), truth);
     EXPECT_LT(ours, 1.25 * rms_distance(cleaned_markers(noisy, "auto"), truth)) << noise_mm;
   }
 }
 
 TEST_P(LearnedOnMarkers, LeavesACleanTakeAlone) {
-  const MarkerClip truth = marker_take(GetParam(), 5);
+  const Take truth = marker_take(GetParam(), 5);
   EXPECT_LT(rms_distance(cleaned_markers(truth, "learned"), truth), 0.1);
 }
 
@@ -64,8 +64,8 @@ INSTANTIATE_TEST_SUITE_P(Motions, AutoOnMarkers,
                          [](const auto& motion) { return std::string(motion.param); });
 
 TEST(AutoOnMarkers, HoldsWithGapsInEveryMarker) {
-  const MarkerClip truth = marker_take("walk", 5);
-  MarkerClip noisy = damaged_markers(truth, 3, 7);
+  const Take truth = marker_take("walk", 5);
+  Take noisy = damaged_markers(truth, 3, 7);
   const double whole = rms_distance(cleaned_markers(noisy, "auto"), truth);
   for (std::size_t m = 0; m < noisy.marker_count(); ++m) {
     test::lose(noisy, m, 20 + 7 * m, 25 + 7 * m);
@@ -77,8 +77,8 @@ TEST(AutoOnMarkers, HoldsWithGapsInEveryMarker) {
 // Video stands on a floor of fast noise that slow noise has no word for.
 TEST(AutoOnMarkers, LeaveNoTremblingOfVideo) {
   for (const char* motion : {"walk", "wave"}) {
-    const MarkerClip truth = marker_take(motion, 20, 60);
-    MarkerClip noisy = truth;
+    const Take truth = marker_take(motion, 20, 60);
+    Take noisy = truth;
     Random random(1);
     apply_damage(noisy, "system", {{"kind", std::string("video")}}, random);
     const MarkerErrors before = compare_markers(truth, noisy).all,
@@ -90,9 +90,9 @@ TEST(AutoOnMarkers, LeaveNoTremblingOfVideo) {
 }
 
 TEST(AutoOnMarkers, FindsTheSpikesAndReportsThem) {
-  const MarkerClip truth = marker_take("walk", 5);
-  const MarkerResult result =
-      clean_markers(test::damaged(truth, 2, 0.005, 100, 9), *make_cleaner("auto"));
+  const Take truth = marker_take("walk", 5);
+  const CleanResult result =
+      clean_take(test::damaged(truth, 2, 0.005, 100, 9), *make_cleaner("auto"));
   std::size_t spikes = 0;
   for (const ReportSpan& span : result.report.spans)
     spikes += span.action == Action::despiked ? span.last_frame - span.first_frame + 1 : 0;

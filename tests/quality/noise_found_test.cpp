@@ -14,22 +14,22 @@
 namespace kinemend::quality {
 namespace {
 
-Clip walk(std::size_t seconds = 6) {
+Take walk(std::size_t seconds = 6) {
   return synthesize({.motion = "walk", .duration_s = static_cast<double>(seconds)});
 }
 
-Clip with_noise(Clip clip, double deviation_deg, double correlation, std::uint64_t seed) {
+Take with_noise(Take clip, double deviation_deg, double correlation, std::uint64_t seed) {
   Random random(seed);
   apply_damage(clip, "ar1", {{"std_deg", deviation_deg}, {"correlation", correlation}}, random);
   return clip;
 }
 
-CleanReport report_of(const Clip& clip, const CleanSettings& settings = {}) {
-  return clean_clip(clip, *make_cleaner("auto"), settings).report;
+CleanReport report_of(const Take& clip, const CleanSettings& settings = {}) {
+  return clean_take(clip, *make_cleaner("auto"), settings).report;
 }
 
-double error_of(const Clip& truth, const Clip& noisy, const CleanSettings& settings = {}) {
-  return figures(truth, clean_clip(noisy, *make_cleaner("auto"), settings).clip).rms;
+double error_of(const Take& truth, const Take& noisy, const CleanSettings& settings = {}) {
+  return figures(truth, clean_take(noisy, *make_cleaner("auto"), settings).take).rms;
 }
 
 std::size_t lost_peaks(const CleanReport& report) {
@@ -54,7 +54,7 @@ TEST(NoiseFound, HasTheStrengthAndTheColourOfTheNoise) {
 
 TEST(NoiseFound, SaysThatFramesAreSamplesOfALowerRate) {
   for (const bool is_held : {true, false}) {
-    const Clip clip = of_lower_rate(with_noise(walk(), 1.5, 0, 2), is_held ? 2 : 4, is_held);
+    const Take clip = of_lower_rate(with_noise(walk(), 1.5, 0, 2), is_held ? 2 : 4, is_held);
     const CleanReport report = report_of(clip);
     ASSERT_FALSE(report.noise.empty());
     EXPECT_EQ(report.noise[0].frames_per_sample, is_held ? 2U : 4U);
@@ -65,7 +65,7 @@ TEST(NoiseFound, SaysThatFramesAreSamplesOfALowerRate) {
 TEST(NoiseFound, IsNoneOfACleanTake) { EXPECT_TRUE(report_of(walk()).noise.empty()); }
 
 TEST(NoiseFound, IsWhatACheckFindsBeforeCleaning) {
-  const Clip clip = with_noise(walk(), 1.5, 0.8, 3);
+  const Take clip = with_noise(walk(), 1.5, 0.8, 3);
   const CleanReport cleaned = report_of(clip);
   const CheckReport checked = check_take(clip);
   ASSERT_EQ(checked.noise.size(), cleaned.noise.size());
@@ -83,7 +83,7 @@ TEST(NoiseFound, SlowNoiseThatGoesIsNoPeakThatFalls) {
 }
 
 TEST(KnownNoise, IsGoneByInPlaceOfWhatIsFound) {
-  const Clip truth = walk(), noisy = with_noise(truth, 1.5, 0.8, 5);
+  const Take truth = walk(), noisy = with_noise(truth, 1.5, 0.8, 5);
   CleanSettings white;
   white.noise.emplace();
   EXPECT_EQ(report_of(noisy, white).noise.at(0).correlation, 0);
@@ -106,7 +106,7 @@ TEST(KnownNoise, OfALongTakeServesAShortOneOfTheSameSystem) {
   for (const TrackSummary& track : found.tracks) {
     if (track.noise > 0) known.noise->strengths[track.name] = track.noise;
   }
-  const Clip truth = walk(1), noisy = with_noise(truth, 1.5, 0.8, 7);
+  const Take truth = walk(1), noisy = with_noise(truth, 1.5, 0.8, 7);
   EXPECT_LE(error_of(truth, noisy, known), 1.02 * error_of(truth, noisy));
 }
 

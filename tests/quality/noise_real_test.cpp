@@ -13,13 +13,13 @@
 namespace kinemend::quality {
 namespace {
 
-MarkerClip half_of(const std::string& pair, const std::string& half) {
+Take half_of(const std::string& pair, const std::string& half) {
   const std::filesystem::path folder = KINEMEND_DATA_FOLDER;
-  return std::get<MarkerClip>(read_take(folder / "real" / (pair + "." + half + ".trc")).take);
+  return read_take(folder / "real" / (pair + "." + half + ".trc")).take;
 }
 
 // Root mean square of the difference of velocities, units a second.
-double velocity_error(const MarkerClip& a, const MarkerClip& b) {
+double velocity_error(const Take& a, const Take& b) {
   double sum = 0, count = 0;
   for (std::size_t f = 1; f + 1 < a.frame_count(); ++f) {
     for (std::size_t m = 0; m < a.marker_count(); ++m) {
@@ -38,14 +38,13 @@ double velocity_error(const MarkerClip& a, const MarkerClip& b) {
 class RealPairs : public testing::TestWithParam<const char*> {};
 
 TEST_P(RealPairs, ComeNearerToTheirReference) {
-  const MarkerClip reference = half_of(GetParam(), "reference"),
-                   noisy = half_of(GetParam(), "noisy");
+  const Take reference = half_of(GetParam(), "reference"), noisy = half_of(GetParam(), "noisy");
   EXPECT_LT(velocity_error(cleaned_markers(noisy, "auto"), reference),
             0.75 * velocity_error(noisy, reference));
 }
 
 TEST_P(RealPairs, LeaveTheirReferenceAlone) {
-  const MarkerClip reference = half_of(GetParam(), "reference");
+  const Take reference = half_of(GetParam(), "reference");
   EXPECT_LT(test::rms_distance(cleaned_markers(reference, "auto"), reference), 0.3);
 }
 
@@ -53,10 +52,9 @@ TEST_P(RealPairs, LeaveTheirReferenceAlone) {
 TEST(CleanMarkersAtLowRates, AreLeftAlone) {
   const std::filesystem::path folder = KINEMEND_DATA_FOLDER;
   for (const char* take : {"49_09", "49_22"}) {
-    const Clip clip =
-        std::get<Clip>(read_take(folder / "cmu" / "bvh" / (take + std::string(".bvh"))).take);
+    const Take clip = read_take(folder / "cmu" / "bvh" / (take + std::string(".bvh"))).take;
     for (const double rate_hz : {30.0, 60.0}) {
-      const MarkerClip markers = joint_markers(resample(clip, rate_hz));
+      const Take markers = joint_markers(resample(clip, rate_hz));
       EXPECT_LT(test::rms_distance(cleaned_markers(markers, "auto"), markers), 1e-3)
           << take << " at " << rate_hz << " Hz";
     }
@@ -67,9 +65,8 @@ TEST(CleanMarkersAtLowRates, AreLeftAlone) {
 TEST(NoiseOfEachChannel, IsNotTakenForSlow) {
   const std::filesystem::path folder = KINEMEND_DATA_FOLDER;
   for (const char* take : {"07_11", "08_02", "09_03"}) {
-    const Clip truth =
-        std::get<Clip>(read_take(folder / "cmu" / "bvh" / (take + std::string(".bvh"))).take);
-    Clip noisy = truth;
+    const Take truth = read_take(folder / "cmu" / "bvh" / (take + std::string(".bvh"))).take;
+    Take noisy = truth;
     Random random(1);
     apply_damage(noisy, "gaussian-channels", {{"k", 0.1}}, random);
     EXPECT_LT(figures(truth, cleaned(noisy, "auto")).rms, 0.8 * figures(truth, noisy).rms) << take;

@@ -7,22 +7,22 @@
 
 #include "kinemend/clean.hpp"
 #include "kinemend/cleaner.hpp"
-#include "kinemend/clip.hpp"
 #include "kinemend/experimental/corrupt.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/metrics.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::quality {
 
 /// The motion of a clip, without a calibration pose at its start.
-inline Clip without_calibration(const Clip& clip) {
+inline Take without_calibration(const Take& clip) {
   return slice(clip, leading_calibration_frames(clip), clip.frame_count());
 }
 
 /// White rotation noise of `noise_deg` per axis on every joint and frame, and, for `outlier_share`
 /// of the samples, random rotations of 25 degrees per axis.
-inline Clip damaged(const Clip& truth, double noise_deg, double outlier_share, std::uint64_t seed) {
-  Clip clip = truth;
+inline Take damaged(const Take& truth, double noise_deg, double outlier_share, std::uint64_t seed) {
+  Take clip = truth;
   Random random(seed);
   apply_damage(clip, "gaussian", {{"std_deg", noise_deg}}, random);
   if (outlier_share > 0) {
@@ -31,8 +31,8 @@ inline Clip damaged(const Clip& truth, double noise_deg, double outlier_share, s
   return clip;
 }
 
-inline Clip cleaned(const Clip& clip, std::string_view method, const OptionValues& options = {}) {
-  return clean_clip(clip, *make_cleaner(method, options)).clip;
+inline Take cleaned(const Take& clip, std::string_view method, const OptionValues& options = {}) {
+  return clean_take(clip, *make_cleaner(method, options)).take;
 }
 
 /// Root mean square and 99th percentile of the angle to the truth, over all joints and frames,
@@ -42,7 +42,7 @@ struct Figures {
   double p99 = 0;
 };
 
-inline Figures figures(const Clip& truth, const Clip& other) {
+inline Figures figures(const Take& truth, const Take& other) {
   return {geodesic_rms_deg(truth, other), geodesic_percentile_deg(truth, other, 99)};
 }
 

@@ -30,27 +30,27 @@ namespace {
 constexpr double rates_hz[] = {0.1, 1, 10, 1e3, 5e3, 1e5};
 constexpr std::size_t few_frames = 40, more_frames = 200;
 
-Clip made_walk(std::size_t frames) {
+Take made_walk(std::size_t frames) {
   SynthOptions options;
   options.duration_s = static_cast<double>(frames) / 120;
-  Clip clip = slice(synthesize(options), 0, frames);
+  Take clip = slice(synthesize(options), 0, frames);
   Random random(5);
   apply_damage(clip, "gaussian", {{"std_deg", 1.5}}, random);
   apply_damage(clip, "outliers", {{"share", 0.004}}, random);
   return clip;
 }
 
-Clip walk(std::size_t frames, double rate_hz) {
-  static const Clip few = made_walk(few_frames), more = made_walk(more_frames);
-  Clip clip = frames == few_frames ? few : more;
+Take walk(std::size_t frames, double rate_hz) {
+  static const Take few = made_walk(few_frames), more = made_walk(more_frames);
+  Take clip = frames == few_frames ? few : more;
   clip.frame_rate_hz = rate_hz;
   return clip;
 }
 
-MarkerClip walk_of_markers(std::size_t frames, double rate_hz) {
-  static const MarkerClip more =
+Take walk_of_markers(std::size_t frames, double rate_hz) {
+  static const Take more =
       damaged(marker_take("walk", static_cast<double>(more_frames) / 120), 3, 0.003, 100, 1);
-  MarkerClip clip = slice(more, 0, frames);
+  Take clip = slice(more, 0, frames);
   clip.frame_rate_hz = rate_hz;
   return clip;
 }
@@ -113,7 +113,7 @@ void expect_finite(const CleanReport& report) {
 std::unique_ptr<Cleaner> made(const std::string& method) {
   if (method != "kalman-learned") return make_cleaner(method);
   SynthOptions options{.motion = "walk", .duration_s = 3, .frame_rate_hz = 30};
-  const Clip clip = synthesize(options);
+  const Take clip = synthesize(options);
   const auto model = std::make_shared<const Model>(
       train_model(method, {1, [&](std::size_t) { return Take(clip); }}));
   return make_kalman_learned({}, model);
@@ -160,8 +160,8 @@ class EveryRateLive : public EveryRate {};
 
 TEST_P(EveryRate, CleansJointsAtACostThatGoesByFrames) {
   const auto run = [&](std::size_t frames, double rate_hz) {
-    const CleanResult result = clean_clip(walk(frames, rate_hz), *cleaner_);
-    EXPECT_NO_THROW(result.clip.validate());
+    const CleanResult result = clean_take(walk(frames, rate_hz), *cleaner_);
+    EXPECT_NO_THROW(result.take.validate());
     expect_finite(result.report);
   };
   expect_cost_by_frames(run, sizes());
@@ -169,8 +169,8 @@ TEST_P(EveryRate, CleansJointsAtACostThatGoesByFrames) {
 
 TEST_P(EveryRateOnMarkers, CleansMarkersAtACostThatGoesByFrames) {
   const auto run = [&](std::size_t frames, double rate_hz) {
-    const MarkerResult result = clean_markers(walk_of_markers(frames, rate_hz), *cleaner_);
-    EXPECT_NO_THROW(result.clip.validate());
+    const CleanResult result = clean_take(walk_of_markers(frames, rate_hz), *cleaner_);
+    EXPECT_NO_THROW(result.take.validate());
     expect_finite(result.report);
   };
   expect_cost_by_frames(run, sizes());
@@ -180,7 +180,7 @@ TEST_P(EveryRateLive, RunsLiveAtACostThatGoesByFrames) {
   const std::size_t latency = make_stream(*cleaner_, walk(few_frames, 1000))->latency_frames();
   expect_cost_by_frames(
       [&](std::size_t frames, double rate_hz) {
-        const Clip clip = walk(frames, rate_hz);
+        const Take clip = walk(frames, rate_hz);
         const auto stream = make_stream(*cleaner_, clip);
         EXPECT_LE(stream->latency_frames(), latency);
         Frame out;
@@ -203,7 +203,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryRateLive, testing::ValuesIn(methods_that_
 
 TEST(TheModelsWindow, IsNoLongerThanTheTakeAtHighRates) {
   const auto cleaner = make_cleaner("wiener");
-  const auto run = [&](double rate_hz) { clean_clip(walk(few_frames, rate_hz), *cleaner); };
+  const auto run = [&](double rate_hz) { clean_take(walk(few_frames, rate_hz), *cleaner); };
   run(240);
   const Cost usual = cost_of([&] { run(240); }), high = cost_of([&] { run(1000); });
   EXPECT_LE(high.peak, usual.peak + usual.peak / 4);
@@ -216,7 +216,7 @@ TEST(EveryRateOfMarkers, RunsLiveAtACostThatGoesByFrames) {
                              : make_cleaner(method);
     expect_cost_by_frames(
         [&](std::size_t, double rate_hz) {
-          const MarkerClip clip = walk_of_markers(few_frames, rate_hz);
+          const Take clip = walk_of_markers(few_frames, rate_hz);
           const auto stream = make_stream(*cleaner, clip, 1700);
           Frame out;
           for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -258,7 +258,7 @@ TEST(FillAtEveryRate, CostsByFrames) {
     expect_cost_by_frames(
         [&](std::size_t frames, double rate_hz) {
           if (method.joints) {
-            Clip clip = walk(frames, rate_hz);
+            Take clip = walk(frames, rate_hz);
             clip.observed.assign(clip.rotations.size(), 1);
             for (std::size_t f = 12; f < 20; ++f) {
               clip.observed[f * clip.joint_count() + 3] = 0;
@@ -269,7 +269,7 @@ TEST(FillAtEveryRate, CostsByFrames) {
             EXPECT_TRUE(find_gaps(clip).empty());
           }
           if (method.markers) {
-            MarkerClip clip = walk_of_markers(frames, rate_hz);
+            Take clip = walk_of_markers(frames, rate_hz);
             FillSettings with_donor = settings;
             if (method.name == "pattern") with_donor.donor = clip.names[4];
             lose(clip, 1, 12, 20);
@@ -285,7 +285,7 @@ TEST(FillAtEveryRate, CostsByFrames) {
 
 TEST(FeetAtEveryRate, CostByFrames) {
   expect_cost_by_frames([](std::size_t frames, double rate_hz) {
-    Clip clip = walk(frames, rate_hz);
+    Take clip = walk(frames, rate_hz);
     const FeetReport report = clean_feet(clip);
     EXPECT_NO_THROW(clip.validate());
     EXPECT_TRUE(std::isfinite(report.before.slide + report.after.slide));
@@ -294,8 +294,8 @@ TEST(FeetAtEveryRate, CostByFrames) {
 
 TEST(FiguresAtEveryRate, CostByFramesAndAreNumbers) {
   expect_cost_by_frames([](std::size_t frames, double rate_hz) {
-    const Clip truth = walk(frames, rate_hz);
-    Clip other = truth;
+    const Take truth = walk(frames, rate_hz);
+    Take other = truth;
     Random random(9);
     apply_damage(other, "gaussian", {{"std_deg", 1.0}}, random);
     const Comparison comparison = compare_clips(truth, other);
@@ -314,7 +314,7 @@ TEST(DamageAtEveryRate, CostsByFrames) {
     SCOPED_TRACE(damage.name);
     expect_cost_by_frames(
         [&](std::size_t frames, double rate_hz) {
-          Clip clip = walk(frames, rate_hz);
+          Take clip = walk(frames, rate_hz);
           Random random(3);
           apply_damage(clip, damage.name, {}, random);
           EXPECT_NO_THROW(clip.validate());

@@ -9,11 +9,11 @@
 namespace kinemend::quality {
 
 /// A take of CMU's by its name, without its calibration pose.
-inline Clip real_clip(const std::string& name) {
+inline Take real_clip(const std::string& name) {
   for (const char* folder : {"cmu/bvh", "cmu/bvh-rotations"}) {
     const std::filesystem::path path =
         std::filesystem::path(KINEMEND_DATA_FOLDER) / folder / (name + ".bvh");
-    if (std::filesystem::exists(path)) return without_calibration(read_clip(path).clip);
+    if (std::filesystem::exists(path)) return without_calibration(read_joints(path).take);
   }
   throw Error(ErrorKind::unreadable_input, "no real take " + name);
 }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double noise_deg = 4;
 
-Clip turned(Clip clip, Vec3 speed_deg_s) {
+Take turned(Take clip, Vec3 speed_deg_s) {
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     const double time_s = static_cast<double>(f) / clip.frame_rate_hz;
     const Quat turn = exp(radians_per_degree * time_s * speed_deg_s);
@@ -25,12 +25,12 @@ Clip turned(Clip clip, Vec3 speed_deg_s) {
 // other joint may suffer.
 TEST(SlowTurns, OfAnyAxisLeaveSparseAsGood) {
   for (const char* name : {"02_05", "05_13"}) {
-    const Clip whole = real_clip(name);
-    const Clip truth = slice(whole, 0, std::min<std::size_t>(whole.frame_count(), 1200));
-    const Clip noisy = damaged(truth, noise_deg, 0, 7);
+    const Take whole = real_clip(name);
+    const Take truth = slice(whole, 0, std::min<std::size_t>(whole.frame_count(), 1200));
+    const Take noisy = damaged(truth, noise_deg, 0, 7);
     const double still = figures(truth, cleaned(noisy, "sparse")).rms;
     for (const Vec3 speed : {Vec3{0, 40, 0}, Vec3{40, 0, 0}, Vec3{0, 0, 40}, Vec3{-20, 30, 20}}) {
-      const Clip result = cleaned(turned(noisy, speed), "sparse");
+      const Take result = cleaned(turned(noisy, speed), "sparse");
       const double growth = figures(turned(truth, speed), result).rms / still;
       const std::string text =
           fmt::format("{}: {} {} {} degrees a second", name, speed.x, speed.y, speed.z);

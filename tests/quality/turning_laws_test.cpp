@@ -17,12 +17,12 @@ namespace {
 
 constexpr double rate_hz = 60, noise_deg = 1.5, noise_cm = 0.3;
 
-Clip take_to_turn(const char* motion, double duration_s) {
+Take take_to_turn(const char* motion, double duration_s) {
   return synthesize({.motion = motion, .duration_s = duration_s, .frame_rate_hz = rate_hz});
 }
 
-Clip noisy(const Clip& truth, std::uint64_t seed = 7) {
-  Clip clip = damaged(truth, noise_deg, 0, seed);
+Take noisy(const Take& truth, std::uint64_t seed = 7) {
+  Take clip = damaged(truth, noise_deg, 0, seed);
   Random random(seed + 1);
   for (std::size_t f = 0; f < clip.frame_count(); ++f)
     clip.root_position(f) += test::random_vector(random, noise_cm);
@@ -33,7 +33,7 @@ Clip noisy(const Clip& truth, std::uint64_t seed = 7) {
 Vec3 turned(Vec3 p, Vec3 speed_deg_s, double time_s) {
   return rotate(exp(radians_per_degree * time_s * speed_deg_s), p);
 }
-Clip turned(Clip clip, Vec3 speed_deg_s) {
+Take turned(Take clip, Vec3 speed_deg_s) {
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     const double time_s = static_cast<double>(f) / clip.frame_rate_hz;
     clip.rotation(f, 0) = exp(radians_per_degree * time_s * speed_deg_s) * clip.rotation(f, 0);
@@ -41,11 +41,11 @@ Clip turned(Clip clip, Vec3 speed_deg_s) {
   }
   return clip;
 }
-Clip moved(Clip clip, Vec3 by) {
+Take moved(Take clip, Vec3 by) {
   for (std::size_t f = 0; f < clip.frame_count(); ++f) clip.root_position(f) += by;
   return clip;
 }
-Clip about_its_middle(const Clip& clip) {
+Take about_its_middle(const Take& clip) {
   Vec3 sum;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) sum += clip.root_position(f);
   return moved(clip, (-1 / static_cast<double>(clip.frame_count())) * sum);
@@ -54,7 +54,7 @@ Clip about_its_middle(const Clip& clip) {
 struct Squares {
   double rotations = 0, positions = 0;  // sums over frames
 
-  void add(const Clip& a, const Clip& b) {
+  void add(const Take& a, const Take& b) {
     for (std::size_t i = 0; i < a.rotations.size(); ++i)
       rotations += std::pow(angle_between(a.rotations[i], b.rotations[i]), 2);
     for (std::size_t f = 0; f < a.frame_count(); ++f) {
@@ -69,7 +69,7 @@ class OfAnyMethod : public testing::TestWithParam<std::string> {
  protected:
   std::unique_ptr<Cleaner> cleaner_ = make_cleaner(GetParam());
 
-  Clip cleaned(const Clip& clip) const { return clean_clip(clip, *cleaner_).clip; }
+  Take cleaned(const Take& clip) const { return clean_take(clip, *cleaner_).take; }
   // Follows travel late by nature, the later the faster.
   bool is_causal() const { return test::runs_without_delay(*cleaner_); }
   // A filter of fixed weights turns with the take_to_turn; others measure, compare or choose anew.
@@ -105,11 +105,11 @@ class OfAnyMethod : public testing::TestWithParam<std::string> {
 // a motion, less and more alike.
 TEST_P(OfAnyMethod, TheErrorDoesNotDependOnHowTheTakeTurns) {
   Squares still;
-  std::vector<Clip> truths = {about_its_middle(take_to_turn("walk", 3)),
+  std::vector<Take> truths = {about_its_middle(take_to_turn("walk", 3)),
                               about_its_middle(take_to_turn("wave", 2)),
                               about_its_middle(take_to_turn("run", 2))};
-  std::vector<Clip> inputs, results;
-  for (const Clip& truth : truths) {
+  std::vector<Take> inputs, results;
+  for (const Take& truth : truths) {
     inputs.push_back(noisy(truth));
     results.push_back(cleaned(inputs.back()));
     still.add(truth, results.back());
@@ -117,7 +117,7 @@ TEST_P(OfAnyMethod, TheErrorDoesNotDependOnHowTheTakeTurns) {
   for (const Vec3 speed : speeds()) {
     Squares error, difference;
     for (std::size_t i = 0; i < truths.size(); ++i) {
-      const Clip result = cleaned(turned(inputs[i], speed));
+      const Take result = cleaned(turned(inputs[i], speed));
       error.add(turned(truths[i], speed), result);
       difference.add(turned(results[i], speed), result);
     }
@@ -138,9 +138,9 @@ TEST_P(OfAnyMethod, TheErrorDoesNotDependOnHowTheTakeTurns) {
 }
 
 TEST_P(OfAnyMethod, TheErrorDoesNotDependOnWhereTheTakeStands) {
-  const Clip truth = about_its_middle(take_to_turn("walk", 3)), input = noisy(truth);
+  const Take truth = about_its_middle(take_to_turn("walk", 3)), input = noisy(truth);
   const Vec3 far{1e6, -2e5, 5e5};  // ten kilometres away
-  const Clip near_result = cleaned(input), far_result = cleaned(moved(input, far));
+  const Take near_result = cleaned(input), far_result = cleaned(moved(input, far));
   Squares error, difference;
   error.add(truth, near_result);
   difference.add(moved(near_result, far), far_result);
@@ -150,7 +150,7 @@ TEST_P(OfAnyMethod, TheErrorDoesNotDependOnWhereTheTakeStands) {
 
 TEST_P(OfAnyMethod, TheErrorDoesNotGrowWithTheLengthOfTheTake) {
   for (const char* motion : {"turn", "stroll"}) {
-    const Clip once = take_to_turn(motion, 10), often = take_to_turn(motion, 50);
+    const Take once = take_to_turn(motion, 10), often = take_to_turn(motion, 50);
     Squares error_once, error_often;
     error_once.add(once, cleaned(noisy(once)));
     error_often.add(often, cleaned(noisy(often)));
@@ -167,12 +167,12 @@ TEST_P(OfAnyMethod, TheErrorDoesNotGrowWithTheLengthOfTheTake) {
 class OfAnyMethodForMarkers : public OfAnyMethod {};
 
 TEST_P(OfAnyMethodForMarkers, TurnAndStandAnywhere) {
-  const MarkerClip truth = joint_markers(about_its_middle(take_to_turn("walk", 3)));
-  MarkerClip input = truth;
+  const Take truth = joint_markers(about_its_middle(take_to_turn("walk", 3)));
+  Take input = truth;
   Random random(9);
   for (Vec3& p : input.positions) p += test::random_vector(random, noise_cm);
-  const auto clean = [&](const MarkerClip& clip) { return clean_markers(clip, *cleaner_).clip; };
-  const auto map = [&](MarkerClip clip, Vec3 speed, Vec3 shift) {
+  const auto clean = [&](const Take& clip) { return clean_take(clip, *cleaner_).take; };
+  const auto map = [&](Take clip, Vec3 speed, Vec3 shift) {
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
       for (std::size_t m = 0; m < clip.marker_count(); ++m) {
         clip.position(f, m) =
@@ -181,7 +181,7 @@ TEST_P(OfAnyMethodForMarkers, TurnAndStandAnywhere) {
     }
     return clip;
   };
-  const auto squares = [](const MarkerClip& a, const MarkerClip& b) {
+  const auto squares = [](const Take& a, const Take& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.positions.size(); ++i) {
       const Vec3 d = a.positions[i] - b.positions[i];
@@ -189,7 +189,7 @@ TEST_P(OfAnyMethodForMarkers, TurnAndStandAnywhere) {
     }
     return sum;
   };
-  const MarkerClip result = clean(input);
+  const Take result = clean(input);
   const double still = squares(truth, result);
   const Vec3 far{1e6, -2e5, 5e5};
   EXPECT_LT(growth(squares(map(result, {}, far), clean(map(input, {}, far))), still), 1e-4);

@@ -22,20 +22,20 @@ struct Damaging {
 };
 constexpr Damaging damagings[] = {{"1 deg", 1, 0}, {"4 deg and spikes", 4, 0.004}, {"half", 0, 0}};
 
-Clip damaged_by(const Damaging& damaging, const Clip& truth) {
+Take damaged_by(const Damaging& damaging, const Take& truth) {
   if (damaging.noise_deg > 0) return damaged(truth, damaging.noise_deg, damaging.outlier_share, 3);
-  Clip clip = truth;
+  Take clip = truth;
   Random random(3);
   apply_damage(clip, "gaussian-channels", {{"k", 0.5}}, random);
   return clip;
 }
 
 // The error of the Gaussian whose width is the best for this take and this noise.
-double best_gaussian(const Clip& noisy, const Clip& truth) {
+double best_gaussian(const Take& noisy, const Take& truth) {
   double best = std::numeric_limits<double>::infinity();
   for (const double width_s :
        {0.006, 0.009, 0.013, 0.018, 0.025, 0.035, 0.045, 0.058, 0.08, 0.11, 0.16}) {
-    const Clip smooth = clean_clip(noisy, *make_gaussian({.width_s = width_s})).clip;
+    const Take smooth = clean_take(noisy, *make_gaussian({.width_s = width_s})).take;
     best = std::min(best, rms_deg(truth, smooth));
   }
   return best;
@@ -56,9 +56,9 @@ TEST_P(WienerOnRealTakes, NeverLosesToTheBestGaussian) {
     double sum = 0;
     std::string text;
     for (const char* name : GetParam().clips) {
-      const Clip truth = real_clip(name), noisy = damaged_by(damagings[d], truth);
+      const Take truth = real_clip(name), noisy = damaged_by(damagings[d], truth);
       const double theirs = best_gaussian(noisy, truth);
-      const double ratio = rms_deg(truth, clean_clip(noisy, *wiener).clip) / theirs;
+      const double ratio = rms_deg(truth, clean_take(noisy, *wiener).take) / theirs;
       const double by_auto = rms_deg(truth, cleaned(noisy, "auto")) / theirs;
       EXPECT_LT(ratio, 1.0) << name << ", " << damagings[d].name;
       text += fmt::format("{} {:.3f} (auto {:.3f}); ", name, ratio, by_auto);
@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(
 class LearnedOnCleanTakes : public testing::TestWithParam<const char*> {};
 
 TEST_P(LearnedOnCleanTakes, ChangesLessThanATwentiethOfADegree) {
-  const Clip clip = real_clip(GetParam());
+  const Take clip = real_clip(GetParam());
   for (const char* method : {"wiener", "example"})
     EXPECT_LT(geodesic_rms_deg(clip, cleaned(clip, method)), 0.05) << method;
 }
@@ -93,7 +93,7 @@ TEST_P(LearnedOnCleanTakes, ChangesLessThanATwentiethOfADegree) {
 INSTANTIATE_TEST_SUITE_P(Kinds, LearnedOnCleanTakes,
                          testing::Values("35_01", "16_15", "02_01", "09_03", "05_02", "01_04",
                                          "49_01", "131_05"),
-                         [](const auto& clip) { return "Clip" + std::string(clip.param); });
+                         [](const auto& clip) { return "Take" + std::string(clip.param); });
 
 }  // namespace
 }  // namespace kinemend::quality

@@ -18,9 +18,9 @@
 namespace kinemend::test {
 namespace {
 
-Clip walk_of(const std::string& name) {
-  const Clip clip =
-      read_clip(std::filesystem::path(KINEMEND_DATA_FOLDER) / "cmu/bvh" / (name + ".bvh")).clip;
+Take walk_of(const std::string& name) {
+  const Take clip =
+      read_joints(std::filesystem::path(KINEMEND_DATA_FOLDER) / "cmu/bvh" / (name + ".bvh")).take;
   return slice(clip, leading_calibration_frames(clip), clip.frame_count());
 }
 
@@ -32,11 +32,11 @@ std::shared_ptr<const Model> model_of_walks(const std::string& method) {
       method, {names.size(), [&](std::size_t i) { return Take(walk_of(names[i])); }}, options));
 }
 
-double error_left(const Cleaner& cleaner, const Clip& truth, std::uint64_t seed) {
-  Clip clip = truth;
+double error_left(const Cleaner& cleaner, const Take& truth, std::uint64_t seed) {
+  Take clip = truth;
   Random random = Random(seed).fork(1);
   apply_damage(clip, "outliers", {{"share", 0.2}}, random);
-  return rms_deg(truth, clean_clip(clip, cleaner).clip);
+  return rms_deg(truth, clean_take(clip, cleaner).take);
 }
 
 TEST(DenseOutliersOfRealTakes, ArePutRightWhereAutoTakesThemForNoise) {
@@ -44,7 +44,7 @@ TEST(DenseOutliersOfRealTakes, ArePutRightWhereAutoTakesThemForNoise) {
   const auto example = make_example({}, model_of_walks("example"));
   // Takes of which a method that is held to `auto` leaves more than 7 degrees.
   for (const auto& [name, seed] : {std::pair{"08_03", 3}, {"08_09", 2}}) {
-    const Clip truth = resample(walk_of(name), 30);
+    const Take truth = resample(walk_of(name), 30);
     const auto draw = static_cast<std::uint64_t>(seed);
     EXPECT_GT(error_left(*make_auto(), truth, draw), 7) << name;
     EXPECT_LT(error_left(*wiener, truth, draw), 2) << name;

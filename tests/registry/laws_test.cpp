@@ -17,8 +17,8 @@ class Every : public testing::TestWithParam<std::string> {
  protected:
   std::unique_ptr<Cleaner> cleaner_ = make_cleaner(GetParam());
 
-  Clip cleaned(const Clip& clip, const CleanSettings& settings = {}) const {
-    return clean_clip(clip, *cleaner_, settings).clip;
+  Take cleaned(const Take& clip, const CleanSettings& settings = {}) const {
+    return clean_take(clip, *cleaner_, settings).take;
   }
 };
 
@@ -26,20 +26,20 @@ class Every : public testing::TestWithParam<std::string> {
 class EveryAhead : public Every {};
 class EveryCausal : public Every {};
 
-Clip noisy_take() {
-  Clip clip = moving_take(240, 120);
+Take noisy_take() {
+  Take clip = moving_take(240, 120);
   add_noise(clip, 1.5, 0.5, 1);
   return clip;
 }
 
-void expect_same(const Clip& a, const Clip& b) {
+void expect_same(const Take& a, const Take& b) {
   EXPECT_EQ(a.rotations, b.rotations);
   EXPECT_EQ(a.positions, b.positions);
 }
 
 TEST_P(Every, GivesAValidClipOfTheSameShape) {
-  const Clip input = noisy_take();
-  const Clip output = cleaned(input);
+  const Take input = noisy_take();
+  const Take output = cleaned(input);
   EXPECT_NO_THROW(output.validate());
   EXPECT_EQ(output.frame_count(), input.frame_count());
   EXPECT_EQ(output.frame_rate_hz, input.frame_rate_hz);
@@ -48,21 +48,21 @@ TEST_P(Every, GivesAValidClipOfTheSameShape) {
 }
 
 TEST_P(Every, KeepsATPoseAtTheStartOutOfTheMotion) {
-  const Clip motion = noisy_take();
-  Clip input = empty_take(1 + motion.frame_count(), 120);
+  const Take motion = noisy_take();
+  Take input = empty_take(1 + motion.frame_count(), 120);
   std::copy(motion.rotations.begin(), motion.rotations.end(),
             input.rotations.begin() + static_cast<std::ptrdiff_t>(input.joint_count()));
   std::copy(motion.positions.begin(), motion.positions.end(),
             input.positions.begin() + static_cast<std::ptrdiff_t>(input.point_count()));
   ASSERT_EQ(leading_calibration_frames(input), 1U);
-  const Clip output = cleaned(input);
+  const Take output = cleaned(input);
   expect_same(slice(output, 0, 1), slice(input, 0, 1));
   expect_same(slice(output, 1, output.frame_count()), cleaned(motion));
 }
 
 TEST_P(Every, DoesNotMindTheSignOfQuaternions) {
-  const Clip input = noisy_take();
-  Clip flipped = input;
+  const Take input = noisy_take();
+  Take flipped = input;
   Random random(2);
   for (Quat& q : flipped.rotations) {
     if (random.chance(0.5)) q = -q;
@@ -71,7 +71,7 @@ TEST_P(Every, DoesNotMindTheSignOfQuaternions) {
 }
 
 // The lag is the shift d that best explains out(t) - truth(t) = -d v(t), in frames.
-double lag_frames(const Clip& truth, const Clip& output) {
+double lag_frames(const Take& truth, const Take& output) {
   double above = 0, below = 0;
   for (std::size_t f = 1; f + 1 < truth.frame_count(); ++f) {
     for (std::size_t j = 0; j < truth.joint_count(); ++j) {
@@ -86,17 +86,17 @@ double lag_frames(const Clip& truth, const Clip& output) {
 }
 
 TEST_P(EveryAhead, DoesNotShiftTheMotionInTime) {
-  const Clip truth = moving_take(240, 120);
+  const Take truth = moving_take(240, 120);
   EXPECT_NEAR(lag_frames(truth, cleaned(noisy_take())), 0, 0.1);
 }
 
 TEST_P(EveryCausal, LagsByHalfAFrame) {
-  const Clip truth = moving_take(240, 120);
+  const Take truth = moving_take(240, 120);
   EXPECT_NEAR(lag_frames(truth, cleaned(noisy_take())), 0.52, 0.25);
 }
 
 TEST_P(Every, LeavesAConstantTakeByteForByte) {
-  Clip clip = empty_take(100, 120);
+  Take clip = empty_take(100, 120);
   for (std::size_t f = 0; f < 100; ++f) {
     for (std::size_t j = 0; j < clip.joint_count(); ++j) clip.rotation(f, j) = motion_at(j, 0.37);
   }
@@ -104,10 +104,10 @@ TEST_P(Every, LeavesAConstantTakeByteForByte) {
 }
 
 TEST_P(Every, LeavesJointsThatWereNotAskedForByteForByte) {
-  const Clip input = noisy_take();
+  const Take input = noisy_take();
   CleanSettings settings;
   settings.joints = {"Spine"};
-  const Clip output = cleaned(input, settings);
+  const Take output = cleaned(input, settings);
   for (std::size_t f = 0; f < input.frame_count(); ++f) {
     for (std::size_t j = 0; j < input.joint_count(); ++j) {
       if (j == 1) continue;
@@ -118,8 +118,8 @@ TEST_P(Every, LeavesJointsThatWereNotAskedForByteForByte) {
 }
 
 TEST_P(Every, LeavesWhatIsNotSelectedAloneAlsoWithoutThePipeline) {
-  const Clip input = noisy_take();
-  Clip output = input;
+  const Take input = noisy_take();
+  Take output = input;
   Selection selection;
   selection.owners = {0, 1, 0, 1, 0, 0, 0};
   selection.root_position = false;
@@ -133,7 +133,7 @@ TEST_P(Every, LeavesWhatIsNotSelectedAloneAlsoWithoutThePipeline) {
 }
 
 TEST_P(EveryAhead, KeepsASteadyTurnUpToBothEnds) {
-  Clip clip = empty_take(150, 120);
+  Take clip = empty_take(150, 120);
   for (std::size_t f = 0; f < 150; ++f) {
     const double t = static_cast<double>(f) / 120;
     clip.root_position(f) = {100 * t, 90, -30 * t};
@@ -141,7 +141,7 @@ TEST_P(EveryAhead, KeepsASteadyTurnUpToBothEnds) {
     clip.rotation(f, 1) = exp({0.3, -0.2, 0.9}) * exp(t * Vec3{-0.7, 0.2, 0.1});
     clip.rotation(f, 3) = from_euler({1.1 * t, 0, 0}, parse_rotation_order("X"));
   }
-  const Clip output = cleaned(clip);
+  const Take output = cleaned(clip);
   EXPECT_LT(max_angle_deg(output, clip), 0.05);
   for (std::size_t f = 0; f < 150; ++f) {
     ASSERT_LT(norm(output.root_position(f) - clip.root_position(f)), 0.05) << f;
@@ -152,9 +152,9 @@ TEST_P(Every, TakesAnyNumberOfFrames) {
   // Measured: 5.5 degrees at most, but 12 of `butterworth` in two frames.
   const double bound = GetParam() == "butterworth" ? 14 : 7;
   for (const std::size_t frames : {0, 1, 2, 3, 4, 7}) {
-    Clip clip = moving_take(frames, 120);
+    Take clip = moving_take(frames, 120);
     add_noise(clip, 1.5, 0.5, frames);
-    const Clip output = cleaned(clip);
+    const Take output = cleaned(clip);
     EXPECT_EQ(output.frame_count(), frames);
     EXPECT_NO_THROW(output.validate());
     EXPECT_LT(max_angle_deg(output, clip), bound) << frames;
@@ -162,7 +162,7 @@ TEST_P(Every, TakesAnyNumberOfFrames) {
 }
 
 TEST_P(Every, GivesTheSameOnAnyNumberOfThreads) {
-  Clip clip = moving_take(1500, 120);  // enough for the work to be spread
+  Take clip = moving_take(1500, 120);  // enough for the work to be spread
   add_noise(clip, 1.5, 0.5, 3);
   const auto on_threads = [&](std::size_t count) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, count);
@@ -172,46 +172,46 @@ TEST_P(Every, GivesTheSameOnAnyNumberOfThreads) {
 }
 
 TEST_P(Every, OfStrengthZeroIsTheIdentity) {
-  const Clip input = noisy_take();
+  const Take input = noisy_take();
   CleanSettings settings;
   settings.strength = 0;
   expect_same(cleaned(input, settings), input);
 }
 
 TEST_P(Every, RespectsTheLargestChange) {
-  Clip input = noisy_take();
+  Take input = noisy_take();
   input.rotation(100, 2) = input.rotation(100, 2) * exp({1, 0, 0});
   CleanSettings settings;
   settings.max_change_deg = 0.5;
-  const Clip output = cleaned(input, settings);
+  const Take output = cleaned(input, settings);
   EXPECT_LT(max_angle_deg(output, input), 0.5 + 1e-9);
   EXPECT_GT(max_angle_deg(output, input), 0.4);
 }
 
 TEST_P(Every, TakesNoNoticeOfWhatStandsInAGap) {
-  Clip zeros = noisy_take();
+  Take zeros = noisy_take();
   zeros.observed.assign(zeros.rotations.size(), 1);
   for (std::size_t f = 100; f < 112; ++f) {
     zeros.observed[f * zeros.joint_count() + 2] = 0;
     zeros.rotation(f, 2) = {};
   }
-  Clip other = zeros;
+  Take other = zeros;
   for (std::size_t f = 100; f < 112; ++f) other.rotation(f, 2) = exp({2, 1, 0.3});
-  const Clip a = cleaned(zeros), b = cleaned(other);
+  const Take a = cleaned(zeros), b = cleaned(other);
   for (std::size_t f = 0; f < a.frame_count(); ++f) {
     ASSERT_LT(angle_between(a.rotation(f, 2), b.rotation(f, 2)), 1e-9) << f;
   }
 }
 
 TEST_P(EveryAhead, GoesStraightThroughAGap) {
-  const Clip truth = moving_take(240, 120);
-  Clip clip = noisy_take();
+  const Take truth = moving_take(240, 120);
+  Take clip = noisy_take();
   clip.observed.assign(clip.rotations.size(), 1);
   for (std::size_t f = 100; f < 112; ++f) {
     clip.observed[f * clip.joint_count() + 2] = 0;
     clip.rotation(f, 2) = {};
   }
-  const Clip result = cleaned(clip);
+  const Take result = cleaned(clip);
   // The chord over a tenth of a second of this motion is within 8 degrees of it. Measured: 9.2 of
   // `nonlocal`, 5.3 at most of the others.
   const double bound = GetParam() == "nonlocal" ? 10.5 : 6.5;
@@ -224,16 +224,16 @@ TEST_P(EveryAhead, GoesStraightThroughAGap) {
 
 // The delays of the others add up.
 TEST_P(EveryAhead, ChangesLittleWhenRunAgain) {
-  const Clip input = noisy_take();
-  const Clip once = cleaned(input), twice = cleaned(once);
+  const Take input = noisy_take();
+  const Take once = cleaned(input), twice = cleaned(once);
   EXPECT_LE(rms_angle_deg(once, twice), 0.25 * rms_angle_deg(input, once) + 1e-9);  // 0.18
 }
 
 TEST_P(Every, BeatsItsDamagedInputOnAWalk) {
   SynthOptions options;
   options.duration_s = 3;
-  const Clip truth = synthesize(options);
-  Clip damaged = truth;
+  const Take truth = synthesize(options);
+  Take damaged = truth;
   Random random(7);
   // Each against the damage it is made for.
   double margin = GetParam() == "one-euro" ? 0.65 : 0.45;  // measured: 0.59, and 0.40 at most
@@ -265,15 +265,15 @@ class EveryTimed : public Every {};
 
 TEST_P(EveryTimed, GoesBySecondsNotByFrames) {
   const auto shaking = [](double rate_hz) {
-    Clip clip = moving_take(static_cast<std::size_t>(2 * rate_hz), rate_hz);
+    Take clip = moving_take(static_cast<std::size_t>(2 * rate_hz), rate_hz);
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
       const double t = static_cast<double>(f) / rate_hz;
       clip.rotation(f, 2) = clip.rotation(f, 2) * exp({0.03 * std::sin(2 * pi * 13 * t), 0, 0});
     }
     return clip;
   };
-  const Clip fast = cleaned(shaking(120)), slow = cleaned(shaking(60));
-  Clip mislabelled = shaking(60);
+  const Take fast = cleaned(shaking(120)), slow = cleaned(shaking(60));
+  Take mislabelled = shaking(60);
   mislabelled.frame_rate_hz = 120;
   mislabelled = cleaned(mislabelled);
   double right = 0, wrong = 0;

@@ -26,20 +26,19 @@ namespace {
 
 using testing::HasSubstr;
 
-Clip walk(std::uint64_t seed, double rate_hz = 30, double duration_s = 4) {
+Take walk(std::uint64_t seed, double rate_hz = 30, double duration_s = 4) {
   SynthOptions options{.motion = "walk", .duration_s = duration_s, .frame_rate_hz = rate_hz};
   options.seed = seed;
   return synthesize(options);
 }
 
-template <class AnyClip>
-std::shared_ptr<const Model> learned(const std::string& method, const std::vector<AnyClip>& clips) {
+std::shared_ptr<const Model> learned(const std::string& method, const std::vector<Take>& clips) {
   return std::make_shared<const Model>(
       train_model(method, {clips.size(), [&](std::size_t i) { return Take(clips[i]); }}));
 }
 
 std::shared_ptr<const Model> walking(const std::string& method) {
-  const std::vector<Clip> clips = {walk(1, 120), walk(2, 120), walk(3, 120)};
+  const std::vector<Take> clips = {walk(1, 120), walk(2, 120), walk(3, 120)};
   return learned(method, clips);
 }
 
@@ -60,33 +59,33 @@ class Learned : public testing::TestWithParam<LearnedFilter> {
   }
 };
 
-Clip noisy(Clip clip, double std_deg, double outlier_share) {
+Take noisy(Take clip, double std_deg, double outlier_share) {
   Random random(7);
   apply_damage(clip, "gaussian", {{"std_deg", std_deg}}, random);
   if (outlier_share > 0) apply_damage(clip, "outliers", {{"share", outlier_share}}, random);
   return clip;
 }
 
-double error(const Clip& truth, const Clip& input, const Cleaner& cleaner) {
-  return rms_deg(truth, clean_clip(input, cleaner).clip);
+double error(const Take& truth, const Take& input, const Cleaner& cleaner) {
+  return rms_deg(truth, clean_take(input, cleaner).take);
 }
 
 TEST_P(Learned, BringsANoisyWalkNearerToTheTruthThanAutoDoes) {
-  const Clip truth = walk(4), input = noisy(truth, 3, 0);
+  const Take truth = walk(4), input = noisy(truth, 3, 0);
   const double ours = error(truth, input, cleaner());
   EXPECT_LT(ours, 0.5 * rms_deg(truth, input));
   EXPECT_LT(ours, error(truth, input, *make_auto()));
 }
 
 TEST_P(Learned, TakesSpikesOut) {
-  const Clip truth = walk(4), input = noisy(truth, 1, 0.03);
+  const Take truth = walk(4), input = noisy(truth, 1, 0.03);
   EXPECT_LT(error(truth, input, cleaner()), 0.4 * rms_deg(truth, input));
 }
 
 TEST_P(Learned, TakesDenseSpikesOut) {
-  const Clip truth = walk(4);
+  const Take truth = walk(4);
   for (const double share : {0.1, 0.2}) {
-    const Clip input = noisy(truth, 0.3, share);
+    const Take input = noisy(truth, 0.3, share);
     EXPECT_LT(error(truth, input, cleaner()), 0.21 * rms_deg(truth, input)) << share;
   }
 }
@@ -94,23 +93,23 @@ TEST_P(Learned, TakesDenseSpikesOut) {
 // At 30 Hz `auto` takes a fifth of thrown samples for noise, and what it makes of them is no
 // measure.
 TEST_P(Learned, TakesMoreSpikesOutThanAutoTellsFromNoise) {
-  const Clip truth = walk(4, 30);
+  const Take truth = walk(4, 30);
   for (const double share : {0.2, 0.25}) {
-    const Clip input = noisy(truth, 0.3, share);
+    const Take input = noisy(truth, 0.3, share);
     EXPECT_LT(error(truth, input, cleaner()), 0.35 * error(truth, input, *make_auto())) << share;
   }
 }
 
 TEST_P(Learned, RepairsWholeAtEveryStrength) {
-  Clip input = noisy(walk(4), 1, 0);
+  Take input = noisy(walk(4), 1, 0);
   const std::vector<Thrown> thrown = throw_spikes(input, {2, 3, 8, 20}, 25, 3);
   EXPECT_GT(expect_whole_repairs(input, thrown, cleaner()), thrown.size() / 3);
 }
 
 TEST_P(Learned, KeepsTheRateOfTheTake) {
   for (const double rate_hz : {120.0, 100.0, 60.0, 25.0}) {
-    const Clip truth = walk(4, rate_hz), input = noisy(truth, 3, 0);
-    const Clip result = clean_clip(input, cleaner()).clip;
+    const Take truth = walk(4, rate_hz), input = noisy(truth, 3, 0);
+    const Take result = clean_take(input, cleaner()).take;
     EXPECT_EQ(result.frame_count(), truth.frame_count());
     EXPECT_EQ(result.frame_rate_hz, rate_hz);
     EXPECT_LT(rms_deg(truth, result), 0.55 * rms_deg(truth, input)) << rate_hz;
@@ -118,13 +117,13 @@ TEST_P(Learned, KeepsTheRateOfTheTake) {
 }
 
 TEST_P(Learned, LeavesACleanWalkNearlyAlone) {
-  const Clip truth = walk(4, 120);
+  const Take truth = walk(4, 120);
   EXPECT_LT(error(truth, truth, cleaner()), 0.1);
 }
 
 TEST_P(Learned, FillsBothArmsThatAreMissingThroughout) {
-  const Clip truth = walk(4);
-  Clip input = truth;
+  const Take truth = walk(4);
+  Take input = truth;
   input.observed.assign(truth.rotations.size(), 1);
   std::vector<std::size_t> arms;
   for (const char* name : {"LeftArm", "LeftForeArm", "RightArm", "RightForeArm"})
@@ -135,9 +134,9 @@ TEST_P(Learned, FillsBothArmsThatAreMissingThroughout) {
       input.rotation(f, joint) = exp({2, -1, 1});
     }
   }
-  const CleanResult result = clean_clip(input, cleaner());
-  const std::vector<double> errors = geodesic_rms_deg_per_joint(truth, result.clip);
-  Clip still = truth;
+  const CleanResult result = clean_take(input, cleaner());
+  const std::vector<double> errors = geodesic_rms_deg_per_joint(truth, result.take);
+  Take still = truth;
   for (std::size_t f = 0; f < truth.frame_count(); ++f) {
     for (const std::size_t joint : arms) still.rotation(f, joint) = truth.rotation(0, joint);
   }
@@ -150,9 +149,9 @@ TEST_P(Learned, FillsBothArmsThatAreMissingThroughout) {
 }
 
 TEST_P(Learned, RefusesABodyThatTheModelDoesNotKnow) {
-  const Clip chain = synthesize({.motion = "spin", .duration_s = 1});
+  const Take chain = synthesize({.motion = "spin", .duration_s = 1});
   try {
-    clean_clip(chain, cleaner());
+    clean_take(chain, cleaner());
     FAIL() << "a chain is no body";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
@@ -167,21 +166,21 @@ TEST_P(Learned, RefusesTheModelOfAnotherMethod) {
 
 TEST_P(Learned, TakesAnyNumberOfFrames) {
   for (const std::size_t frames : {0, 1, 2, 3, 7}) {
-    const Clip input = slice(noisy(walk(4), 1, 0), 0, frames);
-    EXPECT_EQ(clean_clip(input, cleaner()).clip.frame_count(), frames);
+    const Take input = slice(noisy(walk(4), 1, 0), 0, frames);
+    EXPECT_EQ(clean_take(input, cleaner()).take.frame_count(), frames);
   }
 }
 
 TEST_P(Learned, WorksOnMarkersAndFillsThoseThatAreNeverSeen) {
-  std::vector<MarkerClip> clips;
+  std::vector<Take> clips;
   for (const std::uint64_t seed : {1, 2, 3}) clips.push_back(joint_markers(walk(seed, 60), true));
   const auto model = learned(GetParam().name, clips);
-  const MarkerClip truth = joint_markers(walk(4, 60), true);
-  MarkerClip input = damaged(truth, 1, 0.005, 20, 3);
+  const Take truth = joint_markers(walk(4, 60), true);
+  Take input = damaged(truth, 1, 0.005, 20, 3);
   const auto hand = static_cast<std::size_t>(truth.find("LeftHand"));
   for (std::size_t f = 0; f < truth.frame_count(); ++f)
     input.observed[f * truth.marker_count() + hand] = 0;
-  const MarkerClip result = clean_markers(input, *GetParam().make(model)).clip;
+  const Take result = clean_take(input, *GetParam().make(model)).take;
   double before = 0, after = 0, of_hand = 0;
   for (std::size_t f = 0; f < truth.frame_count(); ++f) {
     for (std::size_t m = 0; m < truth.marker_count(); ++m) {
@@ -210,18 +209,18 @@ INSTANTIATE_TEST_SUITE_P(Methods, Learned,
                          [](const auto& method) { return camel_case(method.param.name); });
 
 TEST(Wiener, TakesNoiseForWhatItIsInEachDirection) {
-  const Clip truth = walk(4, 120);
+  const Take truth = walk(4, 120);
   const auto shaken = [&](const auto& turn) {
-    Clip clip = truth;
+    Take clip = truth;
     Random random(5);
     for (Quat& rotation : clip.rotations) rotation = rotation * exp(turn(random));
     return clip;
   };
   constexpr double deviation = 8 * radians_per_degree;
-  const Clip even = shaken([](Random& random) {
+  const Take even = shaken([](Random& random) {
     return (deviation / std::sqrt(3)) * Vec3{random.normal(), random.normal(), random.normal()};
   });
-  const Clip uneven = shaken([](Random& random) {
+  const Take uneven = shaken([](Random& random) {
     return (deviation * random.normal() / std::sqrt(3)) * Vec3{1, -1, 1};
   });
   const auto wiener = make_wiener({}, walking("wiener"));
@@ -232,15 +231,15 @@ TEST(Wiener, TakesNoiseForWhatItIsInEachDirection) {
 TEST(Wiener, IsNotHeldToAutoWhereItFindsDenseOutliersItself) {
   SynthOptions options{.motion = "run", .duration_s = 4, .frame_rate_hz = 30};
   options.seed = 4;
-  const Clip truth = synthesize(options), input = noisy(truth, 0.3, 0.2);
+  const Take truth = synthesize(options), input = noisy(truth, 0.3, 0.2);
   const auto wiener = make_wiener({}, walking("wiener"));
   EXPECT_LT(error(truth, input, *wiener), 0.35 * error(truth, input, *make_auto()));
 }
 
 // Both arms missing throughout: where the descent stops is where it would end, within 2 %.
 TEST(Example, StopsWhereLimbsThatAreMissingHaveSettled) {
-  const Clip truth = walk(4, 30);
-  Clip input = noisy(truth, 1, 0);
+  const Take truth = walk(4, 30);
+  Take input = noisy(truth, 1, 0);
   input.observed.assign(input.rotations.size(), 1);
   for (std::size_t i = 0; i < input.observed.size(); ++i) {
     const std::string& name = input.skeleton.names[i % input.joint_count()];
@@ -249,7 +248,7 @@ TEST(Example, StopsWhereLimbsThatAreMissingHaveSettled) {
     input.rotations[i] = {};
   }
   const auto arms = [&](const ExampleOptions& options) {
-    Clip filled = input;
+    Take filled = input;
     clean_in_place(*make_example(options, walking("example")), filled);
     double sum = 0;
     for (std::size_t i = 0; i < input.observed.size(); ++i) {
@@ -266,21 +265,21 @@ TEST(Example, StopsWhereLimbsThatAreMissingHaveSettled) {
 
 // The paper's objective has the same minimum whoever finds it.
 TEST(Example, FindsWithThePapersAlternationWhatTheQuickSolverFinds) {
-  const Clip input = noisy(walk(4, 30), 1, 0);
+  const Take input = noisy(walk(4, 30), 1, 0);
   const auto result = [&](const std::string& solver, double tolerance) {
     ExampleOptions options;
     options.solver = solver, options.tolerance = tolerance;
     options.welsch_deg = 3, options.lambda = 0.1, options.iterations = 10000;
-    Clip clip = input;
+    Take clip = input;
     clean_in_place(*make_example(options, walking("example")), clip);
     return clip;
   };
-  const Clip quick = result("quick", 1e-10), paper = result("paper", ExampleOptions().tolerance);
+  const Take quick = result("quick", 1e-10), paper = result("paper", ExampleOptions().tolerance);
   EXPECT_GT(rms_deg(input, paper), 0.3);
   EXPECT_LT(rms_deg(quick, paper), 0.02);
   ExampleOptions by_default;
   by_default.solver = "paper";
-  Clip clip = input;
+  Take clip = input;
   clean_in_place(*make_example(by_default, walking("example")), clip);
   EXPECT_LT(rms_deg(quick, clip), 0.02) << "p = 3 and lambda = 0.1";
   by_default.solver = "papers";

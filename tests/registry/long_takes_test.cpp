@@ -20,8 +20,8 @@ namespace {
 using testing::ElementsAre;
 
 #if !defined(KINEMEND_SANITIZED)
-Clip noisy_stroll(double duration_s) {
-  Clip clip = synthesize({"stroll", duration_s, 120, 1});
+Take noisy_stroll(double duration_s) {
+  Take clip = synthesize({"stroll", duration_s, 120, 1});
   Random random(7);
   apply_damage(clip, "gaussian", {{"std_deg", 1.5}}, random);
   apply_damage(clip, "outliers", {{"share", 0.004}}, random);
@@ -33,9 +33,9 @@ Clip noisy_stroll(double duration_s) {
 TEST(LongTakes, AreCleanedInLittleMoreRoomThanTheyTake) {
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 2);
   const auto cleaner = make_auto();
-  Clip clip = noisy_stroll(60);
+  Take clip = noisy_stroll(60);
   const auto rotations = static_cast<double>(clip.rotations.size());
-  const std::size_t peak = peak_memory([&] { clip = clean_clip(std::move(clip), *cleaner).clip; });
+  const std::size_t peak = peak_memory([&] { clip = clean_take(std::move(clip), *cleaner).take; });
   EXPECT_LT(static_cast<double>(peak), 90 * rotations);
   EXPECT_GT(static_cast<double>(peak), 10 * rotations);  // counted at all
 }
@@ -45,12 +45,12 @@ TEST(LongTakes, AreCleanedInLittleMoreRoomThanTheyTake) {
 TEST(LongTakes, AreCleanedByExampleInRoomThatGrowsLittle) {
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 2);
   const auto cleaner = make_example();
-  const auto peak_of = [&](const Clip& take) {
-    Clip clip = take;
+  const auto peak_of = [&](const Take& take) {
+    Take clip = take;
     return static_cast<double>(
-        peak_memory([&] { clip = clean_clip(std::move(clip), *cleaner).clip; }));
+        peak_memory([&] { clip = clean_take(std::move(clip), *cleaner).take; }));
   };
-  Clip whole = noisy_stroll(50);
+  Take whole = noisy_stroll(50);
   EXPECT_LT(peak_of(slice(whole, 0, 1500)), 95e6);
   whole.frame_rate_hz = 30;
   const double growth = peak_of(whole) - peak_of(slice(whole, 0, whole.frame_count() / 2));
@@ -71,7 +71,7 @@ struct Told {
 class EveryOnLongTakes : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryOnLongTakes, TellsOfEachStageOnceFromBeginningToEnd) {
-  Clip clip = moving_take(1500, 120);
+  Take clip = moving_take(1500, 120);
   add_noise(clip, 1.5, 0.5, 1);
   std::vector<Told> told;
   CleanSettings settings;
@@ -82,7 +82,7 @@ TEST_P(EveryOnLongTakes, TellsOfEachStageOnceFromBeginningToEnd) {
   const auto cleaner = make_cleaner(GetParam());
   const auto stages = [&] {
     told.clear();
-    clean_clip(clip, *cleaner, settings);
+    clean_take(clip, *cleaner, settings);
     std::vector<std::string> names;
     for (const Told& stage : told) {
       names.push_back(stage.stage);
@@ -104,13 +104,13 @@ TEST_P(EveryOnLongTakes, TellsOfEachStageOnceFromBeginningToEnd) {
 
 // What a cleaner hands over may take the place of its input at once.
 TEST_P(EveryOnLongTakes, ReadsNoTrackThatItHasHandedOver) {
-  Clip clip = moving_take(600, 120);
+  Take clip = moving_take(600, 120);
   add_noise(clip, 1.5, 0.5, 2);
   clip.rotation(100, 2) = clip.rotation(100, 2) * exp({1.2, 0, 0});
   const auto cleaner = make_cleaner(GetParam());
-  Clip at_once = clip;
+  Take at_once = clip;
   const InPlaceTrace trace = clean_in_place(*cleaner, at_once);
-  Clip afterwards = clip;
+  Take afterwards = clip;
   std::vector<CleanedTrack> tracks(2 + clip.joint_count());
   const CleanTrace other = cleaner->clean(
       view_of(clip), [&](std::size_t n, CleanedTrack cleaned) { tracks[n] = std::move(cleaned); },
@@ -126,19 +126,19 @@ TEST_P(EveryOnLongTakes, ReadsNoTrackThatItHasHandedOver) {
 }
 
 TEST_P(EveryOnLongTakes, GivesTheSameOfATakeThatIsNeededNoMore) {
-  Clip clip = moving_take(300, 120);
+  Take clip = moving_take(300, 120);
   add_noise(clip, 1.5, 0.5, 3);
   for (std::size_t j = 0; j < clip.joint_count(); ++j) clip.rotation(0, j) = {};
   ASSERT_EQ(leading_calibration_frames(clip), 1U);
   clip.observed.assign(clip.rotations.size(), 1);
   for (std::size_t f = 50; f < 55; ++f) clip.observed[f * clip.joint_count() + 1] = 0;
   const auto cleaner = make_cleaner(GetParam());
-  const CleanResult kept = clean_clip(clip, *cleaner);
+  const CleanResult kept = clean_take(clip, *cleaner);
   const std::vector<std::uint8_t> observed = clip.observed;
-  const CleanResult given = clean_clip(std::move(clip), *cleaner);
-  EXPECT_EQ(given.clip.rotations, kept.clip.rotations);
-  EXPECT_EQ(given.clip.positions, kept.clip.positions);
-  EXPECT_EQ(given.clip.observed, observed);
+  const CleanResult given = clean_take(std::move(clip), *cleaner);
+  EXPECT_EQ(given.take.rotations, kept.take.rotations);
+  EXPECT_EQ(given.take.positions, kept.take.positions);
+  EXPECT_EQ(given.take.observed, observed);
   ASSERT_EQ(given.report.spans.size(), kept.report.spans.size());
 }
 

@@ -17,7 +17,7 @@ class EveryOnMarkers : public testing::TestWithParam<std::string> {
  protected:
   std::unique_ptr<Cleaner> cleaner_ = make_cleaner(GetParam());
 
-  MarkerClip cleaned(MarkerClip clip) const {
+  Take cleaned(Take clip) const {
     clean_in_place(*cleaner_, clip);
     return clip;
   }
@@ -27,10 +27,10 @@ class EveryOnMarkers : public testing::TestWithParam<std::string> {
 class EveryAheadOnMarkers : public EveryOnMarkers {};
 class EveryCausalOnMarkers : public EveryOnMarkers {};
 
-MarkerClip noisy_markers() { return damaged(marker_take(), 3, 0.003, 100, 1); }
+Take noisy_markers() { return damaged(marker_take(), 3, 0.003, 100, 1); }
 
-MarkerClip gappy_take() {
-  MarkerClip clip = noisy_markers();
+Take gappy_take() {
+  Take clip = noisy_markers();
   lose(clip, 0, 50, 60);
   lose(clip, 1, 0, 9);
   lose(clip, 2, 100, 160);
@@ -41,7 +41,7 @@ MarkerClip gappy_take() {
 }
 
 template <class Map>
-MarkerClip mapped(MarkerClip clip, Map map) {
+Take mapped(Take clip, Map map) {
   for (std::size_t i = 0; i < clip.positions.size(); ++i) {
     if (clip.observed[i] != 0) clip.positions[i] = map(clip.positions[i]);
   }
@@ -49,7 +49,7 @@ MarkerClip mapped(MarkerClip clip, Map map) {
 }
 
 TEST_P(EveryOnMarkers, LeavesAConstantTakeByteForByte) {
-  MarkerClip clip = marker_take("walk", 1);
+  Take clip = marker_take("walk", 1);
   for (std::size_t f = 1; f < clip.frame_count(); ++f) {
     for (std::size_t m = 0; m < clip.marker_count(); ++m) clip.position(f, m) = clip.position(0, m);
   }
@@ -59,7 +59,7 @@ TEST_P(EveryOnMarkers, LeavesAConstantTakeByteForByte) {
 }
 
 TEST_P(EveryAheadOnMarkers, KeepsStraightLinesUpToEveryEnd) {
-  MarkerClip clip = marker_take("walk", 1.5);
+  Take clip = marker_take("walk", 1.5);
   for (std::size_t f = 1; f < clip.frame_count(); ++f) {
     for (std::size_t m = 0; m < clip.marker_count(); ++m)
       clip.position(f, m) = clip.position(0, m) + static_cast<double>(f) * Vec3{7, -1, 2};
@@ -70,13 +70,13 @@ TEST_P(EveryAheadOnMarkers, KeepsStraightLinesUpToEveryEnd) {
 }
 
 TEST_P(EveryOnMarkers, MovesWithTheTake) {
-  const MarkerClip clip = gappy_take();
+  const Take clip = gappy_take();
   const auto move = [](Vec3 p) { return p + Vec3{5000, -300, 1234.5}; };
   EXPECT_LT(max_distance(cleaned(mapped(clip, move)), mapped(cleaned(clip), move)), 1e-6);
 }
 
 TEST_P(EveryOnMarkers, TurnsWithTheTake) {
-  const MarkerClip clip = gappy_take();
+  const Take clip = gappy_take();
   // Wavelets work on each axis by itself, so that only turns onto other axes commute with them. So
   // does the choice of a strength in `auto`, but for the rounding of its principal axes.
   const Quat by = GetParam() == "wavelet" ? Quat{0.5, 0.5, 0.5, 0.5} : exp({0.3, -1.1, 0.8});
@@ -85,8 +85,8 @@ TEST_P(EveryOnMarkers, TurnsWithTheTake) {
 }
 
 TEST_P(EveryOnMarkers, DoesTheSameInMetresAndInMillimetres) {
-  const MarkerClip clip = gappy_take();
-  const auto to_metres = [](MarkerClip take) {
+  const Take clip = gappy_take();
+  const auto to_metres = [](Take take) {
     take = mapped(std::move(take), [](Vec3 p) { return 0.001 * p; });
     take.unit = "m";
     return take;
@@ -95,14 +95,14 @@ TEST_P(EveryOnMarkers, DoesTheSameInMetresAndInMillimetres) {
 }
 
 TEST_P(EveryOnMarkers, KeepsMissingSamplesMissingAndNeverLooksAtThem) {
-  const MarkerClip clip = gappy_take();
-  MarkerClip poisoned = clip;
+  const Take clip = gappy_take();
+  Take poisoned = clip;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i < poisoned.positions.size(); ++i) {
     if (poisoned.observed[i] == 0)
       poisoned.positions[i] = i % 2 == 0 ? Vec3{nan, nan, nan} : Vec3{1e30, -1e30, 1e30};
   }
-  const MarkerClip a = cleaned(clip), b = cleaned(poisoned);
+  const Take a = cleaned(clip), b = cleaned(poisoned);
   EXPECT_EQ(a.observed, clip.observed);
   EXPECT_EQ(b.observed, clip.observed);
   for (std::size_t i = 0; i < a.positions.size(); ++i) {
@@ -115,8 +115,8 @@ TEST_P(EveryOnMarkers, KeepsMissingSamplesMissingAndNeverLooksAtThem) {
 }
 
 TEST_P(EveryOnMarkers, DoesNotMindTheOrderOfMarkers) {
-  const MarkerClip clip = gappy_take();
-  const auto reversed = [](MarkerClip take) {
+  const Take clip = gappy_take();
+  const auto reversed = [](Take take) {
     const std::size_t markers = take.marker_count();
     for (std::size_t f = 0; f < take.frame_count(); ++f) {
       const auto at = static_cast<std::ptrdiff_t>(f * markers);
@@ -130,12 +130,12 @@ TEST_P(EveryOnMarkers, DoesNotMindTheOrderOfMarkers) {
 }
 
 TEST_P(EveryOnMarkers, LeavesMarkersThatWereNotAskedForByteForByte) {
-  MarkerClip clip = gappy_take();
+  Take clip = gappy_take();
   clip.is_position[7] = 0;  // an angle among the points
   Selection selection;
   selection.owners.assign(clip.marker_count(), 1);
   for (std::size_t m = 0; m < clip.marker_count(); m += 2) selection.owners[m] = 0;
-  MarkerClip result = clip;
+  Take result = clip;
   clean_in_place(*cleaner_, result, selection);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     for (std::size_t m = 0; m < clip.marker_count(); ++m) {
@@ -148,12 +148,12 @@ TEST_P(EveryOnMarkers, LeavesMarkersThatWereNotAskedForByteForByte) {
 
 // Nothing is thrown off in so few frames: what a method takes out is noise of 3 mm an axis.
 TEST_P(EveryOnMarkers, TakesAnyNumberOfFrames) {
-  const MarkerClip whole = damaged(marker_take(), 3, 0, 0, 1);
+  const Take whole = damaged(marker_take(), 3, 0, 0, 1);
   // Measured: 14.8 mm at most, but 50 mm of `butterworth` in three frames.
   const double bound = GetParam() == "butterworth" ? 60 : 18;
   for (const std::size_t frames : {0, 1, 2, 3, 4, 5, 7}) {
-    const MarkerClip clip = slice(whole, 0, frames);
-    const MarkerClip result = cleaned(clip);
+    const Take clip = slice(whole, 0, frames);
+    const Take result = cleaned(clip);
     EXPECT_EQ(result.frame_count(), frames);
     EXPECT_NO_THROW(result.validate());
     EXPECT_LT(max_distance(result, clip), bound) << frames;
@@ -164,19 +164,19 @@ TEST_P(EveryOnMarkers, TakesAnyNumberOfFrames) {
 }
 
 TEST_P(EveryOnMarkers, TakesALonelyMarkerAndNone) {
-  MarkerClip clip = make_marker_clip({"wand"}, 200, 100);
+  Take clip = make_marker_take({"wand"}, 200, 100);
   clip.observed.assign(200, 1);
   for (std::size_t f = 0; f < 200; ++f)
     clip.position(f, 0) = {std::sin(0.05 * static_cast<double>(f)), 1, 0};
-  const MarkerClip result = cleaned(clip);
+  const Take result = cleaned(clip);
   EXPECT_NO_THROW(result.validate());
   EXPECT_EQ(result.observed, clip.observed);
   EXPECT_LT(max_distance(result, clip), 0.02);  // of a slow swing of 1; measured: 0.015 at most
-  EXPECT_EQ(cleaned(make_marker_clip({}, 0, 100)).frame_count(), 0u);
+  EXPECT_EQ(cleaned(make_marker_take({}, 0, 100)).frame_count(), 0u);
 }
 
 TEST_P(EveryOnMarkers, GivesTheSameOnAnyNumberOfThreads) {
-  const MarkerClip clip = gappy_take();
+  const Take clip = gappy_take();
   const auto on_threads = [&](std::size_t count) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, count);
     return cleaned(clip).positions;
@@ -185,12 +185,12 @@ TEST_P(EveryOnMarkers, GivesTheSameOnAnyNumberOfThreads) {
 }
 
 TEST_P(EveryOnMarkers, IsNotMovedByWhatLiesBeyondALongGap) {
-  const MarkerClip clip = gappy_take();
-  MarkerClip other = clip;  // marker 2 comes back elsewhere
+  const Take clip = gappy_take();
+  Take other = clip;  // marker 2 comes back elsewhere
   for (std::size_t f = 161; f < clip.frame_count(); ++f) other.position(f, 2) += {400, 0, 0};
   Selection selection;
   selection.body_height = body_height(clip);
-  MarkerClip a = clip, b = other;
+  Take a = clip, b = other;
   clean_in_place(*cleaner_, a, selection);
   clean_in_place(*cleaner_, b, selection);
   // `auto` chooses strengths from the whole take, but nothing rings over; measured: 1.2 mm.
@@ -202,9 +202,9 @@ TEST_P(EveryOnMarkers, IsNotMovedByWhatLiesBeyondALongGap) {
 }
 
 TEST_P(EveryAheadOnMarkers, BeatsItsDamagedInputOnAWalk) {
-  const MarkerClip truth = marker_take("walk", 3);
+  const Take truth = marker_take("walk", 3);
   const bool spikes = GetParam() == "hampel";
-  const MarkerClip noisy = spikes ? damaged(truth, 0, 0.01, 100, 2) : damaged(truth, 5, 0, 0, 2);
+  const Take noisy = spikes ? damaged(truth, 0, 0.01, 100, 2) : damaged(truth, 5, 0, 0, 2);
   // Measured: 0.86 of `hampel`, 0.59 at most of the others.
   EXPECT_LT(rms_distance(cleaned(noisy), truth),
             (spikes ? 0.9 : 0.65) * rms_distance(noisy, truth));
@@ -212,29 +212,29 @@ TEST_P(EveryAheadOnMarkers, BeatsItsDamagedInputOnAWalk) {
 
 // A body at rest, where a lag costs nothing.
 TEST_P(EveryCausalOnMarkers, BeatsItsDamagedInputAtRest) {
-  MarkerClip truth = marker_take("walk", 3);
+  Take truth = marker_take("walk", 3);
   for (std::size_t f = 1; f < truth.frame_count(); ++f) {
     for (std::size_t m = 0; m < truth.marker_count(); ++m)
       truth.position(f, m) = truth.position(0, m);
   }
-  const MarkerClip noisy = damaged(truth, 5, 0, 0, 2);
+  const Take noisy = damaged(truth, 5, 0, 0, 2);
   EXPECT_LT(rms_distance(cleaned(noisy), truth), 0.5 * rms_distance(noisy, truth));  // 0.41
 }
 
 // On a walk its lag costs about as much as its smoothing brings.
 TEST_P(EveryCausalOnMarkers, IsNoWorseThanItsDamagedInputOnAWalk) {
-  const MarkerClip truth = marker_take("walk", 3), noisy = damaged(truth, 5, 0, 0, 2);
+  const Take truth = marker_take("walk", 3), noisy = damaged(truth, 5, 0, 0, 2);
   EXPECT_LT(rms_distance(cleaned(noisy), truth), rms_distance(noisy, truth));  // 0.95 times
 }
 
 TEST_P(EveryCausalOnMarkers, StaysBehindOnAStraightLineByTheSameTime) {
-  MarkerClip clip = marker_take("walk", 3);
+  Take clip = marker_take("walk", 3);
   const Vec3 step{7, -1, 2};
   for (std::size_t f = 1; f < clip.frame_count(); ++f) {
     for (std::size_t m = 0; m < clip.marker_count(); ++m)
       clip.position(f, m) = clip.position(0, m) + static_cast<double>(f) * step;
   }
-  const MarkerClip result = cleaned(clip);
+  const Take result = cleaned(clip);
   const auto lag_frames = [&](std::size_t f) {
     return dot(clip.position(f, 0) - result.position(f, 0), step) / dot(step, step);
   };
@@ -244,8 +244,8 @@ TEST_P(EveryCausalOnMarkers, StaysBehindOnAStraightLineByTheSameTime) {
 }
 
 TEST_P(EveryAheadOnMarkers, MakesNoBumpAtTheEdgesOfGaps) {
-  const MarkerClip truth = marker_take("walk", 3);
-  MarkerClip noisy = damaged(truth, 2, 0, 0, 3);
+  const Take truth = marker_take("walk", 3);
+  Take noisy = damaged(truth, 2, 0, 0, 3);
   Random random(4);
   std::vector<std::pair<std::size_t, std::size_t>> edges;
   for (std::size_t m = 0; m < noisy.marker_count(); ++m) {
@@ -257,7 +257,7 @@ TEST_P(EveryAheadOnMarkers, MakesNoBumpAtTheEdgesOfGaps) {
       edges.emplace_back(first + length - 1 + k, m);
     }
   }
-  const MarkerClip result = cleaned(noisy);
+  const Take result = cleaned(noisy);
   double squares = 0;
   for (const auto& [f, m] : edges) {
     const Vec3 error = result.position(f, m) - truth.position(f, m);

@@ -8,7 +8,7 @@
 #include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/experimental/synth.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 #include "rotation/random_rotations.hpp"
 
 // Marker takes whose truth is known.
@@ -16,13 +16,13 @@ namespace kinemend::test {
 
 /// Markers on a synthetic body, two on each joint that carries a bone, in millimetres, all
 /// observed.
-inline MarkerClip marker_take(const std::string& motion = "walk", double duration_s = 2,
-                              double rate_hz = 120) {
+inline Take marker_take(const std::string& motion = "walk", double duration_s = 2,
+                        double rate_hz = 120) {
   SynthOptions options;
   options.motion = motion;
   options.duration_s = duration_s;
   options.frame_rate_hz = rate_hz;
-  const Clip clip = synthesize(options);
+  const Take clip = synthesize(options);
   std::vector<std::size_t> joints;
   std::vector<std::string> names;
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
@@ -33,7 +33,7 @@ inline MarkerClip marker_take(const std::string& motion = "walk", double duratio
     names.push_back(name + "1");
     names.push_back(name + "2");
   }
-  MarkerClip take = make_marker_clip(names, clip.frame_count(), rate_hz);
+  Take take = make_marker_take(names, clip.frame_count(), rate_hz);
   take.unit = "mm";
   take.observed.assign(take.positions.size(), 1);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -50,8 +50,8 @@ inline MarkerClip marker_take(const std::string& motion = "walk", double duratio
 
 /// White noise per axis, and `outlier_share` of the samples thrown off by `outlier` in some
 /// direction.
-inline MarkerClip damaged(MarkerClip clip, double noise, double outlier_share, double outlier,
-                          std::uint64_t seed) {
+inline Take damaged(Take clip, double noise, double outlier_share, double outlier,
+                    std::uint64_t seed) {
   Random random(seed);
   for (std::size_t i = 0; i < clip.positions.size(); ++i) {
     if (clip.observed[i] == 0) continue;
@@ -64,7 +64,7 @@ inline MarkerClip damaged(MarkerClip clip, double noise, double outlier_share, d
 }
 
 /// Root mean square distance of the samples observed in both.
-inline double rms_distance(const MarkerClip& a, const MarkerClip& b) {
+inline double rms_distance(const Take& a, const Take& b) {
   double sum = 0, count = 0;
   for (std::size_t i = 0; i < a.positions.size(); ++i) {
     if (a.observed[i] == 0 || b.observed[i] == 0) continue;
@@ -75,7 +75,7 @@ inline double rms_distance(const MarkerClip& a, const MarkerClip& b) {
   return std::sqrt(sum / count);
 }
 
-inline double max_distance(const MarkerClip& a, const MarkerClip& b) {
+inline double max_distance(const Take& a, const Take& b) {
   double largest = 0;
   for (std::size_t i = 0; i < a.positions.size(); ++i) {
     if (a.observed[i] != 0 && b.observed[i] != 0)
@@ -85,7 +85,7 @@ inline double max_distance(const MarkerClip& a, const MarkerClip& b) {
 }
 
 /// Takes the samples of one marker away.
-inline void lose(MarkerClip& clip, std::size_t marker, std::size_t first, std::size_t last) {
+inline void lose(Take& clip, std::size_t marker, std::size_t first, std::size_t last) {
   for (std::size_t f = first; f <= last; ++f) {
     clip.observed[f * clip.marker_count() + marker] = 0;
     clip.position(f, marker) = {};

@@ -21,7 +21,7 @@ class EveryAtStrength : public testing::TestWithParam<std::string> {
 class EveryRepairAtStrength : public EveryAtStrength {};
 
 TEST_P(EveryRepairAtStrength, RepairsRotationsWhole) {
-  Clip input = moving_take(480, 120);
+  Take input = moving_take(480, 120);
   add_noise(input, 1.5, 0.5, 1);
   const std::vector<Thrown> thrown = throw_spikes(input, {0, 1, 2, 6}, 40, 2);
   const std::size_t repaired = expect_whole_repairs(input, thrown, *cleaner_);
@@ -29,7 +29,7 @@ TEST_P(EveryRepairAtStrength, RepairsRotationsWhole) {
 }
 
 TEST_P(EveryRepairAtStrength, RepairsHingesAndSaddlesWhole) {
-  Clip input = moving_take(480, 120);
+  Take input = moving_take(480, 120);
   add_noise(input, 1.5, 0.5, 2);
   for (const std::size_t joint : {3, 4}) {
     const RotationOrder order = input.skeleton.rotation_order(joint);
@@ -41,14 +41,14 @@ TEST_P(EveryRepairAtStrength, RepairsHingesAndSaddlesWhole) {
   }
   CleanSettings half;
   half.strength = 0.5;
-  const CleanResult whole = clean_clip(input, *cleaner_), part = clean_clip(input, *cleaner_, half);
+  const CleanResult whole = clean_take(input, *cleaner_), part = clean_take(input, *cleaner_, half);
   std::size_t repaired = 0;
   for (const ReportSpan& span : whole.report.spans) {
     if (span.joint < 0 || span.action != Action::despiked) continue;
     const auto joint = static_cast<std::size_t>(span.joint);
     for (std::size_t f = span.first_frame; f <= span.last_frame; ++f) {
       ++repaired;
-      EXPECT_LT(angle_between(part.clip.rotation(f, joint), whole.clip.rotation(f, joint)), 0.12)
+      EXPECT_LT(angle_between(part.take.rotation(f, joint), whole.take.rotation(f, joint)), 0.12)
           << f << " " << joint;
     }
   }
@@ -56,8 +56,8 @@ TEST_P(EveryRepairAtStrength, RepairsHingesAndSaddlesWhole) {
 }
 
 TEST_P(EveryRepairAtStrength, RepairsPositionsWhole) {
-  const Clip truth = moving_take(480, 120);
-  Clip input = truth;
+  const Take truth = moving_take(480, 120);
+  Take input = truth;
   add_noise(input, 1.5, 0.05, 3);
   const Vec3 off{30, -20, 10};
   for (std::size_t f = 15; f < 470; f += 60) {
@@ -66,27 +66,27 @@ TEST_P(EveryRepairAtStrength, RepairsPositionsWhole) {
   }
   CleanSettings half;
   half.strength = 0.5;
-  const CleanResult whole = clean_clip(input, *cleaner_), part = clean_clip(input, *cleaner_, half);
+  const CleanResult whole = clean_take(input, *cleaner_), part = clean_take(input, *cleaner_, half);
   const double tenth = 0.1 * norm(off);
   std::size_t repaired = 0;
   for (std::size_t f = 15; f < 470; f += 60) {
     // What stands within a tenth of the truth has been repaired.
-    if (norm(whole.clip.root_position(f) - truth.root_position(f)) < tenth) {
+    if (norm(whole.take.root_position(f) - truth.root_position(f)) < tenth) {
       ++repaired;
-      EXPECT_LT(norm(part.clip.root_position(f) - truth.root_position(f)), tenth) << f;
+      EXPECT_LT(norm(part.take.root_position(f) - truth.root_position(f)), tenth) << f;
     }
     const Vec3 there = truth.position(f + 20, 1);
-    if (norm(whole.clip.position(f + 20, 1) - there) < tenth) {
+    if (norm(whole.take.position(f + 20, 1) - there) < tenth) {
       ++repaired;
-      EXPECT_LT(norm(part.clip.position(f + 20, 1) - there), tenth) << f + 20;
+      EXPECT_LT(norm(part.take.position(f + 20, 1) - there), tenth) << f + 20;
     }
   }
   EXPECT_EQ(repaired, 16U);
 }
 
 TEST_P(EveryRepairAtStrength, RepairsMarkersWhole) {
-  const MarkerClip truth = marker_take("walk", 2);
-  MarkerClip input = damaged(truth, 2, 0, 0, 4);
+  const Take truth = marker_take("walk", 2);
+  Take input = damaged(truth, 2, 0, 0, 4);
   const Vec3 off{80, -60, 0};
   std::vector<Thrown> thrown;
   for (std::size_t m = 0; m < input.marker_count(); m += 3) {
@@ -97,13 +97,12 @@ TEST_P(EveryRepairAtStrength, RepairsMarkersWhole) {
   }
   CleanSettings half;
   half.strength = 0.5;
-  const MarkerResult whole = clean_markers(input, *cleaner_),
-                     part = clean_markers(input, *cleaner_, half);
+  const CleanResult whole = clean_take(input, *cleaner_), part = clean_take(input, *cleaner_, half);
   std::size_t repaired = 0;
   for (const Thrown& at : thrown) {
     if (!is_stated(whole.report.spans, at.frame, at.joint, Action::despiked)) continue;
     ++repaired;
-    EXPECT_LT(norm(part.clip.position(at.frame, at.joint) - truth.position(at.frame, at.joint)),
+    EXPECT_LT(norm(part.take.position(at.frame, at.joint) - truth.position(at.frame, at.joint)),
               0.1 * norm(off))
         << at.frame << " " << at.joint;
   }
@@ -116,7 +115,7 @@ struct Roughness {
   double repaired = 0, others = 0;
 };
 
-Roughness roughness(const Clip& clip, const std::vector<ReportSpan>& spans, std::size_t joint) {
+Roughness roughness(const Take& clip, const std::vector<ReportSpan>& spans, std::size_t joint) {
   double sums[2] = {0, 0}, counts[2] = {0, 0};
   for (std::size_t f = 1; f + 1 < clip.frame_count(); ++f) {
     const bool is_repair = is_stated(spans, f, joint, Action::despiked);
@@ -129,15 +128,15 @@ Roughness roughness(const Clip& clip, const std::vector<ReportSpan>& spans, std:
 }
 
 TEST_P(EveryRepairAtStrength, LetsNoRepairStandOut) {
-  Clip input = moving_take(960, 120);
+  Take input = moving_take(960, 120);
   add_noise(input, 1.5, 0.5, 5);
   throw_spikes(input, {1, 2, 6}, 40, 6);
   for (const double strength : {0.2, 0.5, 0.8}) {
     CleanSettings settings;
     settings.strength = strength;
-    const CleanResult part = clean_clip(input, *cleaner_, settings);
+    const CleanResult part = clean_take(input, *cleaner_, settings);
     for (const std::size_t joint : {1, 2, 6}) {
-      const Roughness rough = roughness(part.clip, part.report.spans, joint);
+      const Roughness rough = roughness(part.take, part.report.spans, joint);
       EXPECT_GT(rough.repaired, 0) << "strength " << strength << " " << joint;
       EXPECT_LT(rough.repaired, 1.3 * rough.others) << "strength " << strength << " " << joint;
     }
@@ -145,20 +144,20 @@ TEST_P(EveryRepairAtStrength, LetsNoRepairStandOut) {
 }
 
 TEST_P(EveryAtStrength, KeepsTheLargestChangeALimit) {
-  Clip input = moving_take(480, 120);
+  Take input = moving_take(480, 120);
   add_noise(input, 1.5, 0.5, 7);
   throw_spikes(input, {1, 2, 6}, 40, 8);
   CleanSettings settings;
   settings.strength = 0.5;
   settings.max_change_deg = 5;
-  EXPECT_LT(max_angle_deg(clean_clip(input, *cleaner_, settings).clip, input), 5 + 1e-9);
-  MarkerClip markers = damaged(marker_take("walk", 1), 2, 0.01, 100, 9);
+  EXPECT_LT(max_angle_deg(clean_take(input, *cleaner_, settings).take, input), 5 + 1e-9);
+  Take markers = damaged(marker_take("walk", 1), 2, 0.01, 100, 9);
   settings.max_change = 4;
-  EXPECT_LT(max_distance(clean_markers(markers, *cleaner_, settings).clip, markers), 4 + 1e-9);
+  EXPECT_LT(max_distance(clean_take(markers, *cleaner_, settings).take, markers), 4 + 1e-9);
 }
 
 TEST_P(EveryAtStrength, OfZeroChangesNothingOfSpikesAndGapsEither) {
-  Clip input = moving_take(240, 120);
+  Take input = moving_take(240, 120);
   add_noise(input, 1.5, 0.5, 10);
   throw_spikes(input, {1, 2}, 40, 11);
   input.root_position(100) += {50, 0, 0};
@@ -168,15 +167,15 @@ TEST_P(EveryAtStrength, OfZeroChangesNothingOfSpikesAndGapsEither) {
   CleanSettings settings;
   settings.strength = 0;
   settings.fill.emplace();
-  const CleanResult result = clean_clip(input, *cleaner_, settings);
-  EXPECT_EQ(result.clip.rotations, input.rotations);
-  EXPECT_EQ(result.clip.positions, input.positions);
+  const CleanResult result = clean_take(input, *cleaner_, settings);
+  EXPECT_EQ(result.take.rotations, input.rotations);
+  EXPECT_EQ(result.take.positions, input.positions);
   EXPECT_TRUE(result.report.spans.empty());
-  MarkerClip markers = damaged(marker_take("walk", 1), 2, 0.01, 100, 12);
+  Take markers = damaged(marker_take("walk", 1), 2, 0.01, 100, 12);
   lose(markers, 3, 40, 45);
-  const MarkerResult same = clean_markers(markers, *cleaner_, settings);
-  EXPECT_EQ(same.clip.positions, markers.positions);
-  EXPECT_EQ(same.clip.observed, markers.observed);
+  const CleanResult same = clean_take(markers, *cleaner_, settings);
+  EXPECT_EQ(same.take.positions, markers.positions);
+  EXPECT_EQ(same.take.observed, markers.observed);
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, EveryAtStrength, testing::ValuesIn(method_names()), test_name_of);
@@ -186,7 +185,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryRepairAtStrength, testing::Values("auto",
 // Moves everything, and repairs one sample of each kind on the way.
 class RepairingMover final : public Cleaner {
  public:
-  explicit RepairingMover(const Clip& truth) : truth_(truth) {}
+  explicit RepairingMover(const Take& truth) : truth_(truth) {}
   std::string_view name() const override { return "repairing-mover"; }
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>&) const override {
@@ -213,12 +212,12 @@ class RepairingMover final : public Cleaner {
   static Vec3 turn(std::size_t frame) { return 0.004 * static_cast<double>(frame) * Vec3{1, 2, 0}; }
 
  private:
-  const Clip& truth_;
+  const Take& truth_;
 };
 
 TEST(Strength, PutsARepairWhereItsNeighboursAre) {
-  const Clip truth = moving_take(60, 120);
-  Clip input = truth;
+  const Take truth = moving_take(60, 120);
+  Take input = truth;
   for (std::size_t f = 30; f < 33; ++f) {
     input.rotation(f, 1) = input.rotation(f, 1) * exp({0, 0, 1.5});
     input.root_position(f) += {70, 0, 0};
@@ -226,7 +225,7 @@ TEST(Strength, PutsARepairWhereItsNeighboursAre) {
   }
   CleanSettings settings;
   settings.strength = 0.25;
-  const Clip output = clean_clip(input, RepairingMover(truth), settings).clip;
+  const Take output = clean_take(input, RepairingMover(truth), settings).take;
   for (std::size_t f = 0; f < 60; ++f) {
     const Vec3 quarter = 0.25 * RepairingMover::turn(f);
     ASSERT_LT(angle_between(output.rotation(f, 1), truth.rotation(f, 1) * exp(quarter)), 1e-9) << f;
@@ -236,7 +235,7 @@ TEST(Strength, PutsARepairWhereItsNeighboursAre) {
 }
 
 TEST(Strength, BridgesPositionsThatWereNotObservedWhole) {
-  Clip input = moving_take(60, 120);
+  Take input = moving_take(60, 120);
   input.observed_positions.assign(60 * 2, 1);
   for (std::size_t f = 20; f < 25; ++f) {
     input.observed_positions[2 * f] = input.observed_positions[2 * f + 1] = 0;
@@ -246,8 +245,8 @@ TEST(Strength, BridgesPositionsThatWereNotObservedWhole) {
   const auto cleaner = make_cleaner("auto");
   CleanSettings half;
   half.strength = 0.5;
-  const Clip whole = clean_clip(input, *cleaner).clip,
-             part = clean_clip(input, *cleaner, half).clip;
+  const Take whole = clean_take(input, *cleaner).take,
+             part = clean_take(input, *cleaner, half).take;
   for (std::size_t f = 20; f < 25; ++f) {
     EXPECT_EQ(part.root_position(f), whole.root_position(f)) << f;
     EXPECT_EQ(part.position(f, 1), whole.position(f, 1)) << f;

@@ -8,16 +8,16 @@
 #include <vector>
 
 #include "kinemend/cleaner.hpp"
-#include "kinemend/clip.hpp"
 #include "kinemend/experimental/random.hpp"
+#include "kinemend/take.hpp"
 
 // Small takes with every kind of joint, known in closed form at any time.
 namespace kinemend::test {
 
 /// hips (position, ZXY), spine (YXZ), arm (XYZ), hinge (X), saddle (Z X), fixed (no channels), prop
 /// (ZXY with translations).
-inline Clip empty_take(std::size_t frames, double rate_hz) {
-  Clip clip;
+inline Take empty_take(std::size_t frames, double rate_hz) {
+  Take clip;
   Skeleton& s = clip.skeleton;
   const auto order = [](const char* text) { return parse_rotation_order(text); };
   s.add_joint("Hips", -1, {}, make_channels(true, order("ZXY")));
@@ -37,7 +37,7 @@ inline Clip empty_take(std::size_t frames, double rate_hz) {
 
 /// Whether a method runs live without looking ahead: it follows the motion late by nature.
 inline bool runs_without_delay(const Cleaner& cleaner) {
-  const Clip like = empty_take(0, 120);
+  const Take like = empty_take(0, 120);
   return cleaner.live_support(120).runs() && cleaner.live(view_of(like))->lookahead() == 0;
 }
 
@@ -59,8 +59,8 @@ inline Quat motion_at(std::size_t joint, double time_s) {
   }
 }
 
-inline Clip moving_take(std::size_t frames, double rate_hz) {
-  Clip clip = empty_take(frames, rate_hz);
+inline Take moving_take(std::size_t frames, double rate_hz) {
+  Take clip = empty_take(frames, rate_hz);
   for (std::size_t f = 0; f < frames; ++f) {
     const double t = static_cast<double>(f) / rate_hz;
     for (std::size_t j = 0; j < clip.joint_count(); ++j) clip.rotation(f, j) = motion_at(j, t);
@@ -71,7 +71,7 @@ inline Clip moving_take(std::size_t frames, double rate_hz) {
 }
 
 /// White noise per axis on every joint that has three axes, and on the positions (file units).
-inline void add_noise(Clip& clip, double noise_deg, double noise_position, std::uint64_t seed) {
+inline void add_noise(Take& clip, double noise_deg, double noise_position, std::uint64_t seed) {
   Random random(seed);
   const auto noise = [&random](double size) {
     const double x = random.normal(), y = random.normal(), z = random.normal();
@@ -91,7 +91,7 @@ inline void add_noise(Clip& clip, double noise_deg, double noise_position, std::
   }
 }
 
-inline double rms_angle_deg(const Clip& a, const Clip& b) {
+inline double rms_angle_deg(const Take& a, const Take& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.rotations.size(); ++i) {
     sum += std::pow(angle_between(a.rotations[i], b.rotations[i]), 2);
@@ -99,7 +99,7 @@ inline double rms_angle_deg(const Clip& a, const Clip& b) {
   return std::sqrt(sum / static_cast<double>(a.rotations.size())) * degrees_per_radian;
 }
 
-inline double max_angle_deg(const Clip& a, const Clip& b) {
+inline double max_angle_deg(const Take& a, const Take& b) {
   double largest = 0;
   for (std::size_t i = 0; i < a.rotations.size(); ++i) {
     largest = std::max(largest, angle_between(a.rotations[i], b.rotations[i]));

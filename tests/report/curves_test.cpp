@@ -19,8 +19,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-MarkerClip markers() {
-  MarkerClip clip = make_marker_clip({"A", "B<&>"}, 100, 50);
+Take markers() {
+  Take clip = make_marker_take({"A", "B<&>"}, 100, 50);
   clip.unit = "mm";
   clip.first_frame = 101;
   for (std::size_t f = 0; f < 100; ++f) {
@@ -33,8 +33,8 @@ MarkerClip markers() {
 }
 
 TEST(Curves, OfRotationsAreTheAnglesOfTheChannels) {
-  const Clip before = synthesize({.motion = "walk", .duration_s = 1, .frame_rate_hz = 60});
-  Clip after = before;
+  const Take before = synthesize({.motion = "walk", .duration_s = 1, .frame_rate_hz = 60});
+  Take after = before;
   after.rotation(20, 5) = after.rotation(20, 5) * exp({0.1, 0, 0});
   const TrackCurves curves = rotation_curves(before, after, 5);
   EXPECT_EQ(curves.name, before.skeleton.names[5]);
@@ -51,7 +51,7 @@ TEST(Curves, OfRotationsAreTheAnglesOfTheChannels) {
 }
 
 TEST(Curves, OfRotationsHaveNoWholeTurnsInThem) {
-  Clip clip = synthesize({.motion = "walk", .duration_s = 2, .frame_rate_hz = 60});
+  Take clip = synthesize({.motion = "walk", .duration_s = 2, .frame_rate_hz = 60});
   for (std::size_t f = 0; f < clip.frame_count(); ++f)
     clip.rotation(f, 0) = exp({0, 0.1 * static_cast<double>(f), 0});
   const TrackCurves curves = rotation_curves(clip, clip, 0);
@@ -64,8 +64,8 @@ TEST(Curves, OfRotationsHaveNoWholeTurnsInThem) {
 }
 
 TEST(Curves, OfMarkersBreakWhereTheyAreMissing) {
-  const MarkerClip after = markers();
-  MarkerClip before = after;
+  const Take after = markers();
+  Take before = after;
   for (std::size_t f = 40; f < 50; ++f) before.observed[2 * f] = 0;
   const TrackCurves curves = marker_curves(before, after, 0);
   EXPECT_THAT(curves.axes, ElementsAre("X", "Y", "Z"));
@@ -117,7 +117,7 @@ TEST(Curves, OfAnyLengthAreDrawn) {
 }
 
 TEST(Curves, OfTakesOfDifferentLengthAreRefused) {
-  const MarkerClip all = markers();
+  const Take all = markers();
   EXPECT_THROW(marker_curves(all, slice(all, 0, 50), 0), Error);
   EXPECT_THROW(marker_curves(all, all, 2), Error);
 }

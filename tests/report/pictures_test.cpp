@@ -29,8 +29,8 @@ void expect_svg(const std::string& svg) {
   EXPECT_EQ(test::count_of(svg, "<g"), test::count_of(svg, "</g>"));
 }
 
-MarkerClip gapped_markers() {
-  MarkerClip clip = make_marker_clip({"A", "B<&>", "C"}, 100, 50);
+Take gapped_markers() {
+  Take clip = make_marker_take({"A", "B<&>", "C"}, 100, 50);
   clip.unit = "mm";
   clip.first_frame = 101;
   for (std::size_t f = 0; f < 100; ++f) {
@@ -91,8 +91,8 @@ TEST(Pictures, OfASpectrumLeaveWindowsWithGapsOut) {
 }
 
 TEST(Pictures, OfGapsHaveARowForEachTrackThatHasSome) {
-  const MarkerClip before = gapped_markers();
-  MarkerClip after = before;
+  const Take before = gapped_markers();
+  Take after = before;
   after.observed.assign(300, 1);
   const std::string one = gap_chart_svg(before, nullptr);
   expect_svg(one);
@@ -106,7 +106,7 @@ TEST(Pictures, OfGapsHaveARowForEachTrackThatHasSome) {
 }
 
 TEST(Pictures, OfPosesStandInARow) {
-  const Clip clip = synthesize({.duration_s = 2, .frame_rate_hz = 60});
+  const Take clip = synthesize({.duration_s = 2, .frame_rate_hz = 60});
   const std::string svg = film_strip_svg(clip, &clip, all_frames, 5);
   expect_svg(svg);
   EXPECT_EQ(test::count_of(svg, "<path"), 11u) << "two a pose, and the floor";
@@ -118,15 +118,15 @@ TEST(Pictures, OfPosesStandInARow) {
 }
 
 TEST(Pictures, AreDrawnOfTakesWithNothingInThem) {
-  const Clip clip = synthesize({.duration_s = 1, .frame_rate_hz = 60});
-  const Clip none = slice(clip, 0, 0);
+  const Take clip = synthesize({.duration_s = 1, .frame_rate_hz = 60});
+  const Take none = slice(clip, 0, 0);
   EXPECT_THAT(film_strip_svg(none, nullptr, all_frames), HasSubstr("no frames"));
   expect_svg(gap_chart_svg(none, nullptr));
   expect_svg(spectrum_svg(rotation_curves(none, none, 0)));
-  const MarkerClip unseen = make_marker_clip({"A"}, 3, 100);
+  const Take unseen = make_marker_take({"A"}, 3, 100);
   expect_svg(film_strip_svg(unseen, nullptr, all_frames));
   expect_svg(gap_chart_svg(unseen, nullptr));
-  expect_svg(gap_chart_svg(MarkerClip(make_marker_clip({}, 0, 100)), nullptr));
+  expect_svg(gap_chart_svg(Take(make_marker_take({}, 0, 100)), nullptr));
   EXPECT_THROW(film_strip_svg(clip, &none, all_frames), Error);
 }
 

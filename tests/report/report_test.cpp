@@ -230,19 +230,19 @@ TEST(Report, TextIsPlainUnlessColoursAreAskedFor) {
 }
 
 TEST(Report, FactsAreThoseOfTheClip) {
-  const Clip clip = synthesize({.motion = "walk", .duration_s = 1, .frame_rate_hz = 60});
+  const Take clip = synthesize({.motion = "walk", .duration_s = 1, .frame_rate_hz = 60});
   const TakeFacts facts = take_facts(clip);
   EXPECT_EQ(facts.frames, clip.frame_count());
   EXPECT_EQ(facts.tracks, clip.skeleton.names);
   EXPECT_EQ(facts.first_frame, 1);
-  MarkerClip markers = make_marker_clip({"A", "B"}, 5, 100);
+  Take markers = make_marker_take({"A", "B"}, 5, 100);
   markers.unit = "mm";
   markers.first_frame = 7;
   EXPECT_EQ(take_facts(markers).kind, TakeKind::markers);
   EXPECT_EQ(take_facts(markers).metres_per_unit, 0.001);
   EXPECT_EQ(take_facts(markers).first_frame, 7);
   EXPECT_EQ(take_facts(markers).contents, "");
-  EXPECT_EQ(take_facts(MarkerClip(make_marker_clip({}, 0, 100))).contents, "no points");
+  EXPECT_EQ(take_facts(Take(make_marker_take({}, 0, 100))).contents, "no points");
 }
 
 }  // namespace

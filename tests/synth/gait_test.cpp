@@ -36,7 +36,7 @@ std::vector<std::size_t> peaks(const std::vector<double>& values, double thresho
 TEST(Gait, AStandingFootStaysWhereItIs) {
   for (const char* motion : {"walk", "run", "turn", "stroll"}) {
     for (std::uint64_t seed : {1, 2, 3}) {
-      const Clip clip = make(motion, 6, 120, seed);
+      const Take clip = make(motion, 6, 120, seed);
       for (const char* joint : {"LeftToeBase", "RightToeBase"}) {
         const auto ball = track(clip, joint);
         const auto stances = rests(ball, 12);
@@ -53,7 +53,7 @@ TEST(Gait, AStandingFootStaysWhereItIs) {
 }
 
 TEST(Gait, TheSoleRestsOnTheGroundInMidStance) {
-  const Clip clip = make("walk", 6);
+  const Take clip = make("walk", 6);
   const auto ankle = track(clip, "LeftFoot");
   const auto flat = rests(ankle, 20);
   EXPECT_GE(flat.size(), 4u);
@@ -67,7 +67,7 @@ TEST(Gait, TheSoleRestsOnTheGroundInMidStance) {
 TEST(Gait, NothingGoesThroughTheFloor) {
   for (std::string_view motion : synth_motions()) {
     if (motion == "spin") continue;
-    const Clip clip = make(std::string(motion), 6, 60, 2);
+    const Take clip = make(std::string(motion), 6, 60, 2);
     double lowest = 0;
     for (Vec3 p : joint_positions(clip, true)) lowest = std::min(lowest, p.y);
     EXPECT_GT(lowest, -1.0) << motion;
@@ -76,7 +76,7 @@ TEST(Gait, NothingGoesThroughTheFloor) {
 
 TEST(Gait, AWalkerAlwaysStandsAndARunnerFlies) {
   for (const char* motion : {"walk", "run"}) {
-    const Clip clip = make(motion, 6, 240);
+    const Take clip = make(motion, 6, 240);
     std::vector<int> feet_down(clip.frame_count(), 0);
     for (const char* joint : {"LeftToeBase", "RightToeBase"}) {
       for (const auto& stance : rests(track(clip, joint), 10)) {
@@ -98,7 +98,7 @@ TEST(Gait, AWalkerAlwaysStandsAndARunnerFlies) {
 }
 
 TEST(Gait, WalkingAnglesFollowThePublishedCurves) {
-  const Clip clip = make("walk", 10, 120);
+  const Take clip = make("walk", 10, 120);
   const auto knee = measure::turn_about_x(clip, "LeftLeg");
   EXPECT_NEAR(largest(knee), 60, 6);
   EXPECT_GT(least(knee), 2);
@@ -129,7 +129,7 @@ TEST(Gait, SpeedAndCadenceAreThoseOfPeople) {
   for (std::uint64_t seed : {1, 2, 3, 4}) {
     for (const char* motion : {"walk", "run"}) {
       const bool walking = motion == std::string("walk");
-      const Clip clip = make(motion, 8, 120, seed);
+      const Take clip = make(motion, 8, 120, seed);
       const double speed =
           horizontal(clip.root_position(0), clip.root_position(clip.frame_count() - 1)) / 8;
       EXPECT_GT(speed, walking ? 110 : 260) << motion;
@@ -144,7 +144,7 @@ TEST(Gait, SpeedAndCadenceAreThoseOfPeople) {
 }
 
 TEST(Gait, StepsOfBothSidesAreAlikeButNotEqual) {
-  const Clip clip = make("walk", 30, 60);
+  const Take clip = make("walk", 30, 60);
   std::vector<std::pair<double, int>> prints;  // distance along the way, side
   for (int side = 0; side < 2; ++side) {
     const auto ball = track(clip, side == 0 ? "LeftToeBase" : "RightToeBase");
@@ -168,7 +168,7 @@ TEST(Gait, StepsOfBothSidesAreAlikeButNotEqual) {
 
 TEST(Gait, ATurnPassesAFullCircleAndTheSeamOfTheAngles) {
   for (std::uint64_t seed : {1, 2, 3}) {
-    const Clip clip = make("turn", 6, 120, seed);
+    const Take clip = make("turn", 6, 120, seed);
     double heading = 0, seams = 0, last = 0;
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
       const Vec3 forward = rotate(clip.rotation(f, 0), {0, 0, 1});

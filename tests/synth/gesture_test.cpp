@@ -11,7 +11,7 @@ using measure::speeds;
 using measure::track;
 
 TEST(Gesture, APunchIsFastAndStopsShort) {
-  const Clip clip = make("punch", 4, 240);
+  const Take clip = make("punch", 4, 240);
   for (const char* hand : {"LeftHand", "RightHand"}) {
     const auto speed = speeds(track(clip, hand), 240);
     const double peak = largest(speed);
@@ -26,7 +26,7 @@ TEST(Gesture, APunchIsFastAndStopsShort) {
 
 TEST(Gesture, AClapBringsThePalmsTogetherAndHoldsThem) {
   for (std::uint64_t seed : {1, 2, 3}) {
-    const Clip clip = make("clap", 4, 240, seed);
+    const Take clip = make("clap", 4, 240, seed);
     const auto left = track(clip, "LeftHand"), right = track(clip, "RightHand");
     std::vector<double> gap;
     for (std::size_t f = 0; f < left.size(); ++f) gap.push_back(norm(left[f] - right[f]));
@@ -49,7 +49,7 @@ TEST(Gesture, AClapBringsThePalmsTogetherAndHoldsThem) {
 }
 
 TEST(Gesture, ALandingStopsTheFeetAtOnceAndTheBodyLater) {
-  const Clip clip = make("landing", 3, 480);
+  const Take clip = make("landing", 3, 480);
   const auto ball = track(clip, "LeftToeBase");
   std::vector<double> fall, foot_fall;
   for (std::size_t f = 1; f < ball.size(); ++f) {
@@ -69,7 +69,7 @@ TEST(Gesture, ALandingStopsTheFeetAtOnceAndTheBodyLater) {
 }
 
 TEST(Gesture, AJumpFallsFreelyAndRisesByAHandSpan) {
-  const Clip clip = make("jump", 3, 480);
+  const Take clip = make("jump", 3, 480);
   const auto ball = track(clip, "RightToeBase");
   std::size_t flying = 0;
   double rise = 0;
@@ -88,7 +88,7 @@ TEST(Gesture, AJumpFallsFreelyAndRisesByAHandSpan) {
 }
 
 TEST(Gesture, AWavingHandIsAboveTheHeadAndGoesToAndFro) {
-  const Clip clip = make("wave", 4, 120);
+  const Take clip = make("wave", 4, 120);
   const auto hand = track(clip, "RightHand"), head = track(clip, "Head");
   std::size_t turns = 0;
   for (std::size_t f = 150; f < 420; ++f) {
@@ -101,7 +101,7 @@ TEST(Gesture, AWavingHandIsAboveTheHeadAndGoesToAndFro) {
 }
 
 TEST(Gesture, StandingStillIsNearlyStill) {
-  const Clip clip = make("still", 10, 60);
+  const Take clip = make("still", 10, 60);
   for (const char* joint : {"Hips", "Head", "LeftHand"}) {
     const auto speed = speeds(track(clip, joint), 60);
     EXPECT_LT(largest(speed), 25) << joint;

@@ -11,13 +11,13 @@
 
 namespace kinemend::measure {
 
-inline Clip make(std::string motion, double duration_s = 6, double rate_hz = 120,
+inline Take make(std::string motion, double duration_s = 6, double rate_hz = 120,
                  std::uint64_t seed = 1) {
   return synthesize({std::move(motion), duration_s, rate_hz, seed, false});
 }
 
 /// Positions of one joint over the clip.
-inline std::vector<Vec3> track(const Clip& clip, std::string_view joint) {
+inline std::vector<Vec3> track(const Take& clip, std::string_view joint) {
   const auto j = static_cast<std::size_t>(clip.skeleton.find(joint));
   const std::vector<Vec3> all = joint_positions(clip);
   std::vector<Vec3> result;
@@ -44,7 +44,7 @@ inline double least(const std::vector<double>& values) {
 }
 
 /// The turn about the joint's x axis in degrees, in [-180, 180): the twist of the rotation about x.
-inline std::vector<double> turn_about_x(const Clip& clip, std::string_view joint) {
+inline std::vector<double> turn_about_x(const Take& clip, std::string_view joint) {
   const auto j = static_cast<std::size_t>(clip.skeleton.find(joint));
   std::vector<double> result;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {

@@ -10,7 +10,7 @@ using measure::make;
 
 TEST(Synth, EveryMotionIsAValidClipOfTheLengthAskedFor) {
   for (std::string_view motion : synth_motions()) {
-    const Clip clip = make(std::string(motion), 1.5, 50, 3);
+    const Take clip = make(std::string(motion), 1.5, 50, 3);
     EXPECT_NO_THROW(clip.validate()) << motion;
     EXPECT_EQ(clip.frame_count(), 75u) << motion;
     EXPECT_EQ(clip.frame_rate_hz, 50) << motion;
@@ -19,7 +19,7 @@ TEST(Synth, EveryMotionIsAValidClipOfTheLengthAskedFor) {
 }
 
 TEST(Synth, TheHumanoidHas31JointsAndSixChannelsAtItsRoot) {
-  const Clip clip = make("walk", 0.1);
+  const Take clip = make("walk", 0.1);
   EXPECT_EQ(clip.joint_count(), 31u);
   EXPECT_EQ(clip.skeleton.channels[0].size(), 6u);
   for (std::size_t j = 1; j < 31; ++j) EXPECT_EQ(clip.skeleton.channels[j].size(), 3u);
@@ -33,7 +33,7 @@ TEST(Synth, TheHumanoidHas31JointsAndSixChannelsAtItsRoot) {
 
 TEST(Synth, SegmentsHaveTheSharesOfBodyHeightThatWinterGives) {
   for (std::uint64_t seed : {1, 2, 3, 4}) {
-    const Clip pose = synthesize({"still", 0.1, 10, seed, true});
+    const Take pose = synthesize({"still", 0.1, 10, seed, true});
     const auto positions = joint_positions(pose, true);
     double top = 0, wide = 0;
     for (std::size_t i = 0; i < pose.joint_count() + pose.skeleton.end_sites.size(); ++i) {
@@ -56,17 +56,17 @@ TEST(Synth, SegmentsHaveTheSharesOfBodyHeightThatWinterGives) {
 
 TEST(Synth, TheSameSeedGivesTheSameNumbers) {
   for (std::string_view motion : synth_motions()) {
-    const Clip a = make(std::string(motion), 1, 60, 7), b = make(std::string(motion), 1, 60, 7);
+    const Take a = make(std::string(motion), 1, 60, 7), b = make(std::string(motion), 1, 60, 7);
     EXPECT_EQ(a.rotations, b.rotations) << motion;
     EXPECT_EQ(a.positions, b.positions) << motion;
-    const Clip other = make(std::string(motion), 1, 60, 8);
+    const Take other = make(std::string(motion), 1, 60, 8);
     EXPECT_NE(a.rotations, other.rotations) << motion;
   }
 }
 
 TEST(Synth, RateAndDurationDoNotChangeTheMotion) {
   for (std::string_view motion : synth_motions()) {
-    const Clip coarse = make(std::string(motion), 4, 25), fine = make(std::string(motion), 2, 1000);
+    const Take coarse = make(std::string(motion), 4, 25), fine = make(std::string(motion), 2, 1000);
     for (std::size_t f = 0; f < 50; ++f) {
       EXPECT_LT(norm(coarse.root_position(f) - fine.root_position(40 * f)), 1e-9) << motion;
       for (std::size_t j = 0; j < coarse.joint_count(); ++j) {
@@ -80,7 +80,7 @@ TEST(Synth, RateAndDurationDoNotChangeTheMotion) {
 // A kink in a curve shows as a change of speed that does not shrink with the step in time.
 TEST(Synth, MotionIsContinuousAndSoIsItsSpeed) {
   for (std::string_view motion : synth_motions()) {
-    const Clip clip = make(std::string(motion), 3.2, 1000, 2);
+    const Take clip = make(std::string(motion), 3.2, 1000, 2);
     double speed = 0, jerk = 0;
     for (std::size_t f = 2; f < clip.frame_count(); ++f) {
       for (std::size_t j = 0; j < clip.joint_count(); ++j) {
@@ -96,7 +96,7 @@ TEST(Synth, MotionIsContinuousAndSoIsItsSpeed) {
 }
 
 TEST(Synth, FingersRestInAWalk) {
-  const Clip clip = make("walk", 3);
+  const Take clip = make("walk", 3);
   for (const char* name :
        {"LeftHandIndex1", "LeftHandThumb2", "RightHandIndex2", "RightHandThumb1"}) {
     const auto j = static_cast<std::size_t>(clip.skeleton.find(name));
@@ -107,8 +107,8 @@ TEST(Synth, FingersRestInAWalk) {
 
 TEST(Synth, ATPoseComesBeforeTheMotionWhenAskedFor) {
   for (std::string_view motion : {"walk", "run", "punch", "stroll"}) {
-    const Clip plain = synthesize({std::string(motion), 2, 120, 4, false});
-    const Clip posed = synthesize({std::string(motion), 2, 120, 4, true});
+    const Take plain = synthesize({std::string(motion), 2, 120, 4, false});
+    const Take posed = synthesize({std::string(motion), 2, 120, 4, true});
     ASSERT_EQ(posed.frame_count(), plain.frame_count() + 1) << motion;
     EXPECT_EQ(leading_calibration_frames(posed), 1u) << motion;
     for (std::size_t j = 0; j < posed.joint_count(); ++j) EXPECT_EQ(posed.rotation(0, j), Quat{});
@@ -118,7 +118,7 @@ TEST(Synth, ATPoseComesBeforeTheMotionWhenAskedFor) {
 }
 
 TEST(Synth, AChainSpinsThroughHalfTurnsAndNearlyLocksItsEulerAngles) {
-  const Clip clip = make("spin", 6, 120);
+  const Take clip = make("spin", 6, 120);
   double steepest = 0, travelled = 0;
   std::array<double, 3> last{};
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -155,7 +155,7 @@ TEST(Synth, OptionsOutOfRangeAreUsageErrors) {
 }
 
 TEST(Synth, ALongTakeStaysOnItsFeet) {
-  const Clip clip = make("run", 600, 2);
+  const Take clip = make("run", 600, 2);
   clip.validate();
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     EXPECT_GT(clip.root_position(f).y, 75);

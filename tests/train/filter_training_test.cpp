@@ -13,8 +13,8 @@
 namespace kinemend::train {
 namespace {
 
-std::vector<Clip> walks() {
-  std::vector<Clip> takes;
+std::vector<Take> walks() {
+  std::vector<Take> takes;
   for (std::uint64_t seed = 1; seed < 4; ++seed) {
     SynthOptions options;
     options.duration_s = 2;
@@ -54,7 +54,7 @@ TEST_P(EveryKind, GoesOnFromACheckpointToTheSameResult) {
   EXPECT_EQ(write_model(whole.model()), write_model(second.model()));
   // What it has made is a network that cleans.
   const Model model = whole.model();
-  const Clip clip = walks()[0];
+  const Take clip = walks()[0];
   const FilterTake take =
       filter_take_of(encode_body(clip, model.layout, match_body(model.layout, clip)), model.layout);
   for (const float value : filtered(filter_network_of(model), take))

@@ -11,9 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/clip.hpp"
 #include "kinemend/experimental/pose_matrix.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

@@ -8,11 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/clip.hpp"
 #include "kinemend/experimental/pose_matrix.hpp"
 #include "kinemend/experimental/random.hpp"
-#include "kinemend/marker_clip.hpp"
 #include "kinemend/options.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -51,7 +50,7 @@ struct Damage {
   std::string paper;    ///< whose definition it is
   std::vector<OptionSpec> options;
   /// Applies to all frames of the clip, in place.
-  DamageReport (*apply)(Clip& clip, Random& random, const OptionValues& values);
+  DamageReport (*apply)(Take& clip, Random& random, const OptionValues& values);
   /// The same where there is no skeleton; nullptr of a damage that needs one. Limbs are single
   /// tracks. Positions are noisy or scaled as they are, about the mean of their frame.
   DamageReport (*apply_to_vectors)(VectorMotion& motion, Random& random,
@@ -59,14 +58,12 @@ struct Damage {
 };
 
 std::span<const Damage> damages();
-/// Applies the damage called `name`, leaving calibration frames at the start alone. Damages compose
-/// by calling this again. Errors: `ErrorKind::usage` for an unknown name or option or a value out
-/// of range, and for a damage that needs a skeleton where there is none.
-DamageReport apply_damage(Clip& clip, std::string_view name, const OptionValues& values,
-                          Random& random);
-/// Angles are arcs of a quarter of the body height (`body_height`). Markers that are not seen, and
-/// points that are no positions, stay as they are.
-DamageReport apply_damage(MarkerClip& clip, std::string_view name, const OptionValues& values,
+/// Applies the damage called `name`. Damages compose by calling this again. Of joints, calibration
+/// frames at the start are left alone. Of markers, angles are arcs of a quarter of the body height
+/// (`body_height`); those that are not seen, and points that are no positions, stay as they are.
+/// Errors: `ErrorKind::usage` for an unknown name or option or a value out of range, and for a
+/// damage that needs a skeleton where there is none.
+DamageReport apply_damage(Take& take, std::string_view name, const OptionValues& values,
                           Random& random);
 DamageReport apply_damage(VectorMotion& motion, std::string_view name, const OptionValues& values,
                           Random& random);

@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/clip.hpp"
-#include "kinemend/marker_clip.hpp"
 #include "kinemend/report.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -31,10 +30,10 @@ struct TrackCurves {
 /// after cleaning are the ones nearest to those before. A joint without rotation channels has ZXY.
 /// Errors of all: `ErrorKind::usage` for takes of different length and for a track that one does
 /// not have.
-TrackCurves rotation_curves(const Clip& before, const Clip& after, std::size_t joint);
+TrackCurves rotation_curves(const Take& before, const Take& after, std::size_t joint);
 /// The position of joint 0.
-TrackCurves root_curves(const Clip& before, const Clip& after);
-TrackCurves marker_curves(const MarkerClip& before, const MarkerClip& after, std::size_t marker);
+TrackCurves root_curves(const Take& before, const Take& after);
+TrackCurves marker_curves(const Take& before, const Take& after, std::size_t marker);
 
 struct CurveStyle {
   double width = 960, panel_height = 120;  ///< pixels

@@ -4,8 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "kinemend/clip.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

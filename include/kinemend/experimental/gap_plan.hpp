@@ -11,10 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/clip.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/gaps.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -66,25 +65,19 @@ using FillCheck = std::function<void()>;
 
 /// Fills the take as `fill_gaps` does, and says it as a plan: applied to the take as it was, it
 /// gives the same samples to the bit.
-PlannedFill fill_with_plan(Clip& clip, const FillSettings& settings, const FillCheck& check = {});
-PlannedFill fill_with_plan(MarkerClip& clip, const FillSettings& settings,
-                           const FillCheck& check = {});
+PlannedFill fill_with_plan(Take& clip, const FillSettings& settings, const FillCheck& check = {});
 /// Fills the gaps that rows name as these say, all in one run, and leaves others alone. Errors:
 /// `ErrorKind::usage` for a row that names no gap of the take, a gap that another row names, a
 /// method or a donor that there is not, a learned method without its model.
-PlannedFill fill_with_plan(Clip& clip, std::span<const PlannedGap> plan,
+PlannedFill fill_with_plan(Take& clip, std::span<const PlannedGap> plan,
                            const FillCheck& check = {}, const FillModels& models = {});
-PlannedFill fill_with_plan(MarkerClip& clip, std::span<const PlannedGap> plan,
-                           const FillCheck& check = {});
 
 /// Fills `previews` of each row: what every method of this kind of take (`pattern` where the row
 /// names a donor, a learned one where there is its model), by its rules, would make of the gap if
 /// it had to fill all gaps of the plan. `clip` is the take before it is filled. Errors: as of
 /// `fill_with_plan`.
-void preview_methods(const Clip& clip, std::vector<PlannedGap>& plan, const FillCheck& check = {},
+void preview_methods(const Take& clip, std::vector<PlannedGap>& plan, const FillCheck& check = {},
                      const FillModels& models = {});
-void preview_methods(const MarkerClip& clip, std::vector<PlannedGap>& plan,
-                     const FillCheck& check = {});
 
 /// What one method would make of a gap, frame by frame.
 struct GapCurve {
@@ -109,21 +102,15 @@ struct GapCurves {
 /// others as the plan says: a curve is what the plan makes of the gap once the row has that method.
 /// `clip` is the take before it is filled. Errors: as of `fill_with_plan`; `ErrorKind::usage` for a
 /// row that there is not.
-GapCurves preview_curves(const Clip& clip, std::span<const PlannedGap> plan, std::size_t row,
+GapCurves preview_curves(const Take& clip, std::span<const PlannedGap> plan, std::size_t row,
                          const FillCheck& check = {}, const FillModels& models = {});
-GapCurves preview_curves(const MarkerClip& clip, std::span<const PlannedGap> plan, std::size_t row,
-                         const FillCheck& check = {});
 
 /// The plan as a file, frames as the file of the take counts them: a table with a heading, or JSON
 /// of the schema `kinemend.gap-plan/1`. docs/methods/gap-plan.md describes both.
-std::string plan_csv(const Clip& clip, std::span<const PlannedGap> plan);
-std::string plan_csv(const MarkerClip& clip, std::span<const PlannedGap> plan);
-std::string plan_json(const Clip& clip, std::span<const PlannedGap> plan);
-std::string plan_json(const MarkerClip& clip, std::span<const PlannedGap> plan);
+std::string plan_csv(const Take& clip, std::span<const PlannedGap> plan);
+std::string plan_json(const Take& clip, std::span<const PlannedGap> plan);
 /// Reads either. Of what `fill_with_plan` finds wrong the row is named too. Errors:
 /// `unreadable_input`, `name:line: ...` for a table, `name: gap N: ...` for JSON.
-std::vector<PlannedGap> parse_plan(std::string_view text, std::string_view name, const Clip& clip);
-std::vector<PlannedGap> parse_plan(std::string_view text, std::string_view name,
-                                   const MarkerClip& clip);
+std::vector<PlannedGap> parse_plan(std::string_view text, std::string_view name, const Take& clip);
 
 }  // namespace kinemend

@@ -8,10 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "kinemend/clip.hpp"
 #include "kinemend/experimental/batch_rows.hpp"
-#include "kinemend/marker_clip.hpp"
 #include "kinemend/report.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -40,9 +39,7 @@ struct PageSettings {
 /// at 120 Hz) are stored with every second frame, every third, and so on, and the page says so.
 /// Names are inserted as text, whatever characters they contain. Errors: `ErrorKind::usage` for a
 /// build without the page, and for takes of different size.
-std::string report_page(const Report& report, const Clip& before, const Clip* after,
-                        const PageSettings& settings);
-std::string report_page(const Report& report, const MarkerClip& before, const MarkerClip* after,
+std::string report_page(const Report& report, const Take& before, const Take* after,
                         const PageSettings& settings);
 
 /// The page of `kinemend view` before there is a result: the program, which may send requests to

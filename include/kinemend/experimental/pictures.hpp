@@ -8,9 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "kinemend/clip.hpp"
 #include "kinemend/experimental/curves.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -20,16 +19,13 @@ using FrameSpanToDraw = std::pair<std::size_t, std::size_t>;
 /// Poses at `poses` moments from left to right, seen from the side along which the body is broad:
 /// up is up, and the frame's number stands below each. `after` is drawn over `before`; null where
 /// there is one take. Markers are dots. Errors: `ErrorKind::usage` for takes of different length.
-std::string film_strip_svg(const Clip& before, const Clip* after, FrameSpanToDraw frames,
+std::string film_strip_svg(const Take& before, const Take* after, FrameSpanToDraw frames,
                            std::size_t poses = 9);
-std::string film_strip_svg(const MarkerClip& before, const MarkerClip* after,
-                           FrameSpanToDraw frames, std::size_t poses = 9);
 
 /// When each track is missing: a row a track, a bar a gap, and how much is missing of each. A
 /// second take's gaps are drawn below those of the first. Tracks without gaps are counted, not
 /// drawn.
-std::string gap_chart_svg(const Clip& before, const Clip* after);
-std::string gap_chart_svg(const MarkerClip& before, const MarkerClip* after);
+std::string gap_chart_svg(const Take& before, const Take* after);
 
 /// Power density of a track over frequency.
 struct TrackSpectrum {

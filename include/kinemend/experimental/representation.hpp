@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "kinemend/clip.hpp"
 #include "kinemend/experimental/pose_matrix.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -47,6 +47,6 @@ std::span<const std::string_view> synth_motions();
 /// continuous time with two continuous derivatives, so a take at any rate or of any duration shows
 /// the same motion, and the same options give the same clip. Errors: `ErrorKind::usage` for an
 /// unknown motion or a value out of range.
-Clip synthesize(const SynthOptions& options = {});
+Take synthesize(const SynthOptions& options = {});
 
 }  // namespace kinemend

@@ -13,10 +13,9 @@
 #include <variant>
 #include <vector>
 
-#include "kinemend/clip.hpp"
 #include "kinemend/experimental/model.hpp"
-#include "kinemend/marker_clip.hpp"
 #include "kinemend/options.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

@@ -19,10 +19,10 @@ TakeResult read_amc(std::string bytes, std::string_view name, std::string asf_by
 /// A clip read from AMC comes out in its source's layout, with the digits of every sample that has
 /// not changed; any other in a plain layout that fits what `write_asf` writes. Errors: `usage` when
 /// the format cannot hold the clip.
-std::string write_amc(const Clip& clip);
+std::string write_amc(const Take& clip);
 
 /// `side_file` of an AMC.
-std::optional<SideFile> amc_side_file(const AnyTake& take, std::string_view bytes,
+std::optional<SideFile> amc_side_file(const Take& take, std::string_view bytes,
                                       const std::filesystem::path& output);
 
 }  // namespace kinemend

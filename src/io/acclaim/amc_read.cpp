@@ -57,7 +57,7 @@ void note_cut(const SourceText& text, Diagnostics& diagnostics, const AmcRows& r
               "the file ends in the middle of a frame: the frames before it are read");
 }
 
-void read_frames(const SourceText& text, Diagnostics& diagnostics, Clip& clip,
+void read_frames(const SourceText& text, Diagnostics& diagnostics, Take& clip,
                  AmcDocument& document) {
   document.is_angle = angle_columns(clip.skeleton);
   ClipRows clip_rows(clip, offset_adding_frames(clip.skeleton),
@@ -97,7 +97,7 @@ void read_frames(const SourceText& text, Diagnostics& diagnostics, Clip& clip,
   separate_numbers(document, rows.joins());
 }
 
-void set_rate(Clip& clip, Diagnostics& diagnostics, const ReadOptions& options) {
+void set_rate(Take& clip, Diagnostics& diagnostics, const ReadOptions& options) {
   clip.frame_rate_hz = options.frame_rate_hz;
   if (options.frame_rate_hz != 0) return;
   clip.frame_rate_hz = custom_rate_hz;
@@ -168,7 +168,7 @@ TakeResult read_amc(std::string bytes, std::string_view name, std::string asf_by
   const bool has_frames = header.data_begin < text.bytes.size();
   document->layout = has_frames ? read_amc_layout(text, result.diagnostics, header, asf, asf_name)
                                 : make_amc_layout(asf);
-  Clip& clip = result.take.emplace<Clip>();
+  Take& clip = result.take;
   clip.metres_per_unit = document->metres_per_unit = asf.metres_per_unit;
   clip.skeleton = std::move(asf.skeleton);
   set_rate(clip, result.diagnostics, options);
@@ -199,7 +199,7 @@ TakeResult read_asf(std::string bytes, std::string_view name, const ReadOptions&
   AsfSkeleton asf = parse_asf(text, result.diagnostics, options.max_depth);
   document->layout = make_amc_layout(asf);
   document->degrees_per_value = asf.radians ? degrees_per_radian : 1;
-  Clip& clip = result.take.emplace<Clip>();
+  Take& clip = result.take;
   clip.metres_per_unit = document->metres_per_unit = asf.metres_per_unit;
   clip.frame_rate_hz = options.frame_rate_hz != 0 ? options.frame_rate_hz : custom_rate_hz;
   clip.skeleton = std::move(asf.skeleton);

@@ -71,7 +71,7 @@ std::string plain_header(double degrees_per_value) {
 }
 
 // For a clip that has other frames than its source.
-std::string write_with_header(const Clip& clip, const AmcDocument& document) {
+std::string write_with_header(const Take& clip, const AmcDocument& document) {
   const std::string_view header = std::string_view(document.bytes).substr(0, document.data_begin);
   const std::string_view line_end = line_ending_of(header);
   TextBuffer out(4096);
@@ -83,7 +83,7 @@ std::string write_with_header(const Clip& clip, const AmcDocument& document) {
   return std::move(out).take();
 }
 
-std::string write_plain_amc(const Clip& clip) {
+std::string write_plain_amc(const Take& clip) {
   // Joint positions stay within 1e-9 of the figure's size.
   constexpr unsigned decimals = 9;
   check_channels(clip, RestRotations::apart);
@@ -96,7 +96,7 @@ std::string write_plain_amc(const Clip& clip) {
   return std::move(out).take();
 }
 
-bool has_positions_of(const Clip& clip, const Skeleton& skeleton) {
+bool has_positions_of(const Take& clip, const Skeleton& skeleton) {
   const auto& translated = clip.translated_joints;
   std::size_t next = 0;
   for (std::size_t j = 1; j < skeleton.joint_count(); ++j) {
@@ -109,9 +109,8 @@ bool has_positions_of(const Clip& clip, const Skeleton& skeleton) {
 
 }  // namespace
 
-std::optional<SideFile> amc_side_file(const AnyTake& take, std::string_view bytes,
+std::optional<SideFile> amc_side_file(const Take& clip, std::string_view bytes,
                                       const std::filesystem::path& output) {
-  const Clip& clip = std::get<Clip>(take);
   const auto* document = dynamic_cast<const AmcDocument*>(clip.source.document.get());
   Diagnostics ignored;
   const std::string name = output.string();
@@ -123,7 +122,7 @@ std::optional<SideFile> amc_side_file(const AnyTake& take, std::string_view byte
   return skeleton;
 }
 
-std::string write_amc(const Clip& clip) {
+std::string write_amc(const Take& clip) {
   check_lengths(clip);
   const auto* document = dynamic_cast<const AmcDocument*>(clip.source.document.get());
   if (document != nullptr && same_skeleton(clip.skeleton, document->skeleton) &&
@@ -135,7 +134,7 @@ std::string write_amc(const Clip& clip) {
   }
   Skeleton skeleton = with_root_positions(clip.skeleton);
   if (skeleton.channels[0] == clip.skeleton.channels[0]) return write_plain_amc(clip);
-  Clip rooted = clip;
+  Take rooted = clip;
   rooted.skeleton = std::move(skeleton);
   return write_plain_amc(rooted);
 }

@@ -40,6 +40,6 @@ int sniff_asf(std::string_view head);
 TakeResult read_asf(std::string bytes, std::string_view name, const ReadOptions& options);
 /// The skeleton of a clip: the bytes it was read from where it still is that one, else a file that
 /// fits what `write_amc` writes. Errors: `usage` when the format cannot hold the skeleton.
-std::string write_asf(const Clip& clip);
+std::string write_asf(const Take& clip);
 
 }  // namespace kinemend

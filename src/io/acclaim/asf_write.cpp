@@ -135,7 +135,7 @@ class AsfWriter {
 
 }  // namespace
 
-std::string write_asf(const Clip& clip) {
+std::string write_asf(const Take& clip) {
   check_lengths(clip);
   const auto* document = dynamic_cast<const AmcDocument*>(clip.source.document.get());
   if (document != nullptr && same_skeleton(clip.skeleton, document->skeleton) &&

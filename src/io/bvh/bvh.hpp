@@ -14,6 +14,6 @@ int sniff_bvh(std::string_view head);
 TakeResult read_bvh(std::string bytes, std::string_view name, const ReadOptions& options);
 /// A clip read from BVH comes out in its source's layout, with the digits of every sample that has
 /// not changed; any other in a plain layout. Errors: `usage` when the format cannot hold the clip.
-std::string write_bvh(const Clip& clip);
+std::string write_bvh(const Take& clip);
 
 }  // namespace kinemend

@@ -32,7 +32,7 @@ constexpr double bvh_rate_when_unknown_hz = 30;
 class MotionReader {
  public:
   MotionReader(const SourceText& text, const ReadOptions& options, Diagnostics& diagnostics,
-               const BvhHeader& header, Clip& clip, BvhDocument& document)
+               const BvhHeader& header, Take& clip, BvhDocument& document)
       : text_(text),
         progress_(options.progress),
         diagnostics_(diagnostics),
@@ -292,7 +292,7 @@ class MotionReader {
   ShareProgress progress_;
   Diagnostics& diagnostics_;
   const BvhHeader& header_;
-  Clip& clip_;
+  Take& clip_;
   BvhDocument& document_;
   ClipRows clip_rows_;
   const MotionColumns& columns_;
@@ -323,7 +323,7 @@ TakeResult read_bvh(std::string bytes, std::string_view name, const ReadOptions&
       options.frame_rate_hz > 0 ? options.frame_rate_hz : bvh_rate_when_unknown_hz;
   const BvhHeader header =
       read_bvh_header(text, result.diagnostics, options.max_depth, unknown_rate_hz);
-  Clip& clip = result.take.emplace<Clip>();
+  Take& clip = result.take;
   clip.skeleton = header.skeleton;
   clip.frame_rate_hz =
       header.frame_time_s > 0

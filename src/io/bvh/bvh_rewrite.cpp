@@ -32,7 +32,7 @@ std::unique_ptr<RowReader> BvhDocument::rows() const {
   return std::make_unique<BvhRowReader>(*this);
 }
 
-std::string rewrite_bvh(const Clip& clip, const BvhDocument& document) {
+std::string rewrite_bvh(const Take& clip, const BvhDocument& document) {
   std::vector<DocumentEdit> edits;
   if (clip.frame_rate_hz != document.frame_rate_hz || document.frame_time_is_none) {
     edits.push_back({document.frame_time, frame_time_text(clip.frame_rate_hz)});

@@ -7,7 +7,7 @@
 
 #include "io/bvh/bvh_document.hpp"
 #include "io/text/text_buffer.hpp"
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -23,11 +23,11 @@ struct MotionStyle {
 
 /// `MOTION` and all frames, one a line, joints in the given order; angles continue the frame
 /// before. Errors: `usage` for values that are not finite.
-void append_motion(TextBuffer& out, const Clip& clip, const std::vector<std::size_t>& joints,
+void append_motion(TextBuffer& out, const Take& clip, const std::vector<std::size_t>& joints,
                    const MotionStyle& style);
 
 /// The document's own text with every changed sample replaced; the clip has the document's skeleton
 /// and frame count, and its rate too where the file has no frame time.
-std::string rewrite_bvh(const Clip& clip, const BvhDocument& document);
+std::string rewrite_bvh(const Take& clip, const BvhDocument& document);
 
 }  // namespace kinemend

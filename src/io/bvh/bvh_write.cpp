@@ -133,7 +133,7 @@ class HierarchyWriter {
   std::vector<std::size_t> order_;
 };
 
-std::string write_plain_bvh(const Clip& clip) {
+std::string write_plain_bvh(const Take& clip) {
   check_channels(clip, RestRotations::in_channels);
   TextBuffer out(4096);
   const std::vector<std::size_t> order = HierarchyWriter(clip.skeleton, out).write();
@@ -143,7 +143,7 @@ std::string write_plain_bvh(const Clip& clip) {
 }
 
 // The source's hierarchy to the byte, for a clip that has other frames than the source.
-std::string write_with_hierarchy(const Clip& clip, const BvhDocument& document) {
+std::string write_with_hierarchy(const Take& clip, const BvhDocument& document) {
   TextBuffer out(4096);
   const std::string_view hierarchy =
       std::string_view(document.bytes).substr(0, document.hierarchy_end);
@@ -162,7 +162,7 @@ std::string write_with_hierarchy(const Clip& clip, const BvhDocument& document) 
 
 }  // namespace
 
-void append_motion(TextBuffer& out, const Clip& clip, const std::vector<std::size_t>& joints,
+void append_motion(TextBuffer& out, const Take& clip, const std::vector<std::size_t>& joints,
                    const MotionStyle& style) {
   out.append(fmt::format("MOTION{0}Frames: {1}{0}Frame Time: {2}{0}", style.line_end,
                          clip.frame_count(), style.frame_time));
@@ -176,7 +176,7 @@ void append_motion(TextBuffer& out, const Clip& clip, const std::vector<std::siz
               {style.line_end, style.decimals});
 }
 
-std::string write_bvh(const Clip& clip) {
+std::string write_bvh(const Take& clip) {
   check_lengths(clip);
   const auto* document = dynamic_cast<const BvhDocument*>(clip.source.document.get());
   if (document == nullptr || !same_skeleton(clip.skeleton, document->skeleton))

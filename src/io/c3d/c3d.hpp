@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/diagnostics.hpp"
+#include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
 
 namespace kinemend {
@@ -19,9 +19,9 @@ TakeResult read_c3d(std::string bytes, std::string_view name, const ReadOptions&
 /// the source's processor type and number format; one with other frames, markers, events or units,
 /// or with samples too large for the source's integers, as a new file of Intel floats that keeps
 /// the source's parameters. Errors: `usage` when the format cannot hold the clip.
-std::string write_c3d(const MarkerClip& clip);
+std::string write_c3d(const Take& clip);
 /// The parts of the source that `write_c3d` leaves out.
-Diagnostics lost_in_c3d(const MarkerClip& clip);
+Diagnostics lost_in_c3d(const Take& clip);
 /// The parts of a C3D file that no other format can hold, in words: "2 force plates".
 std::vector<std::string> c3d_beside_points(const SourceInfo& source);
 

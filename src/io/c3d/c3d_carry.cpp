@@ -55,7 +55,7 @@ std::string analog_text(const C3dDocument& source) {
                      source.layout.analog_count == 1 ? "" : "s", analog_rate_hz(source));
 }
 
-void add_analog_losses(const MarkerClip& clip, const C3dOrigin& origin, Diagnostics& losses) {
+void add_analog_losses(const Take& clip, const C3dOrigin& origin, Diagnostics& losses) {
   const C3dDocument& source = *origin.document;
   const C3dLayout& layout = source.layout;
   if (!has_analog(layout)) return;
@@ -90,7 +90,7 @@ void add_analog_losses(const MarkerClip& clip, const C3dOrigin& origin, Diagnost
 }
 
 // Few that do not are written in place all the same: those that did not change.
-bool samples_fit(const MarkerClip& clip, const C3dLayout& layout) {
+bool samples_fit(const Take& clip, const C3dLayout& layout) {
   if (layout.is_float) return true;
   constexpr double most_steps = 32767;
   for (std::size_t i = 0; i < clip.positions.size(); ++i) {
@@ -109,14 +109,14 @@ std::size_t C3dCarried::source_frame(std::size_t frame, std::size_t source_count
   return std::min(static_cast<std::size_t>(place), source_count - 1);
 }
 
-std::size_t c3d_frame_count(const MarkerClip& clip, const C3dOrigin& origin) {
+std::size_t c3d_frame_count(const Take& clip, const C3dOrigin& origin) {
   // A file of analog samples alone has frames, a clip without markers has none.
   const bool no_points =
       origin.document != nullptr && clip.marker_count() + origin.document->layout.point_count == 0;
   return no_points ? origin.document->layout.frame_count : clip.frame_count();
 }
 
-C3dCarried c3d_carried(const MarkerClip& clip, const C3dOrigin& origin) {
+C3dCarried c3d_carried(const Take& clip, const C3dOrigin& origin) {
   C3dCarried carried;
   if (origin.document == nullptr) return carried;
   const C3dDocument& source = *origin.document;
@@ -133,14 +133,14 @@ C3dCarried c3d_carried(const MarkerClip& clip, const C3dOrigin& origin) {
   return carried;
 }
 
-bool goes_in_place(const MarkerClip& clip, const C3dOrigin& origin) {
+bool goes_in_place(const Take& clip, const C3dOrigin& origin) {
   return origin.document != nullptr && !origin.converted &&
          keeps_c3d_layout(clip, *origin.document) &&
          (samples_fit(clip, origin.document->layout) ||
           rewrite_c3d(clip, *origin.document).has_value());
 }
 
-Diagnostics c3d_losses(const MarkerClip& clip, const C3dOrigin& origin) {
+Diagnostics c3d_losses(const Take& clip, const C3dOrigin& origin) {
   Diagnostics losses;
   if (origin.document == nullptr || goes_in_place(clip, origin)) return losses;
   add_analog_losses(clip, origin, losses);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/c3d/c3d_document.hpp"
-#include "kinemend/diagnostics.hpp"
+#include "kinemend/error.hpp"
 
 namespace kinemend {
 
@@ -22,16 +22,16 @@ struct C3dCarried {
   std::size_t source_frame(std::size_t frame, std::size_t source_count) const;
 };
 
-C3dCarried c3d_carried(const MarkerClip& clip, const C3dOrigin& origin);
+C3dCarried c3d_carried(const Take& clip, const C3dOrigin& origin);
 
 /// Frames that a file of this clip has: those of the source where neither has points.
-std::size_t c3d_frame_count(const MarkerClip& clip, const C3dOrigin& origin);
+std::size_t c3d_frame_count(const Take& clip, const C3dOrigin& origin);
 
 /// Whether the clip can be written into the bytes of its source, changing only samples and rate.
-bool goes_in_place(const MarkerClip& clip, const C3dOrigin& origin);
+bool goes_in_place(const Take& clip, const C3dOrigin& origin);
 
 /// The parts of the source that a C3D file made from the clip lacks.
-Diagnostics c3d_losses(const MarkerClip& clip, const C3dOrigin& origin);
+Diagnostics c3d_losses(const Take& clip, const C3dOrigin& origin);
 
 /// The content of a file beside points and events, in words: "36 analog channels at 1000 Hz".
 std::vector<std::string> beside_points(const C3dDocument& document);

@@ -9,7 +9,7 @@
 #include "io/c3d/c3d_layout.hpp"
 #include "io/c3d/c3d_parameters.hpp"
 #include "io/table/marker_zeros.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 #include "motion/take_change.hpp"
 
 namespace kinemend {

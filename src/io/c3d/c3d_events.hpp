@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "io/c3d/c3d_layout.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

@@ -6,7 +6,7 @@
 
 #include "io/c3d/c3d_document.hpp"
 #include "io/c3d/c3d_points.hpp"
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

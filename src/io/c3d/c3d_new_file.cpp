@@ -32,7 +32,7 @@ constexpr std::size_t interpolated_gap_word = 6;
 
 class NewFile {
  public:
-  NewFile(const MarkerClip& clip, const C3dOrigin& origin)
+  NewFile(const Take& clip, const C3dOrigin& origin)
       : clip_(clip),
         origin_(origin),
         source_(origin.document),
@@ -194,7 +194,7 @@ class NewFile {
     }
   }
 
-  const MarkerClip& clip_;
+  const Take& clip_;
   const C3dOrigin& origin_;
   const C3dDocument* source_;
   C3dCarried carried_;
@@ -209,7 +209,7 @@ class NewFile {
 
 }  // namespace
 
-std::string new_c3d(const MarkerClip& clip, const C3dOrigin& origin) {
+std::string new_c3d(const Take& clip, const C3dOrigin& origin) {
   return NewFile(clip, origin).write();
 }
 

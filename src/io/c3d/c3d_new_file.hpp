@@ -11,6 +11,6 @@ namespace kinemend {
 /// kept as far as they still hold, and its analog samples and cameras as far as `C3dCarried` says.
 /// Errors: `usage` for names longer than 255 bytes, more than 65,535 markers, and positions too
 /// large for a real.
-std::string new_c3d(const MarkerClip& clip, const C3dOrigin& origin);
+std::string new_c3d(const Take& clip, const C3dOrigin& origin);
 
 }  // namespace kinemend

@@ -25,7 +25,7 @@ C3dParameter frame_field(const char* name, std::int64_t frame) {
 }
 
 // How far the markers of a frame lie apart along y and z, summed over some frames.
-std::array<double, 2> extents(const MarkerClip& clip) {
+std::array<double, 2> extents(const Take& clip) {
   std::array<double, 2> sums{};
   const std::size_t stride = clip.frame_count() / most_frames_looked_at + 1;
   for (std::size_t f = 0; f < clip.frame_count(); f += stride) {
@@ -45,7 +45,7 @@ std::array<double, 2> extents(const MarkerClip& clip) {
 
 class ParameterMaker {
  public:
-  ParameterMaker(const MarkerClip& clip, const C3dOrigin& origin, const C3dNewFile& file)
+  ParameterMaker(const Take& clip, const C3dOrigin& origin, const C3dNewFile& file)
       : clip_(clip), source_(origin.document), change_(origin.change), file_(file) {
     if (source_ != nullptr) all_ = source_->parameters;
     part_groups();
@@ -263,7 +263,7 @@ class ParameterMaker {
     set_parameter(all_, group, std::move(parameter));
   }
 
-  const MarkerClip& clip_;
+  const Take& clip_;
   const C3dDocument* source_;
   const TakeChange& change_;
   const C3dNewFile& file_;
@@ -272,7 +272,7 @@ class ParameterMaker {
 
 }  // namespace
 
-C3dParameters new_c3d_parameters(const MarkerClip& clip, const C3dOrigin& origin,
+C3dParameters new_c3d_parameters(const Take& clip, const C3dOrigin& origin,
                                  const C3dNewFile& file) {
   return ParameterMaker(clip, origin, file).make();
 }

@@ -17,7 +17,6 @@ struct C3dNewFile {
 /// Parameters of a new file of reals. `origin`: the file the clip comes from, if any; what it says
 /// of other things than the clip is kept, and what it says of places and lengths follows the clip:
 /// force plates, the axes of the screen. POINT:DATA_START is there, but 0.
-C3dParameters new_c3d_parameters(const MarkerClip& clip, const C3dOrigin& origin,
-                                 const C3dNewFile& file);
+C3dParameters new_c3d_parameters(const Take& clip, const C3dOrigin& origin, const C3dNewFile& file);
 
 }  // namespace kinemend

@@ -23,7 +23,7 @@ constexpr double c3d_rate_when_unknown_hz = 100;
 
 class C3dReader {
  public:
-  C3dReader(C3dSource& source, C3dDocument& document, MarkerClip& clip)
+  C3dReader(C3dSource& source, C3dDocument& document, Take& clip)
       : source_(source), document_(document), clip_(clip) {}
 
   void read(const ReadOptions& options) {
@@ -192,7 +192,7 @@ class C3dReader {
 
   C3dSource& source_;
   C3dDocument& document_;
-  MarkerClip& clip_;
+  Take& clip_;
 };
 
 }  // namespace
@@ -213,7 +213,7 @@ TakeResult read_c3d(std::string bytes, std::string_view name, const ReadOptions&
   TakeResult result;
   auto document = std::make_shared<C3dDocument>();
   document->bytes = std::move(bytes);
-  MarkerClip clip;
+  Take clip;
   C3dSource source{name, document->bytes, options.strict, result.diagnostics};
   C3dReader(source, *document, clip).read(options);
   clip.source.name = name;

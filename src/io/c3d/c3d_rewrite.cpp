@@ -14,7 +14,7 @@ namespace {
 
 class C3dRewriter {
  public:
-  C3dRewriter(const MarkerClip& clip, const C3dDocument& document)
+  C3dRewriter(const Take& clip, const C3dDocument& document)
       : clip_(clip), document_(document), source_(document), out_(document.bytes) {}
 
   std::optional<std::string> rewrite() {
@@ -140,7 +140,7 @@ class C3dRewriter {
     replace("TRIAL", "CAMERA_RATE", 1);
   }
 
-  const MarkerClip& clip_;
+  const Take& clip_;
   const C3dDocument& document_;
   C3dSourceFrames source_;
   std::string out_;
@@ -157,14 +157,14 @@ bool same_c3d_events(const std::vector<MarkerEvent>& a, const std::vector<Marker
                     });
 }
 
-bool keeps_c3d_layout(const MarkerClip& clip, const C3dDocument& document) {
+bool keeps_c3d_layout(const Take& clip, const C3dDocument& document) {
   const bool same_frames = clip.names.empty() || clip.frame_count() == document.layout.frame_count;
   return same_frames && document.event_times_finite && clip.names == document.names &&
          clip.unit == document.unit && clip.first_frame == document.layout.first_frame &&
          same_c3d_events(clip.events, document.events);
 }
 
-std::optional<std::string> rewrite_c3d(const MarkerClip& clip, const C3dDocument& document) {
+std::optional<std::string> rewrite_c3d(const Take& clip, const C3dDocument& document) {
   return C3dRewriter(clip, document).rewrite();
 }
 

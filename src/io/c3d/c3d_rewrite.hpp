@@ -12,10 +12,10 @@ namespace kinemend {
 bool same_c3d_events(const std::vector<MarkerEvent>& a, const std::vector<MarkerEvent>& b);
 
 /// Whether the clip differs from its document in samples and rate only.
-bool keeps_c3d_layout(const MarkerClip& clip, const C3dDocument& document);
+bool keeps_c3d_layout(const Take& clip, const C3dDocument& document);
 
 /// The document's own bytes with every changed sample replaced, for a clip that keeps its layout.
 /// Nothing where a sample does not fit into the document's integers.
-std::optional<std::string> rewrite_c3d(const MarkerClip& clip, const C3dDocument& document);
+std::optional<std::string> rewrite_c3d(const Take& clip, const C3dDocument& document);
 
 }  // namespace kinemend

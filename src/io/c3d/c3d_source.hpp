@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "io/c3d/c3d_words.hpp"
-#include "kinemend/diagnostics.hpp"
 #include "kinemend/error.hpp"
 
 namespace kinemend {

@@ -9,7 +9,7 @@
 
 namespace kinemend {
 
-std::string write_c3d(const MarkerClip& clip) {
+std::string write_c3d(const Take& clip) {
   clip.validate();
   const C3dOrigin origin = c3d_origin(clip.source);
   if (origin.document != nullptr && !origin.converted && keeps_c3d_layout(clip, *origin.document)) {
@@ -19,9 +19,7 @@ std::string write_c3d(const MarkerClip& clip) {
   return new_c3d(clip, origin);
 }
 
-Diagnostics lost_in_c3d(const MarkerClip& clip) {
-  return c3d_losses(clip, c3d_origin(clip.source));
-}
+Diagnostics lost_in_c3d(const Take& clip) { return c3d_losses(clip, c3d_origin(clip.source)); }
 
 std::vector<std::string> c3d_beside_points(const SourceInfo& source) {
   const C3dOrigin origin = c3d_origin(source);

@@ -4,8 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "kinemend/clip.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -13,9 +12,9 @@ namespace kinemend {
 int sniff_glb(std::string_view head);
 /// A clip as an animated skeleton with a skinned mesh of its bones, in metres (`metres_per_unit`, a
 /// guess by the skeleton's height, or 1), axes as they are. Errors: `usage` for an invalid clip.
-std::string write_glb(const Clip& clip);
+std::string write_glb(const Take& clip);
 /// Markers as small spheres that move, in metres (millimetres where the clip names no known unit);
 /// a missing one shrinks to nothing. Errors: the same.
-std::string write_glb_markers(const MarkerClip& clip);
+std::string write_glb_markers(const Take& clip);
 
 }  // namespace kinemend

@@ -17,10 +17,9 @@ Json json_of(Quat q) {
           static_cast<float>(q.w)};
 }
 
-double metres_of(const Clip& clip) {
-  if (clip.metres_per_unit > 0) return clip.metres_per_unit;
-  const auto unit = guess_length_unit(clip.skeleton);
-  return unit ? unit->metres : 1;
+double metres_of(const Take& clip) {
+  const double metres = likely_metres_per_unit(clip);
+  return metres > 0 ? metres : 1;
 }
 
 void append(std::vector<float>& values, Vec3 v) {
@@ -64,7 +63,7 @@ void add_sphere(GlbMesh& mesh, double radius, int cuts) {
 
 class SkeletonWriter {
  public:
-  explicit SkeletonWriter(const Clip& clip)
+  explicit SkeletonWriter(const Take& clip)
       : clip_(clip), skeleton_(clip.skeleton), scale_(metres_of(clip)) {}
 
   std::string write() {
@@ -174,7 +173,7 @@ class SkeletonWriter {
     return mesh;
   }
 
-  const Clip& clip_;
+  const Take& clip_;
   const Skeleton& skeleton_;
   double scale_;
   GlbBuilder file_;
@@ -184,7 +183,7 @@ class SkeletonWriter {
 };
 
 // Missing samples stay where the marker was last, or will be first.
-std::vector<Vec3> held_track(const MarkerClip& clip, std::size_t marker) {
+std::vector<Vec3> held_track(const Take& clip, std::size_t marker) {
   std::vector<Vec3> track(clip.frame_count());
   std::size_t known = 0;
   while (!clip.is_observed(known, marker)) ++known;
@@ -200,12 +199,12 @@ std::vector<Vec3> held_track(const MarkerClip& clip, std::size_t marker) {
 
 int sniff_glb(std::string_view head) { return head.substr(0, 4) == "glTF" ? 100 : 0; }
 
-std::string write_glb(const Clip& clip) {
+std::string write_glb(const Take& clip) {
   clip.validate();
   return SkeletonWriter(clip).write();
 }
 
-std::string write_glb_markers(const MarkerClip& clip) {
+std::string write_glb_markers(const Take& clip) {
   constexpr double radius_m = 0.008, metres_of_unknown_unit = 0.001;
   clip.validate();
   const double unit_m = metres_per_unit(clip.unit);

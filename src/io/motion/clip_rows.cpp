@@ -10,7 +10,7 @@
 
 namespace kinemend {
 
-ClipRows::ClipRows(Clip& clip, std::vector<PositionFrame> position_frames, std::size_t file_bytes)
+ClipRows::ClipRows(Take& clip, std::vector<PositionFrame> position_frames, std::size_t file_bytes)
     : clip_(clip),
       columns_(clip.skeleton),
       position_frames_(std::move(position_frames)),

@@ -7,7 +7,7 @@
 
 #include "io/motion/motion_columns.hpp"
 #include "io/motion/motion_document.hpp"
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -17,7 +17,7 @@ class ClipRows {
  public:
   /// `position_frames`: see `MotionDocument`. `file_bytes`: how much was read, which bounds the
   /// memory.
-  ClipRows(Clip& clip, std::vector<PositionFrame> position_frames, std::size_t file_bytes);
+  ClipRows(Take& clip, std::vector<PositionFrame> position_frames, std::size_t file_bytes);
 
   const MotionColumns& columns() const { return columns_; }
   std::size_t frames() const { return clip_.frame_count(); }
@@ -44,7 +44,7 @@ class ClipRows {
     return component(position_of(clip_, frame, position.translated), position.axis);
   }
 
-  Clip& clip_;
+  Take& clip_;
   MotionColumns columns_;
   std::vector<PositionFrame> position_frames_;
   std::size_t joints_;

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

@@ -10,7 +10,7 @@
 #include "io/motion/motion_rows.hpp"
 #include "io/motion/position_frame.hpp"
 #include "io/text/number.hpp"
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

@@ -23,7 +23,7 @@ using Angles = std::array<double, 3>;
 
 // All of a source's values, and which rotations the clip keeps.
 struct SourceTable {
-  SourceTable(const Clip& clip, const MotionDocument& document) {
+  SourceTable(const Take& clip, const MotionDocument& document) {
     const std::size_t joints = clip.joint_count();
     SourceFrames source(document);
     SourceBlock block;
@@ -88,7 +88,7 @@ struct Piece {
 
 class MotionRewriter {
  public:
-  MotionRewriter(const Clip& clip, const MotionDocument& document)
+  MotionRewriter(const Take& clip, const MotionDocument& document)
       : clip_(clip),
         document_(document),
         source_(document),
@@ -325,7 +325,7 @@ class MotionRewriter {
     }
   }
 
-  const Clip& clip_;
+  const Take& clip_;
   const MotionDocument& document_;
   SourceFrames source_;
   unsigned decimals_;
@@ -339,7 +339,7 @@ class MotionRewriter {
 
 }  // namespace
 
-std::string rewrite_motion(const Clip& clip, const MotionDocument& document,
+std::string rewrite_motion(const Take& clip, const MotionDocument& document,
                            const std::vector<DocumentEdit>& edits) {
   return MotionRewriter(clip, document).rewrite(edits);
 }

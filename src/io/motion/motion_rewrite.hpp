@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/motion/motion_document.hpp"
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -18,7 +18,7 @@ struct DocumentEdit {
 /// The document's own text with every changed sample replaced, and the edits, which are in the
 /// order of the text. The clip has the document's skeleton and frame count. Angles continue the
 /// frame before.
-std::string rewrite_motion(const Clip& clip, const MotionDocument& document,
+std::string rewrite_motion(const Take& clip, const MotionDocument& document,
                            const std::vector<DocumentEdit>& edits = {});
 
 }  // namespace kinemend

@@ -15,7 +15,7 @@ namespace kinemend {
 
 namespace {
 
-Vec3 joint_position(const Clip& clip, std::size_t frame, std::size_t joint) {
+Vec3 joint_position(const Take& clip, std::size_t frame, std::size_t joint) {
   if (joint == 0) return clip.root_position(frame);
   const auto& translated = clip.translated_joints;
   const auto found =
@@ -25,7 +25,7 @@ Vec3 joint_position(const Clip& clip, std::size_t frame, std::size_t joint) {
   return clip.position(frame, 1 + static_cast<std::size_t>(found - translated.begin()));
 }
 
-Quat written_rotation(const Clip& clip, std::size_t frame, std::size_t joint, RestRotations rest) {
+Quat written_rotation(const Take& clip, std::size_t frame, std::size_t joint, RestRotations rest) {
   const Quat rotation = clip.rotation(frame, joint);
   return rest == RestRotations::apart ? rotation : clip.skeleton.rest_rotations[joint] * rotation;
 }
@@ -44,7 +44,7 @@ bool same_skeleton(const Skeleton& a, const Skeleton& b) {
          same_end_sites(a.end_sites, b.end_sites);
 }
 
-void check_lengths(const Clip& clip) {
+void check_lengths(const Take& clip) {
   clip.skeleton.validate();
   const std::size_t frames = clip.frame_count();
   if (clip.rotations.size() != frames * clip.joint_count() ||
@@ -55,7 +55,7 @@ void check_lengths(const Clip& clip) {
 }
 
 // A motion that no channel can hold is not dropped in silence.
-void check_channels(const Clip& clip, RestRotations rest) {
+void check_channels(const Take& clip, RestRotations rest) {
   constexpr double tolerance_rad = 1e-6;
   const Skeleton& skeleton = clip.skeleton;
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
@@ -87,7 +87,7 @@ struct Source {
   std::size_t frame = 0;  // which of the position frames
 };
 
-Source source_of(const WrittenValue& value, const Clip& clip) {
+Source source_of(const WrittenValue& value, const Take& clip) {
   Source source{value.lead, value.joint};
   if (value.channel == WrittenValue::no_channel) return source;
   const auto& channels = clip.skeleton.channels[value.joint];
@@ -105,7 +105,7 @@ Source source_of(const WrittenValue& value, const Clip& clip) {
 
 class RowWriter {
  public:
-  RowWriter(TextBuffer& out, const Clip& clip, const std::vector<WrittenValue>& values,
+  RowWriter(TextBuffer& out, const Take& clip, const std::vector<WrittenValue>& values,
             const std::vector<PositionFrame>& position_frames, const RowStyle& style)
       : out_(out),
         clip_(clip),
@@ -153,7 +153,7 @@ class RowWriter {
   }
 
   TextBuffer& out_;
-  const Clip& clip_;
+  const Take& clip_;
   const std::vector<PositionFrame>& position_frames_;
   const RowStyle& style_;
   std::vector<Source> values_;
@@ -163,7 +163,7 @@ class RowWriter {
 
 }  // namespace
 
-void append_rows(TextBuffer& out, const Clip& clip, const std::vector<WrittenValue>& values,
+void append_rows(TextBuffer& out, const Take& clip, const std::vector<WrittenValue>& values,
                  const std::vector<PositionFrame>& position_frames, const RowStyle& style) {
   RowWriter(out, clip, values, position_frames, style).write();
 }

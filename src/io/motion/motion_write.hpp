@@ -9,7 +9,7 @@
 
 #include "io/motion/position_frame.hpp"
 #include "io/text/text_buffer.hpp"
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -17,7 +17,7 @@ bool same_skeleton(const Skeleton& a, const Skeleton& b);
 
 /// Errors: `usage` when the skeleton breaks a rule, arrays do not have the clip's number of frames,
 /// or the rate is not positive.
-void check_lengths(const Clip& clip);
+void check_lengths(const Take& clip);
 
 /// How a format treats the rest rotation of a joint.
 enum class RestRotations : std::uint8_t {
@@ -25,7 +25,7 @@ enum class RestRotations : std::uint8_t {
   apart,        ///< it stands in the skeleton
 };
 /// A motion that no channel can hold is not dropped in silence. Errors: `usage`, naming the joint.
-void check_channels(const Clip& clip, RestRotations rest);
+void check_channels(const Take& clip, RestRotations rest);
 
 /// A value of a frame and the text before it.
 struct WrittenValue {
@@ -47,7 +47,7 @@ struct RowStyle {
 
 /// All frames of a clip; angles continue the frame before. `position_frames`: see `MotionDocument`.
 /// Errors: `usage` for values that are not finite.
-void append_rows(TextBuffer& out, const Clip& clip, const std::vector<WrittenValue>& values,
+void append_rows(TextBuffer& out, const Take& clip, const std::vector<WrittenValue>& values,
                  const std::vector<PositionFrame>& position_frames, const RowStyle& style);
 
 }  // namespace kinemend

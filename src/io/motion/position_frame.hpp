@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -42,8 +42,8 @@ inline std::size_t frame_index(std::int32_t translated) {
 }
 
 /// Where the clip keeps the position of a frame that `MotionColumns::Position::translated` numbers.
-template <class AnyClip>
-auto& position_of(AnyClip& clip, std::size_t frame, std::int32_t translated) {
+template <class AnyTake>  // also a constant one
+auto& position_of(AnyTake& clip, std::size_t frame, std::int32_t translated) {
   return clip.positions[frame * clip.point_count() + frame_index(translated)];
 }
 

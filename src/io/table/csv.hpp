@@ -15,10 +15,10 @@ int sniff_csv(std::string_view head);
 TakeResult read_csv(std::string bytes, std::string_view name, const ReadOptions& options);
 /// A take read from CSV comes out in its source's layout, with the digits of every sample that has
 /// not changed; any other in a plain layout. Errors: `usage` when the format cannot hold the take.
-std::string write_csv(const Clip& clip);
-std::string write_csv_markers(const MarkerClip& clip);
+std::string write_csv(const Take& clip);
+std::string write_csv_markers(const Take& clip);
 /// The content of the source table that a new file loses, in words: "the sections Devices"; empty
 /// where nothing is lost.
-std::string csv_beside_markers(const MarkerClip& clip, bool as_csv);
+std::string csv_beside_markers(const Take& clip, bool as_csv);
 
 }  // namespace kinemend

@@ -11,7 +11,7 @@
 
 #include "io/table/marker_table.hpp"
 #include "io/text/text.hpp"
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 #include "motion/take_change.hpp"
 
 namespace kinemend {

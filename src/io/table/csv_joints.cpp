@@ -83,7 +83,7 @@ class JointReader {
         columns_(columns_of(header.groups)),
         width_(width_of(document.table, header.groups)) {}
 
-  Clip read() {
+  Take read() {
     build_skeleton();
     find_translated_joints();
     read_unit();
@@ -287,14 +287,14 @@ class JointReader {
   RowLabels& labels_;
   JointColumns columns_;
   std::size_t width_;
-  Clip clip_;
+  Take clip_;
   std::vector<double> values_;
   CountedRepair too_short_, not_unit_, rotation_missing_, position_missing_;
 };
 
 class JointRewriter {
  public:
-  JointRewriter(const Clip& clip, const CsvDocument& document)
+  JointRewriter(const Take& clip, const CsvDocument& document)
       : clip_(clip),
         document_(document),
         columns_(columns_of(document.groups)),
@@ -359,7 +359,7 @@ class JointRewriter {
     patch_.replace(z, now.z, shortest_digits);
   }
 
-  const Clip& clip_;
+  const Take& clip_;
   const CsvDocument& document_;
   JointColumns columns_;
   CellPatch patch_;
@@ -378,12 +378,12 @@ Quat rotation_from_cells(double w, double x, double y, double z) {
   return std::fabs(length - 1) <= tolerance ? raw : normalized(raw);
 }
 
-Clip read_csv_joints(const SourceText& text, Diagnostics& diagnostics, const CsvHeader& header,
+Take read_csv_joints(const SourceText& text, Diagnostics& diagnostics, const CsvHeader& header,
                      CsvDocument& document, RowLabels& labels) {
   return JointReader(text, diagnostics, header, document, labels).read();
 }
 
-std::string rewrite_csv_joints(const Clip& clip, const CsvDocument& document) {
+std::string rewrite_csv_joints(const Take& clip, const CsvDocument& document) {
   return JointRewriter(clip, document).rewrite();
 }
 

@@ -5,7 +5,7 @@
 
 #include "io/table/csv_document.hpp"
 #include "io/table/marker_table.hpp"
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -23,10 +23,10 @@ Quat rotation_from_cells(double w, double x, double y, double z);
 /// Reads a table of joints. Repairs: `skeleton_missing`, `rotation_missing`, `position_missing`,
 /// `rotation_not_unit`, `value_not_finite`, `row_too_short`. Errors: `unreadable_input`, naming the
 /// line.
-Clip read_csv_joints(const SourceText& text, Diagnostics& diagnostics, const CsvHeader& header,
+Take read_csv_joints(const SourceText& text, Diagnostics& diagnostics, const CsvHeader& header,
                      CsvDocument& document, RowLabels& labels);
 
 /// The document's bytes with every changed sample replaced. The clip has its skeleton and frames.
-std::string rewrite_csv_joints(const Clip& clip, const CsvDocument& document);
+std::string rewrite_csv_joints(const Take& clip, const CsvDocument& document);
 
 }  // namespace kinemend

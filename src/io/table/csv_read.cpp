@@ -39,8 +39,8 @@ class CsvReader {
     if (!table.head_is_finite) note("head_not_finite", header_.labels_line, head_not_finite_text);
     note_header();
     if (!header_.has_rotations()) return read_markers();
-    Clip clip = read_csv_joints(text_, diagnostics_, header_, document_, labels_);
-    MarkerClip numbered;
+    Take clip = read_csv_joints(text_, diagnostics_, header_, document_, labels_);
+    Take numbered;
     clip.frame_rate_hz = choose_rate(numbered);
     note_first_frame(clip, static_cast<double>(numbered.first_frame));
     document_.frame_rate_hz = clip.frame_rate_hz;
@@ -68,7 +68,7 @@ class CsvReader {
   }
 
   TakeResult read_markers() {
-    MarkerClip clip;
+    Take clip;
     std::size_t unnamed = 0;
     for (const CsvGroup& group : header_.groups) {
       if (group.kind != CsvGroup::Kind::position) continue;
@@ -113,7 +113,7 @@ class CsvReader {
     return {std::move(clip), std::move(diagnostics_)};
   }
 
-  double choose_rate(MarkerClip& clip) {
+  double choose_rate(Take& clip) {
     for (double& time : labels_.times_s) time *= header_.seconds_per_time;
     return table_rate(
         text_, diagnostics_, check_row_labels(text_, diagnostics_, document_.table, labels_, clip),

@@ -75,7 +75,7 @@ class Table {
   TextBuffer out_;
 };
 
-std::string write_plain_csv(const Clip& clip) {
+std::string write_plain_joints(const Take& clip) {
   Table table(80 * clip.rotations.size() + 4096);
   table.line("# rate_hz: " + number_text(clip.frame_rate_hz));
   if (clip.frame_count() == 0) table.line("# frames: 0");
@@ -111,7 +111,7 @@ std::string write_plain_csv(const Clip& clip) {
 }
 
 // The document whose layout holds the clip; null where there is none.
-const CsvDocument* kept_layout(const MarkerClip& clip) {
+const CsvDocument* kept_layout(const Take& clip) {
   const auto* const document = dynamic_cast<const CsvDocument*>(clip.source.document.get());
   const bool same = document != nullptr && document->table.head_is_finite &&
                     !document->names.empty() && clip.names == document->names &&
@@ -121,7 +121,7 @@ const CsvDocument* kept_layout(const MarkerClip& clip) {
   return same ? document : nullptr;
 }
 
-std::string write_plain_csv(const MarkerClip& clip) {
+std::string write_plain_markers(const Take& clip) {
   Table table(60 * clip.positions.size() + 4096);
   table.line("# rate_hz: " + number_text(clip.frame_rate_hz));
   if (clip.frame_count() == 0) table.line("# frames: 0");
@@ -151,7 +151,7 @@ std::string write_plain_csv(const MarkerClip& clip) {
 
 }  // namespace
 
-std::string write_csv(const Clip& clip) {
+std::string write_csv(const Take& clip) {
   clip.validate();
   const auto* document = dynamic_cast<const CsvDocument*>(clip.source.document.get());
   const bool same_layout = document != nullptr && document->table.head_is_finite &&
@@ -161,20 +161,20 @@ std::string write_csv(const Clip& clip) {
                            clip.frame_rate_hz == document->frame_rate_hz &&
                            clip.metres_per_unit == document->metres_per_unit;
   if (same_layout) return rewrite_csv_joints(clip, *document);
-  return write_plain_csv(clip);
+  return write_plain_joints(clip);
 }
 
-std::string write_csv_markers(const MarkerClip& clip) {
+std::string write_csv_markers(const Take& clip) {
   clip.validate();
   if (const auto* const document = kept_layout(clip)) {
     if (auto bytes = rewrite_marker_table(clip, document->bytes, document->table))
       return *std::move(bytes);
   }
   if (clip.names.empty()) throw Error(ErrorKind::usage, "CSV cannot hold a clip without markers");
-  return write_plain_csv(clip);
+  return write_plain_markers(clip);
 }
 
-std::string csv_beside_markers(const MarkerClip& clip, bool as_csv) {
+std::string csv_beside_markers(const Take& clip, bool as_csv) {
   if (as_csv && kept_layout(clip) != nullptr) return "";
   const SourceDocument* const document = clip.source.document.get();
   if (const auto* const table = dynamic_cast<const CsvDocument*>(document)) return table->beside;

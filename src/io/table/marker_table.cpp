@@ -20,7 +20,7 @@ namespace {
 class TableReader {
  public:
   TableReader(const SourceText& text, Diagnostics& diagnostics, std::size_t declared_frames,
-              MarkerTable& table, MarkerClip& clip)
+              MarkerTable& table, Take& clip)
       : text_(text),
         diagnostics_(diagnostics),
         declared_frames_(declared_frames),
@@ -221,7 +221,7 @@ class TableReader {
   Diagnostics& diagnostics_;
   std::size_t declared_frames_;
   MarkerTable& table_;
-  MarkerClip& clip_;
+  Take& clip_;
   std::size_t markers_;
   std::size_t width_;
   CellRows rows_;
@@ -276,7 +276,7 @@ std::size_t MarkerTable::width() const {
 }
 
 TableFinding read_marker_table(const SourceText& text, Diagnostics& diagnostics,
-                               std::size_t declared_frames, MarkerTable& table, MarkerClip& clip) {
+                               std::size_t declared_frames, MarkerTable& table, Take& clip) {
   return TableReader(text, diagnostics, declared_frames, table, clip).read();
 }
 
@@ -295,7 +295,7 @@ void fail_at_cell(const SourceText& text, const char* place, char separator) {
 }
 
 RowRate check_row_labels(const SourceText& text, Diagnostics& diagnostics, const MarkerTable& table,
-                         const RowLabels& labels, MarkerClip& clip) {
+                         const RowLabels& labels, Take& clip) {
   const auto count_steps = [](const std::vector<double>& values, auto is_odd) {
     std::size_t odd = 0;
     for (std::size_t i = 1; i < values.size(); ++i)

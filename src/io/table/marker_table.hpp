@@ -11,7 +11,7 @@
 
 #include "io/text/cell_rows.hpp"
 #include "io/text/text.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -64,7 +64,7 @@ struct TableFinding {
 /// `value_not_finite`, `marker_incomplete`, `zero_is_missing`, `file_cut`, `trailing_text`.
 /// Errors: a cell that is no number.
 TableFinding read_marker_table(const SourceText& text, Diagnostics& diagnostics,
-                               std::size_t declared_frames, MarkerTable& table, MarkerClip& clip);
+                               std::size_t declared_frames, MarkerTable& table, Take& clip);
 
 /// The rate that the times of the rows give.
 struct RowRate {
@@ -76,7 +76,7 @@ struct RowRate {
 /// Notes oddities of frame numbers and times (`frame_number_gap`, `time_uneven`), and sets the
 /// first frame of the clip.
 RowRate check_row_labels(const SourceText& text, Diagnostics& diagnostics, const MarkerTable& table,
-                         const RowLabels& labels, MarkerClip& clip);
+                         const RowLabels& labels, Take& clip);
 
 /// The words of the repair `head_not_finite`.
 inline constexpr std::string_view head_not_finite_text =
@@ -94,7 +94,7 @@ unsigned decimals_of(std::string_view bytes, const MarkerTable& table);
 /// samples, and all cells that hold no finite number, become empty cells. Empty where the table
 /// cannot show them: it has no separators, or a row would have empty cells alone. The clip has the
 /// table's frames and markers.
-std::optional<std::string> rewrite_marker_table(const MarkerClip& clip, std::string_view bytes,
+std::optional<std::string> rewrite_marker_table(const Take& clip, std::string_view bytes,
                                                 const MarkerTable& table);
 
 /// The text of a coordinate in a file without a source: the fewest digits that read back as the

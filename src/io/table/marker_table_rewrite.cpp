@@ -24,7 +24,7 @@ unsigned decimals_in(TokenSpan token, CommaStyle commas) {
 
 class TableRewriter {
  public:
-  TableRewriter(const MarkerClip& clip, std::string_view bytes, const MarkerTable& table)
+  TableRewriter(const Take& clip, std::string_view bytes, const MarkerTable& table)
       : clip_(clip),
         bytes_(bytes),
         table_(table),
@@ -104,7 +104,7 @@ class TableRewriter {
     return *decimals_;
   }
 
-  const MarkerClip& clip_;
+  const Take& clip_;
   std::string_view bytes_;
   const MarkerTable& table_;
   CellPatch patch_;
@@ -134,7 +134,7 @@ unsigned decimals_of(std::string_view bytes, const MarkerTable& table) {
   return most;
 }
 
-std::optional<std::string> rewrite_marker_table(const MarkerClip& clip, std::string_view bytes,
+std::optional<std::string> rewrite_marker_table(const Take& clip, std::string_view bytes,
                                                 const MarkerTable& table) {
   return TableRewriter(clip, bytes, table).rewrite();
 }

@@ -20,8 +20,7 @@ constexpr double longest_jump_m = 0.05;
 // One marker's path.
 class MarkerPath {
  public:
-  MarkerPath(const MarkerClip& clip, std::size_t marker,
-             const std::vector<std::uint8_t>& is_measured)
+  MarkerPath(const Take& clip, std::size_t marker, const std::vector<std::uint8_t>& is_measured)
       : clip_(clip), marker_(marker), is_measured_(is_measured) {}
 
   std::size_t frames() const { return clip_.frame_count(); }
@@ -48,7 +47,7 @@ class MarkerPath {
     return !is_measured_.empty() && is_measured_[frame * clip_.marker_count() + marker_] != 0;
   }
 
-  const MarkerClip& clip_;
+  const Take& clip_;
   std::size_t marker_;
   const std::vector<std::uint8_t>& is_measured_;
 };
@@ -82,7 +81,7 @@ void find_in_path(const MarkerPath& path, std::size_t marker, double resolution,
 
 // Markers that are at the origin in every frame; none in a clip that has another way to say what is
 // missing.
-std::vector<std::size_t> never_elsewhere(const MarkerClip& clip,
+std::vector<std::size_t> never_elsewhere(const Take& clip,
                                          const std::vector<std::uint8_t>& is_measured) {
   std::vector<std::size_t> markers;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
@@ -100,7 +99,7 @@ std::vector<std::size_t> never_elsewhere(const MarkerClip& clip,
 
 }  // namespace
 
-std::vector<ZeroGap> find_zero_gaps(const MarkerClip& clip, double resolution,
+std::vector<ZeroGap> find_zero_gaps(const Take& clip, double resolution,
                                     const std::vector<std::uint8_t>& is_measured) {
   std::vector<ZeroGap> gaps;
   // Few takes have any.
@@ -125,7 +124,7 @@ std::size_t sample_count(const std::vector<ZeroGap>& gaps) {
   return samples;
 }
 
-void mark_missing(const std::vector<ZeroGap>& gaps, MarkerClip& clip) {
+void mark_missing(const std::vector<ZeroGap>& gaps, Take& clip) {
   for (const ZeroGap& gap : gaps) {
     for (std::size_t f = gap.first; f < gap.last; ++f) {
       const std::size_t sample = f * clip.marker_count() + gap.marker;
@@ -135,7 +134,7 @@ void mark_missing(const std::vector<ZeroGap>& gaps, MarkerClip& clip) {
   }
 }
 
-MissingZeros mark_zeros_missing(MarkerClip& clip) {
+MissingZeros mark_zeros_missing(Take& clip) {
   const std::vector<ZeroGap> gaps = find_zero_gaps(clip);
   mark_missing(gaps, clip);
   MissingZeros found{sample_count(gaps), clip.frame_count()};

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -24,14 +24,14 @@ struct ZeroGap {
 /// sample is missing otherwise. Millimetres are taken where the clip names no unit that is known. A
 /// marker that rests at the origin or passes through it keeps its samples; so do points that are no
 /// positions, and a sample of which `is_measured` (one for each sample, or empty) says so.
-std::vector<ZeroGap> find_zero_gaps(const MarkerClip& clip, double resolution = 0,
+std::vector<ZeroGap> find_zero_gaps(const Take& clip, double resolution = 0,
                                     const std::vector<std::uint8_t>& is_measured = {});
 
 /// How many samples the gaps hold.
 std::size_t sample_count(const std::vector<ZeroGap>& gaps);
 
 /// Makes the samples of gaps missing.
-void mark_missing(const std::vector<ZeroGap>& gaps, MarkerClip& clip);
+void mark_missing(const std::vector<ZeroGap>& gaps, Take& clip);
 
 /// The result of `mark_zeros_missing`.
 struct MissingZeros {
@@ -40,6 +40,6 @@ struct MissingZeros {
 };
 
 /// Finds gaps of zeros and makes their samples missing.
-MissingZeros mark_zeros_missing(MarkerClip& clip);
+MissingZeros mark_zeros_missing(Take& clip);
 
 }  // namespace kinemend

@@ -18,7 +18,7 @@ TakeResult read_table(std::string&& bytes, std::string_view name, std::string_vi
   const auto document = std::make_shared<Document>();
   document->bytes = std::move(bytes);
   TakeResult result = Reader(*document, name, options).read();
-  SourceInfo& source = source_of(result.take);
+  SourceInfo& source = result.take.source;
   source.name = name;
   source.format = format;
   source.document = document;

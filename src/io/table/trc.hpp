@@ -14,6 +14,6 @@ int sniff_trc(std::string_view head);
 TakeResult read_trc(std::string bytes, std::string_view name, const ReadOptions& options);
 /// A clip read from TRC comes out in its source's layout, with the digits of every sample that has
 /// not changed; any other in a plain layout. Errors: `usage` when the format cannot hold the clip.
-std::string write_trc(const MarkerClip& clip);
+std::string write_trc(const Take& clip);
 
 }  // namespace kinemend

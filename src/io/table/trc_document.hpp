@@ -9,7 +9,7 @@
 
 #include "io/table/marker_table.hpp"
 #include "io/text/text.hpp"
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

@@ -162,7 +162,7 @@ class TrcReader {
   SourceText text_;
   Diagnostics diagnostics_;
   TrcHeader header_;
-  MarkerClip clip_;
+  Take clip_;
 };
 
 }  // namespace

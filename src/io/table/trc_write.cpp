@@ -24,7 +24,7 @@ struct PlainStyle {
 };
 
 // The first line and the digits of the source, for a clip that has other frames or markers.
-PlainStyle style_of(const MarkerClip& clip, const TrcDocument* document) {
+PlainStyle style_of(const Take& clip, const TrcDocument* document) {
   PlainStyle style;
   if (document != nullptr) {
     // One of commas does not go with tabs.
@@ -57,7 +57,7 @@ std::string rate_text(double rate_hz) {
 
 class TrcWriter {
  public:
-  TrcWriter(const MarkerClip& clip, PlainStyle style)
+  TrcWriter(const Take& clip, PlainStyle style)
       : clip_(clip), style_(std::move(style)), out_(64 * clip.positions.size() + 4096) {}
 
   std::string write() {
@@ -116,14 +116,14 @@ class TrcWriter {
     out_.append(coordinate_text(value, room, most_fixed_decimals));
   }
 
-  const MarkerClip& clip_;
+  const Take& clip_;
   PlainStyle style_;
   TextBuffer out_;
 };
 
 }  // namespace
 
-std::string write_trc(const MarkerClip& clip) {
+std::string write_trc(const Take& clip) {
   clip.validate();
   const auto* document = dynamic_cast<const TrcDocument*>(clip.source.document.get());
   const bool same_layout =

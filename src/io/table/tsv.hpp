@@ -16,6 +16,6 @@ TakeResult read_tsv(std::string bytes, std::string_view name, const ReadOptions&
 /// A clip read from such a file comes out in its source's layout, with the digits of every sample
 /// that has not changed; any other in a plain layout. Errors: `usage` when the format cannot hold
 /// the clip: it is in millimetres.
-std::string write_tsv(const MarkerClip& clip);
+std::string write_tsv(const Take& clip);
 
 }  // namespace kinemend

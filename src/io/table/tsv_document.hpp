@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/table/marker_table.hpp"
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

@@ -224,7 +224,7 @@ class TsvReader {
   SourceText text_;
   HeadLines lines_;
   Diagnostics diagnostics_;
-  MarkerClip clip_;
+  Take clip_;
   Cells labels_;
   Value frames_, markers_, rate_;
   std::string included_;

@@ -14,7 +14,7 @@ namespace kinemend {
 
 namespace {
 
-bool keeps_layout(const MarkerClip& clip, const TsvDocument& document) {
+bool keeps_layout(const Take& clip, const TsvDocument& document) {
   const auto same_event = [](const MarkerEvent& a, const MarkerEvent& b) {
     return a.label == b.label && a.context == b.context && a.time_s == b.time_s;
   };
@@ -27,8 +27,7 @@ bool keeps_layout(const MarkerClip& clip, const TsvDocument& document) {
 
 class TsvWriter {
  public:
-  explicit TsvWriter(const MarkerClip& clip)
-      : clip_(clip), out_(32 * clip.positions.size() + 4096) {}
+  explicit TsvWriter(const Take& clip) : clip_(clip), out_(32 * clip.positions.size() + 4096) {}
 
   std::string write() {
     write_head();
@@ -94,13 +93,13 @@ class TsvWriter {
     out_.append("\n");
   }
 
-  const MarkerClip& clip_;
+  const Take& clip_;
   TextBuffer out_;
 };
 
 }  // namespace
 
-std::string write_tsv(const MarkerClip& clip) {
+std::string write_tsv(const Take& clip) {
   clip.validate();
   const auto* const document = dynamic_cast<const TsvDocument*>(clip.source.document.get());
   if (document != nullptr && keeps_layout(clip, *document)) {

@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "base/quote.hpp"
-#include "kinemend/diagnostics.hpp"
 #include "kinemend/error.hpp"
 
 namespace kinemend {

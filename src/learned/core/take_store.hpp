@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "base/spool.hpp"
-#include "kinemend/clip.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/clip.hpp"
 #include "kinemend/experimental/body.hpp"
 #include "kinemend/experimental/representation.hpp"
+#include "kinemend/take.hpp"
 #include "learned/corrector/motion_channels.hpp"
 
 namespace kinemend {

@@ -66,12 +66,12 @@ void add_positions(const PositionAt& before, const PositionAt& after, double qua
     add(old_values[axis], new_values[axis], quantum, channels);
 }
 
-PositionAt position_of(const Clip* clip, std::size_t track) {
+PositionAt position_of(const Take* clip, std::size_t track) {
   if (clip == nullptr) return {};
   return [clip, track](std::size_t frame) { return clip->position(frame, track); };
 }
 
-void add_rotation(const Clip& before, const Clip* after, std::size_t joint, RotationOrder order,
+void add_rotation(const Take& before, const Take* after, std::size_t joint, RotationOrder order,
                   double quantum_deg, Channels& channels) {
   std::array<Values, 3> old_angles, new_angles;
   std::array<double, 3> angles{};
@@ -88,14 +88,14 @@ void add_rotation(const Clip& before, const Clip* after, std::size_t joint, Rota
     add(old_angles[a], new_angles[a], quantum_deg, channels);
 }
 
-bool turns(const Clip& clip, std::size_t joint) {
+bool turns(const Take& clip, std::size_t joint) {
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     if (angle_between(clip.rotation(f, joint), Quat{}) > 1e-9) return true;
   }
   return false;
 }
 
-PositionAt held_position_of(const MarkerClip* clip, std::size_t marker) {
+PositionAt held_position_of(const Take* clip, std::size_t marker) {
   if (clip == nullptr) return {};
   return [clip, marker, last = Vec3()](std::size_t frame) mutable {
     if (clip->is_observed(frame, marker)) last = clip->position(frame, marker);
@@ -115,44 +115,36 @@ std::size_t part_stride(std::size_t frames, std::size_t channels) {
   return frames * channels > most_samples_at_once ? stride_of_parts : 1;
 }
 
-std::size_t channel_count(const Clip& clip) {
-  std::size_t count = 3 * (1 + clip.translated_joints.size());
-  for (std::size_t j = 0; j < clip.joint_count(); ++j)
-    count += clip.skeleton.rotation_order(j).count;
+std::size_t channel_count(const Take& take) {
+  std::size_t count = 3 * take.point_count();
+  for (std::size_t j = 0; j < take.joint_count(); ++j)
+    count += take.skeleton.rotation_order(j).count;
   return count;
 }
 
-std::size_t channel_count(const MarkerClip& clip) { return 3 * clip.marker_count(); }
-
-RotationOrder told_order(const Clip& before, const Clip* after, std::size_t joint) {
+RotationOrder told_order(const Take& before, const Take* after, std::size_t joint) {
   const RotationOrder order = before.skeleton.rotation_order(joint);
   if (order.count > 0) return order;
   const bool does_turn = turns(before, joint) || (after != nullptr && turns(*after, joint));
   return does_turn ? parse_rotation_order("ZXY") : order;
 }
 
-Channels channels_of(const Clip& before, const Clip* after, double body_height, double share) {
+Channels channels_of(const Take& before, const Take* after, double body_height, double share) {
   Channels channels = empty_channels(before.frame_count(), channel_count(before));
   const double quantum = share * position_quantum(body_height);
+  const bool joints = before.has_joints();
   std::vector<Channels> of_joints(before.joint_count(), channels);
-  add_positions(position_of(&before, 0), position_of(after, 0), quantum, channels);
-  for (std::size_t t = 0; t < before.translated_joints.size(); ++t)
-    add_positions(position_of(&before, 1 + t), position_of(after, 1 + t), quantum, channels);
+  for (std::size_t p = 0; p < before.point_count(); ++p) {
+    if (joints)
+      add_positions(position_of(&before, p), position_of(after, p), quantum, channels);
+    else
+      add_positions(held_position_of(&before, p), held_position_of(after, p), quantum, channels);
+  }
   for_each_parallel(of_joints.size(), of_joints.size() * channels.frames, [&](std::size_t j) {
     add_rotation(before, after, j, told_order(before, after, j), share * rotation_quantum_deg,
                  of_joints[j]);
   });
   for (Channels& joint : of_joints) append(std::move(joint), channels);
-  return channels;
-}
-
-Channels channels_of(const MarkerClip& before, const MarkerClip* after, double body_height,
-                     double share) {
-  Channels channels = empty_channels(before.frame_count(), channel_count(before));
-  for (std::size_t m = 0; m < before.marker_count(); ++m) {
-    add_positions(held_position_of(&before, m), held_position_of(after, m),
-                  share * position_quantum(body_height), channels);
-  }
   return channels;
 }
 

@@ -5,8 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/clip.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 #include "report/page/codec.hpp"
 
 namespace kinemend::page {
@@ -35,17 +34,14 @@ struct Channels {
   std::size_t step = 1;
   std::size_t frames = 0;  ///< told
 };
-std::size_t channel_count(const Clip& clip);
-std::size_t channel_count(const MarkerClip& clip);
+std::size_t channel_count(const Take& take);
 /// The axes a joint's rotation is told by: those of its channels, or Z X Y where it turns without
 /// any; none where it never turns.
-RotationOrder told_order(const Clip& before, const Clip* after, std::size_t joint);
+RotationOrder told_order(const Take& before, const Take* after, std::size_t joint);
 /// x, y, z of joint 0, then of each translated joint; then the angles of each joint about the axes
 /// of `told_order`, degrees, without whole turns between frames, those after nearest to those
-/// before. `share`: of the coarsest quanta.
-Channels channels_of(const Clip& before, const Clip* after, double body_height, double share = 1);
-/// x, y, z of each marker; a missing sample repeats the one before.
-Channels channels_of(const MarkerClip& before, const MarkerClip* after, double body_height,
-                     double share = 1);
+/// before. Of markers x, y, z of each, where a missing sample repeats the one before. `share`: of
+/// the coarsest quanta.
+Channels channels_of(const Take& before, const Take* after, double body_height, double share = 1);
 
 }  // namespace kinemend::page

@@ -49,7 +49,7 @@ class Groups {
   std::vector<std::size_t> parents_;
 };
 
-std::vector<std::size_t> linked_markers(const MarkerClip& clip) {
+std::vector<std::size_t> linked_markers(const Take& clip) {
   std::vector<std::size_t> markers;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
     // A name with a star is a piece of an unlabelled path.
@@ -69,7 +69,7 @@ std::vector<std::size_t> frames_to_look_at(std::size_t frames, std::size_t marke
 
 }  // namespace
 
-std::vector<std::array<std::size_t, 2>> marker_links(const MarkerClip& clip, double body_height) {
+std::vector<std::array<std::size_t, 2>> marker_links(const Take& clip, double body_height) {
   const std::vector<std::size_t> markers = linked_markers(clip);
   if (markers.size() < 2 || markers.size() > most_markers) return {};
   const std::vector<std::size_t> frames = frames_to_look_at(clip.frame_count(), markers.size());

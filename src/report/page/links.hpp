@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::page {
 
@@ -14,6 +14,6 @@ namespace kinemend::page {
 /// steadiest are taken until every group of markers is connected, without a loop. Markers that are
 /// far apart for the body, drift apart, or are rarely observed together are not linked.
 /// Looks at 120 frames at most. `body_height`: in the clip's unit, above 0.
-std::vector<std::array<std::size_t, 2>> marker_links(const MarkerClip& clip, double body_height);
+std::vector<std::array<std::size_t, 2>> marker_links(const Take& clip, double body_height);
 
 }  // namespace kinemend::page

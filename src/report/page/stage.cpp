@@ -58,25 +58,12 @@ std::vector<std::size_t> counted_up(std::size_t count) {
   return result;
 }
 
-double scale_of(const Clip& clip) {
-  if (clip.metres_per_unit > 0) return clip.metres_per_unit;
-  const auto guess = guess_length_unit(clip.skeleton);
-  return guess ? guess->metres : 0;
-}
-
-}  // namespace
-
-Stage stage_of(const Clip& clip) {
-  Stage stage;
-  stage.height = body_height(clip.skeleton);
-  if (!(stage.height > 0)) stage.height = 1;
-  if (clip.frame_count() == 0) return stage;
-  stage.up = {guess_up_axis(clip), 1};
-  if (const double scale = scale_of(clip); scale > 0) {
+void stand_joints(const Take& clip, Stage& stage) {
+  if (const double scale = likely_metres_per_unit(clip); scale > 0) {
     find_feet(check::body_points(clip, scale),
               counted_up(clip.joint_count() + clip.skeleton.end_sites.size()), scale, stage);
   }
-  if (!stage.contacts.empty()) return stage;
+  if (!stage.contacts.empty()) return;
   Pose pose;
   std::size_t posed = clip.frame_count();
   stage.floor = lowest_level(clip.frame_count(), clip.joint_count(), stage.up,
@@ -85,31 +72,41 @@ Stage stage_of(const Clip& clip) {
                                posed = frame;
                                return pose.positions[joint];
                              });
-  return stage;
 }
 
-Stage stage_of(const MarkerClip& clip) {
-  Stage stage;
-  stage.height = clip.frame_count() > 0 ? body_height(clip) : 1;
-  if (!(stage.height > 0)) stage.height = 1;
-  if (clip.frame_count() == 0) return stage;
-  stage.up = {guess_up_axis(clip), 1};
+void stand_markers(const Take& clip, Stage& stage) {
   std::vector<std::size_t> markers;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
     if (clip.holds_positions(m)) markers.push_back(m);
   }
-  if (const double scale = metres_per_unit(clip.unit); scale > 0)
+  if (const double scale = likely_metres_per_unit(clip); scale > 0)
     find_feet(check::body_points(clip, markers, scale), markers, scale, stage);
-  if (!stage.contacts.empty()) return stage;
+  if (!stage.contacts.empty()) return;
   stage.floor = lowest_level(clip.frame_count(), markers.size(), stage.up,
                              [&](std::size_t frame, std::size_t i) -> std::optional<Vec3> {
                                if (!clip.is_observed(frame, markers[i])) return std::nullopt;
                                return clip.position(frame, markers[i]);
                              });
+}
+
+}  // namespace
+
+Stage stage_of(const Take& take) {
+  Stage stage;
+  stage.height = take.has_joints()        ? body_height(take.skeleton)
+                 : take.frame_count() > 0 ? body_height(take)
+                                          : 1;
+  if (!(stage.height > 0)) stage.height = 1;
+  if (take.frame_count() == 0) return stage;
+  stage.up = {guess_up_axis(take), 1};
+  if (take.has_joints())
+    stand_joints(take, stage);
+  else
+    stand_markers(take, stage);
   return stage;
 }
 
-std::vector<StageContact> contacts_of(const FeetReport& report, const Clip& clip) {
+std::vector<StageContact> contacts_of(const FeetReport& report, const Take& clip) {
   const std::vector<Leg> legs = find_legs(clip.skeleton);
   std::vector<StageContact> contacts;
   for (const FootContact& contact : report.contacts) {

@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "feet/body_points.hpp"
-#include "kinemend/clip.hpp"
 #include "kinemend/feet.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::page {
 
@@ -27,9 +26,8 @@ struct Stage {
   std::vector<StageContact> contacts;
 };
 
-Stage stage_of(const Clip& clip);
-Stage stage_of(const MarkerClip& clip);
+Stage stage_of(const Take& take);
 /// Those that `clean` worked with.
-std::vector<StageContact> contacts_of(const FeetReport& report, const Clip& clip);
+std::vector<StageContact> contacts_of(const FeetReport& report, const Take& clip);
 
 }  // namespace kinemend::page

@@ -35,7 +35,7 @@ Json json_of(const Stage& stage) {
           {"contacts", std::move(contacts)}};
 }
 
-Json skeleton_json(const Clip& before, const Clip* after) {
+Json skeleton_json(const Take& before, const Take* after) {
   const Skeleton& skeleton = before.skeleton;
   Json offsets = Json::array(), rests = Json::array(), ends = Json::array();
   Json orders = Json::array();
@@ -55,48 +55,33 @@ Json skeleton_json(const Clip& before, const Clip* after) {
           {"translated", before.translated_joints}};
 }
 
-template <class AnyTake>
-Json common_json(const AnyTake& before, const AnyTake* after, const Channels& channels,
-                 const Stage& stage) {
-  const TakeFacts facts = take_facts(before);
-  return {{"kind", facts.kind == TakeKind::markers ? "markers" : "joints"},
-          {"names", facts.tracks},
-          {"frames", facts.frames},
-          {"told", channels.frames},
-          {"step", channels.step},
-          {"stride", part_stride(channels.frames, channels.samples.size())},
-          {"first_frame", facts.first_frame},
-          {"rate", facts.frame_rate_hz},
-          {"unit", facts.unit},
-          {"two", after != nullptr},
-          {"quanta", channels.quanta},
-          {"stage", json_of(stage)}};
-}
-
-Json gaps_json(const Clip* clip) {
-  if (clip == nullptr) return nullptr;
-  return {{"own", json_of(find_gaps(*clip))}, {"positions", json_of(find_position_gaps(*clip))}};
-}
-
-Json gaps_json(const MarkerClip* clip) {
-  if (clip == nullptr) return nullptr;
-  return {{"own", json_of(find_gaps(*clip))}, {"positions", Json::array()}};
+Json gaps_json(const Take* take) {
+  if (take == nullptr) return nullptr;
+  return {{"own", json_of(find_gaps(*take))}, {"positions", json_of(find_position_gaps(*take))}};
 }
 
 }  // namespace
 
-Json take_json(const Clip& before, const Clip* after, const Channels& channels,
+Json take_json(const Take& before, const Take* after, const Channels& channels,
                const Stage& stage) {
-  Json json = common_json(before, after, channels, stage);
-  json["gaps"] = {{"before", gaps_json(&before)}, {"after", gaps_json(after)}};
-  json["skeleton"] = skeleton_json(before, after);
-  return json;
-}
-
-Json take_json(const MarkerClip& before, const MarkerClip* after, const Channels& channels,
-               const Stage& stage) {
-  Json json = common_json(before, after, channels, stage);
-  json["gaps"] = {{"before", gaps_json(&before)}, {"after", gaps_json(after)}};
+  const TakeFacts facts = take_facts(before);
+  Json json = {{"kind", before.has_joints() ? "joints" : "markers"},
+               {"names", facts.tracks},
+               {"frames", facts.frames},
+               {"told", channels.frames},
+               {"step", channels.step},
+               {"stride", part_stride(channels.frames, channels.samples.size())},
+               {"first_frame", facts.first_frame},
+               {"rate", facts.frame_rate_hz},
+               {"unit", facts.unit},
+               {"two", after != nullptr},
+               {"quanta", channels.quanta},
+               {"stage", json_of(stage)},
+               {"gaps", {{"before", gaps_json(&before)}, {"after", gaps_json(after)}}}};
+  if (before.has_joints()) {
+    json["skeleton"] = skeleton_json(before, after);
+    return json;
+  }
   json["shown"] = Json::array();
   for (std::size_t m = 0; m < before.marker_count(); ++m)
     json["shown"].push_back(before.holds_positions(m));

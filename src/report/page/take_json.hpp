@@ -4,8 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "kinemend/clip.hpp"
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 #include "report/page/channels.hpp"
 #include "report/page/stage.hpp"
 
@@ -14,8 +13,6 @@ namespace kinemend::page {
 using Json = nlohmann::ordered_json;
 
 /// Names, skeleton, gaps and stage. Frames count from 0 there.
-Json take_json(const Clip& before, const Clip* after, const Channels& channels, const Stage& stage);
-Json take_json(const MarkerClip& before, const MarkerClip* after, const Channels& channels,
-               const Stage& stage);
+Json take_json(const Take& before, const Take* after, const Channels& channels, const Stage& stage);
 
 }  // namespace kinemend::page

@@ -17,38 +17,28 @@ namespace {
 
 using page::Channels, page::Json, page::Stage;
 
-void check_pair(std::size_t before_frames, std::size_t after_frames, std::size_t before_tracks,
-                std::size_t after_tracks) {
-  if (before_frames == after_frames && before_tracks == after_tracks) return;
-  throw Error(ErrorKind::usage,
-              fmt::format("report page: {} frames of {} tracks before, {} of {} after",
-                          before_frames, before_tracks, after_frames, after_tracks));
-}
-
-void check_pair(const Clip& before, const Clip& after) {
-  check_pair(before.frame_count(), after.frame_count(), before.joint_count(), after.joint_count());
+void check_pair(const Take& before, const Take& after) {
+  const std::size_t tracks = before.owner_count(), after_tracks = after.owner_count();
+  if (before.frame_count() != after.frame_count() || tracks != after_tracks) {
+    throw Error(ErrorKind::usage,
+                fmt::format("report page: {} frames of {} tracks before, {} of {} after",
+                            before.frame_count(), tracks, after.frame_count(), after_tracks));
+  }
   if (before.translated_joints != after.translated_joints)
     throw Error(ErrorKind::usage, "report page: other joints have positions before than after");
 }
-void check_pair(const MarkerClip& before, const MarkerClip& after) {
-  check_pair(before.frame_count(), after.frame_count(), before.marker_count(),
-             after.marker_count());
-}
 
-Stage stage_for(const Clip& clip, const Report& report) {
-  Stage stage = page::stage_of(clip);
+Stage stage_for(const Take& take, const Report& report) {
+  Stage stage = page::stage_of(take);
   const auto* clean = std::get_if<CleanOutcome>(&report.result);
   if (clean != nullptr && clean->report.feet)
-    stage.contacts = page::contacts_of(*clean->report.feet, clip);
+    stage.contacts = page::contacts_of(*clean->report.feet, take);
   return stage;
 }
-Stage stage_for(const MarkerClip& clip, const Report& /*report*/) { return page::stage_of(clip); }
 
 // The motion in quanta as fine as they may be for a page of about two megabytes at most, of which
 // its program takes a third.
-template <class AnyTake>
-Channels fine_channels(const AnyTake& before, const AnyTake* after, double body_height,
-                       bool is_served) {
+Channels fine_channels(const Take& before, const Take* after, double body_height, bool is_served) {
   constexpr double most_bytes = 1'000'000, least_share = 1.0 / 64, served_share = 1.0 / 16;
   // Nobody mails what is served, and somebody waits for it.
   if (is_served) return page::channels_of(before, after, body_height, served_share);
@@ -68,13 +58,14 @@ Channels fine_channels(const AnyTake& before, const AnyTake* after, double body_
   return channels;
 }
 
-std::string text_of(const Json& json) {
+std::string dumped(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-template <class AnyTake>
-std::string take_page(const Report& report, const AnyTake& before, const AnyTake* after,
-                      const PageSettings& settings) {
+}  // namespace
+
+std::string report_page(const Report& report, const Take& before, const Take* after,
+                        const PageSettings& settings) {
   page::check_is_built();
   if (after != nullptr) check_pair(before, *after);
   const auto check = [&] {
@@ -92,7 +83,7 @@ std::string take_page(const Report& report, const AnyTake& before, const AnyTake
   const std::array<std::string, 1> entries = {to_json(report)};
   const std::string name = std::filesystem::path(report.take.input).filename().string();
   page::Parts parts = {{"report", report_document(settings.command, entries)},
-                       {"take", text_of(take)},
+                       {"take", dumped(take)},
                        {"first", page::first_part(channels.samples, stride)}};
   if (stride > 1) parts.emplace_back("second", page::second_part(channels.samples, stride));
   for (const auto& [part, json] : settings.parts) parts.emplace_back(part, json);
@@ -100,18 +91,6 @@ std::string take_page(const Report& report, const AnyTake& before, const AnyTake
   if (settings.is_served) return page::elements_of(parts);
   return page::document(fmt::format("{}: kinemend {}", name, settings.command),
                         fmt::format("{}: {}", name, verdict_of(report)), parts);
-}
-
-}  // namespace
-
-std::string report_page(const Report& report, const Clip& before, const Clip* after,
-                        const PageSettings& settings) {
-  return take_page(report, before, after, settings);
-}
-
-std::string report_page(const Report& report, const MarkerClip& before, const MarkerClip* after,
-                        const PageSettings& settings) {
-  return take_page(report, before, after, settings);
 }
 
 }  // namespace kinemend

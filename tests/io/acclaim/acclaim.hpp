@@ -19,11 +19,11 @@ inline std::filesystem::path acclaim_fixture(const std::string& name) {
 inline std::string figure_asf() { return read_file(acclaim_fixture("asf/good/figure.asf")); }
 inline std::string figure_amc() { return read_file(acclaim_fixture("amc/good/figure.amc")); }
 
-inline ReadResult read_pair(std::string amc, std::string asf, const ReadOptions& options = {}) {
+inline TakeResult read_pair(std::string amc, std::string asf, const ReadOptions& options = {}) {
   TakeResult result = read_amc(std::move(amc), "take.amc", std::move(asf), "take.asf", options);
-  return {std::get<Clip>(std::move(result.take)), std::move(result.diagnostics)};
+  return {std::move(result.take), std::move(result.diagnostics)};
 }
-inline Clip read_figure() { return read_pair(figure_amc(), figure_asf()).clip; }
+inline Take read_figure() { return read_pair(figure_amc(), figure_asf()).take; }
 
 /// An ASF of the root and bones in a chain, `bone_lines` between begin and end of each.
 inline std::string chain_asf(const std::vector<std::string>& bone_lines,

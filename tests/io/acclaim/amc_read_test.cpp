@@ -33,7 +33,7 @@ std::map<std::pair<std::size_t, std::string>, BoneEnds> figure_positions() {
   return positions;
 }
 
-void expect_figure_positions(const Clip& clip) {
+void expect_figure_positions(const Take& clip) {
   const auto expected = figure_positions();
   ASSERT_EQ(expected.size(), clip.frame_count() * clip.joint_count());
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -60,15 +60,15 @@ TEST(AmcReader, BonesStandWhereTheRecipeOfTheFormatPutsThem) {
 
 TEST(AmcReader, RadiansOtherOrdersAndLineEndsSayTheSame) {
   expect_figure_positions(
-      read_pair(read_file(acclaim_fixture("amc/good/radians.amc")), figure_asf()).clip);
+      read_pair(read_file(acclaim_fixture("amc/good/radians.amc")), figure_asf()).take);
   expect_figure_positions(
-      read_pair(read_file(acclaim_fixture("amc/good/order.amc")), figure_asf()).clip);
+      read_pair(read_file(acclaim_fixture("amc/good/order.amc")), figure_asf()).take);
 }
 
 TEST(AmcReader, AngleUnitIsThatOfTheSkeletonUnlessTheTakeSays) {
   const std::string asf = chain_asf({"dof rx"}, "angle rad\n");
   const auto degrees = [&](const char* header) {
-    const Clip clip = read_pair(std::string(header) + "1\nroot 0 0 0 0 0 0\na 1\n", asf).clip;
+    const Take clip = read_pair(std::string(header) + "1\nroot 0 0 0 0 0 0\na 1\n", asf).take;
     return angle_between(clip.rotation(0, 1), Quat{}) * degrees_per_radian;
   };
   EXPECT_NEAR(degrees(""), degrees_per_radian, 1e-9);
@@ -77,23 +77,23 @@ TEST(AmcReader, AngleUnitIsThatOfTheSkeletonUnlessTheTakeSays) {
 }
 
 TEST(AmcReader, TheRateIsGivenOrAssumed) {
-  const ReadResult assumed = read_pair(figure_amc(), figure_asf());
-  EXPECT_EQ(assumed.clip.frame_rate_hz, 120);
+  const TakeResult assumed = read_pair(figure_amc(), figure_asf());
+  EXPECT_EQ(assumed.take.frame_rate_hz, 120);
   EXPECT_EQ(assumed.diagnostics.count("frame_rate_assumed"), 1u);
   ReadOptions options;
   options.frame_rate_hz = 60;
-  const ReadResult given = read_pair(figure_amc(), figure_asf(), options);
-  EXPECT_EQ(given.clip.frame_rate_hz, 60);
+  const TakeResult given = read_pair(figure_amc(), figure_asf(), options);
+  EXPECT_EQ(given.take.frame_rate_hz, 60);
   EXPECT_TRUE(given.diagnostics.empty());
   ReadOptions strict;
   strict.strict = true;
-  EXPECT_EQ(read_pair(figure_amc(), figure_asf(), strict).clip.frame_rate_hz, 120);
+  EXPECT_EQ(read_pair(figure_amc(), figure_asf(), strict).take.frame_rate_hz, 120);
 }
 
 TEST(AmcReader, ValuesThatAreNoNumberAreHeld) {
-  const ReadResult result =
+  const TakeResult result =
       read_pair(read_file(acclaim_fixture("amc/good/gaps.amc")), figure_asf());
-  const Clip& clip = result.clip;
+  const Take& clip = result.take;
   clip.validate();
   EXPECT_EQ(result.diagnostics.count("value_not_finite"), 3u);
   const auto thigh = static_cast<std::size_t>(clip.skeleton.find("thigh"));
@@ -105,21 +105,21 @@ TEST(AmcReader, ValuesThatAreNoNumberAreHeld) {
 
 TEST(AmcReader, EveryBoneMayHaveThreeAngles) {
   const std::string declared = read_file(acclaim_fixture("amc/good/three_dofs.amc"));
-  const ReadResult flagged = read_pair(declared, figure_asf());
+  const TakeResult flagged = read_pair(declared, figure_asf());
   EXPECT_EQ(flagged.diagnostics.count("three_dofs_undeclared"), 0u);
-  const ReadResult silent =
+  const TakeResult silent =
       read_pair(replaced(declared, ":FORCE-ALL-JOINTS-BE-3DOF\n", ""), figure_asf());
   EXPECT_EQ(silent.diagnostics.count("three_dofs_undeclared"), 1u);
-  expect_same_motion(flagged.clip, silent.clip, 0);
-  const Clip plain = read_figure();
+  expect_same_motion(flagged.take, silent.take, 0);
+  const Take plain = read_figure();
   const auto foot = static_cast<std::size_t>(plain.skeleton.find("foot"));
-  EXPECT_EQ(flagged.clip.skeleton.channels[foot].size(), 3u);
-  EXPECT_LT(angle_between(flagged.clip.rotation(1, foot), plain.rotation(1, foot)), 1e-12);
+  EXPECT_EQ(flagged.take.skeleton.channels[foot].size(), 3u);
+  EXPECT_LT(angle_between(flagged.take.rotation(1, foot), plain.rotation(1, foot)), 1e-12);
 }
 
 TEST(AmcReader, LengthsThatStretchHaveAColumnAndNoEffect) {
   const std::string asf = chain_asf({"direction 1 0 0\nlength 2\ndof rx l rz", "dof rx"});
-  const Clip clip = read_pair("1\nroot 0 0 0 0 0 0\na 10 5 20\nb 1\n", asf).clip;
+  const Take clip = read_pair("1\nroot 0 0 0 0 0 0\na 10 5 20\nb 1\n", asf).take;
   EXPECT_LT(angle_between(clip.rotation(0, 1), rotation_of({20, 10, 0}, "ZX")), 1e-12);
   EXPECT_LT(norm(forward_kinematics(clip, 0).positions[2] - rotate(clip.rotation(0, 1), {2, 0, 0})),
             1e-12);
@@ -135,7 +135,7 @@ TEST(AmcReader, FrameNumbersMayStartAnywhereAndJumpsAreCounted) {
 }
 
 TEST(AmcReader, NamesMatchInAnyCase) {
-  const Clip clip = read_pair("1\nROOT 0 0 0 0 0 0\nA 5\n", chain_asf({"dof rx"})).clip;
+  const Take clip = read_pair("1\nROOT 0 0 0 0 0 0\nA 5\n", chain_asf({"dof rx"})).take;
   EXPECT_NEAR(angle_between(clip.rotation(0, 1), Quat{}), 5 * radians_per_degree, 1e-12);
 }
 
@@ -186,7 +186,7 @@ class SkeletonFolder : public testing::Test {
   }
   // The file whose unit of length was taken.
   std::string chosen(const std::filesystem::path& amc, const ReadOptions& options = {}) {
-    return std::filesystem::path(read_clip(amc, options).clip.source.facts.at(0).text)
+    return std::filesystem::path(read_joints(amc, options).take.source.facts.at(0).text)
         .filename()
         .string();
   }
@@ -215,20 +215,20 @@ TEST_F(SkeletonFolder, TheLikeliestSkeletonIsTaken) {
 TEST_F(SkeletonFolder, WithoutASkeletonTheNamesThatWereTriedAreSaid) {
   const auto take = put("35_01.amc", "#!OML:ASF F:\\x\\Justin.ASF\n1\nroot 0\n");
   EXPECT_EQ(
-      message_of([&] { read_clip(take); }, ErrorKind::unreadable_input),
+      message_of([&] { read_joints(take); }, ErrorKind::unreadable_input),
       take.string() +
           ": an AMC file needs its skeleton: its folder has no Justin.ASF, 35_01.asf, 35.asf, "
           "and no other ASF file; name one with --asf");
 }
 
 TEST(AmcReader, IsFoundByContent) {
-  EXPECT_EQ(read_clip(figure_asf(), "noname").clip.source.format, "asf");
+  EXPECT_EQ(read_joints(figure_asf(), "noname").take.source.format, "asf");
   ReadOptions options;
   options.skeleton = acclaim_fixture("asf/good/figure.asf");
   for (const char* start :
        {"#!OML:ASF a.asf\n1\n", ":FULLY-SPECIFIED\n1\n", ":DEGREES\n1\n", "1\n"}) {
     const std::string body = figure_amc().substr(figure_amc().find("root"));
-    EXPECT_EQ(read_clip(start + body, "noname", options).clip.source.format, "amc") << start;
+    EXPECT_EQ(read_joints(start + body, "noname", options).take.source.format, "amc") << start;
   }
 }
 

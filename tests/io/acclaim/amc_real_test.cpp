@@ -28,20 +28,20 @@ TEST(RealAmc, EveryTakeIsValidAndComesBackToTheByte) {
   for (const fs::path& path : files_with(".amc")) {
     SCOPED_TRACE(path);
     if (!has_skeleton(path)) {
-      EXPECT_NE(message_of([&] { read_clip(path); }, ErrorKind::unreadable_input).find("--asf"),
+      EXPECT_NE(message_of([&] { read_joints(path); }, ErrorKind::unreadable_input).find("--asf"),
                 std::string::npos);
       continue;
     }
     const std::string bytes = read_file(path);
-    const Clip clip = read_clip(bytes, path.string()).clip;
+    const Take clip = read_joints(bytes, path.string()).take;
     clip.validate();
-    const std::string written = write_clip(clip, "amc");
+    const std::string written = write_take(clip, "amc");
     if (bytes.find("nan") == bytes.npos) {
       EXPECT_TRUE(written == bytes);
     } else {
       // Held values take the place of what is no number, once.
       EXPECT_EQ(written.find("nan"), written.npos);
-      EXPECT_TRUE(write_clip(read_clip(written, path.string()).clip, "amc") == written);
+      EXPECT_TRUE(write_take(read_joints(written, path.string()).take, "amc") == written);
     }
     ++takes;
   }
@@ -53,30 +53,30 @@ TEST(RealAmc, EverySkeletonIsValidAndOfAPerson) {
   EXPECT_EQ(paths.size(), 13u);
   for (const fs::path& path : paths) {
     SCOPED_TRACE(path);
-    const ReadResult result = read_clip(path);
+    const TakeResult result = read_joints(path);
     EXPECT_TRUE(result.diagnostics.empty());
-    EXPECT_EQ(result.clip.joint_count(), 31u);
-    EXPECT_EQ(result.clip.skeleton.end_sites.size(), 7u);
-    const double metres = body_height(result.clip.skeleton) * result.clip.metres_per_unit;
+    EXPECT_EQ(result.take.joint_count(), 31u);
+    EXPECT_EQ(result.take.skeleton.end_sites.size(), 7u);
+    const double metres = body_height(result.take.skeleton) * result.take.metres_per_unit;
     EXPECT_GT(metres, 1.4);
     EXPECT_LT(metres, 2.1);
-    EXPECT_EQ(result.clip.skeleton.limits.size(), 31u);
+    EXPECT_EQ(result.take.skeleton.limits.size(), 31u);
   }
 }
 
 TEST(RealAmc, GapsAreFoundWhereAProgramWroteNan) {
   const fs::path folder = takes / "amc-odd/csci520-shreyabhaumik";
-  const ReadResult result = read_clip(folder / "131_04-dance-bq-N20.amc");
+  const TakeResult result = read_joints(folder / "131_04-dance-bq-N20.amc");
   EXPECT_EQ(result.diagnostics.count("value_not_finite"), 4082u);
-  const auto fingers = static_cast<std::size_t>(result.clip.skeleton.find("lfingers"));
-  EXPECT_FALSE(result.clip.is_observed(1, fingers));
+  const auto fingers = static_cast<std::size_t>(result.take.skeleton.find("lfingers"));
+  EXPECT_FALSE(result.take.is_observed(1, fingers));
 }
 
 // The same take from BVH, whose first frame is a T-pose and whose file lacks the bones that lead to
 // the neck, the collar bones, the thumbs and the fingers.
 TEST(RealAmc, JointsStandWhereTheBvhOfTheSameTakePutsThem) {
-  const Clip amc = read_clip(takes / "cmu/amc/35/35_01.amc").clip;
-  const Clip bvh = read_clip(takes / "cmu/bvh/35_01.bvh").clip;
+  const Take amc = read_joints(takes / "cmu/amc/35/35_01.amc").take;
+  const Take bvh = read_joints(takes / "cmu/bvh/35_01.bvh").take;
   ASSERT_EQ(amc.joint_count(), bvh.joint_count());
   ASSERT_EQ(amc.frame_count() + 1, bvh.frame_count());
   const auto thorax = static_cast<std::size_t>(amc.skeleton.find("thorax"));
@@ -85,7 +85,7 @@ TEST(RealAmc, JointsStandWhereTheBvhOfTheSameTakePutsThem) {
     for (std::size_t j = 0; j <= thorax; ++j) {
       ASSERT_LT(norm(a.positions[j] - b.positions[j]), 2e-4) << f << " " << amc.skeleton.names[j];
     }
-    const auto arm = [](const Clip& clip, const Pose& pose, const char* from, const char* to) {
+    const auto arm = [](const Take& clip, const Pose& pose, const char* from, const char* to) {
       return pose.positions[static_cast<std::size_t>(clip.skeleton.find(to))] -
              pose.positions[static_cast<std::size_t>(clip.skeleton.find(from))];
     };
@@ -97,8 +97,8 @@ TEST(RealAmc, JointsStandWhereTheBvhOfTheSameTakePutsThem) {
 // The C3D of the take holds the joints as the program that wrote the AMC had them, in millimetres,
 // z up, rounded to its scale of 0.16 mm. Its feet turn about three axes, of which the AMC has two.
 TEST(RealAmc, JointsStandWhereTheC3dOfTheSameTakePutsThem) {
-  const Clip amc = read_clip(takes / "cmu/amc/05/05_13.amc").clip;
-  const auto c3d = std::get<MarkerClip>(read_take(takes / "cmu/c3d/05_13.c3d").take);
+  const Take amc = read_joints(takes / "cmu/amc/05/05_13.amc").take;
+  const auto c3d = read_take(takes / "cmu/c3d/05_13.c3d").take;
   ASSERT_EQ(amc.frame_count(), c3d.frame_count());
   const std::vector<std::pair<std::string, std::string>> pairs{
       {"root", "PEL0"},     {"lfemur", "LHJ0"},    {"rfemur", "RHJ0"},  {"ltibia", "LFE0"},
@@ -128,7 +128,7 @@ TEST(RealAmc, ChangedTakesReadBack) {
   for (std::size_t i = 0; i < paths.size(); i += 25) {
     if (!has_skeleton(paths[i])) continue;
     SCOPED_TRACE(paths[i]);
-    Clip clip = read_clip(paths[i]).clip;
+    Take clip = read_joints(paths[i]).take;
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
       for (std::size_t j = 0; j < clip.joint_count(); ++j) {
         if (clip.skeleton.rotation_order(j).count == 3)
@@ -136,7 +136,7 @@ TEST(RealAmc, ChangedTakesReadBack) {
       }
     }
     const std::string skeleton = clip.source.facts.at(0).text;
-    const Clip again = read_pair(write_clip(clip, "amc"), read_file(skeleton)).clip;
+    const Take again = read_pair(write_take(clip, "amc"), read_file(skeleton)).take;
     expect_same_motion(clip, again, 2e-5);
   }
 }
@@ -146,8 +146,8 @@ TEST(RealAmc, TakesOfBvhKeepTheirJointPositions) {
                            "bvh-other/bandai-namco/dataset-1_bow_happy_001.bvh",
                            "bvh-other/pybvh/bvh_data_bvh_test3.bvh"}) {
     SCOPED_TRACE(name);
-    const Clip clip = read_clip(takes / name).clip;
-    const Clip again = read_pair(write_clip(clip, "amc"), write_clip(clip, "asf")).clip;
+    const Take clip = read_joints(takes / name).take;
+    const Take again = read_pair(write_take(clip, "amc"), write_take(clip, "asf")).take;
     const double size = body_height(clip.skeleton);
     for (std::size_t f = 0; f < clip.frame_count(); f += 5) {
       const Pose a = forward_kinematics(clip, f), b = forward_kinematics(again, f);

@@ -24,14 +24,14 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-Clip written_and_read(const Clip& clip) {
-  const Clip again = read_pair(write_clip(clip, "amc"), write_clip(clip, "asf")).clip;
+Take written_and_read(const Take& clip) {
+  const Take again = read_pair(write_take(clip, "amc"), write_take(clip, "asf")).take;
   again.validate();
   return again;
 }
 
 // Positions by name; the joints between are those that ASF needs and the other format does not.
-void expect_same_positions(const Clip& clip, const Clip& again, double relative,
+void expect_same_positions(const Take& clip, const Take& again, double relative,
                            std::vector<std::string> names = {}) {
   ASSERT_EQ(clip.frame_count(), again.frame_count());
   if (names.empty()) names = clip.skeleton.names;
@@ -52,25 +52,25 @@ void expect_same_positions(const Clip& clip, const Clip& again, double relative,
 TEST(AmcWriter, AnUnchangedTakeComesBackToTheByte) {
   for (const char* name : {"figure", "order", "radians", "three_dofs", "header_only"}) {
     const std::string text = read_file(acclaim_fixture(std::string("amc/good/") + name + ".amc"));
-    const Clip clip = read_pair(text, figure_asf()).clip;
-    EXPECT_EQ(write_clip(clip, "amc"), text) << name;
-    EXPECT_EQ(write_clip(clip, "asf"), figure_asf()) << name;
+    const Take clip = read_pair(text, figure_asf()).take;
+    EXPECT_EQ(write_take(clip, "amc"), text) << name;
+    EXPECT_EQ(write_take(clip, "asf"), figure_asf()) << name;
   }
 }
 
 TEST(AmcWriter, IsTheDefaultForATakeThatWasReadFromAmc) {
-  const Clip clip = read_figure();
-  EXPECT_EQ(write_clip(clip), figure_amc());
+  const Take clip = read_figure();
   EXPECT_EQ(write_take(clip), figure_amc());
-  Clip made = without_rest_rotations(clip);
+  EXPECT_EQ(write_take(clip), figure_amc());
+  Take made = without_rest_rotations(clip);
   made.source = {};
-  EXPECT_EQ(write_clip(made).substr(0, 9), "HIERARCHY") << "BVH where there is no source";
+  EXPECT_EQ(write_take(made).substr(0, 9), "HIERARCHY") << "BVH where there is no source";
 }
 
 TEST(AmcWriter, WhatIsNoNumberIsWrittenAsItIsHeld) {
   const std::string text = read_file(acclaim_fixture("amc/good/gaps.amc"));
-  const Clip clip = read_pair(text, figure_asf()).clip;
-  const auto before = lines_of(text), after = lines_of(write_clip(clip, "amc"));
+  const Take clip = read_pair(text, figure_asf()).take;
+  const auto before = lines_of(text), after = lines_of(write_take(clip, "amc"));
   ASSERT_EQ(before.size(), after.size());
   for (std::size_t i = 0; i < before.size(); ++i) {
     const bool had_gap =
@@ -85,11 +85,11 @@ TEST(AmcWriter, WhatIsNoNumberIsWrittenAsItIsHeld) {
 }
 
 TEST(AmcWriter, OnlyChangedSamplesAreWrittenAnew) {
-  Clip clip = read_figure();
+  Take clip = read_figure();
   const auto foot = static_cast<std::size_t>(clip.skeleton.find("foot"));
   clip.rotation(1, foot) = rotation_of({20, 10, 0}, "ZX");
   clip.root_position(2).y += 0.5;
-  const auto before = lines_of(figure_amc()), after = lines_of(write_clip(clip, "amc"));
+  const auto before = lines_of(figure_amc()), after = lines_of(write_take(clip, "amc"));
   ASSERT_EQ(before.size(), after.size());
   std::map<std::size_t, std::string> changed;
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -97,7 +97,7 @@ TEST(AmcWriter, OnlyChangedSamplesAreWrittenAnew) {
   }
   ASSERT_EQ(changed.size(), 2u);
   EXPECT_EQ(changed.begin()->second.substr(0, 5), "foot ");
-  const Clip again = read_pair(write_clip(clip, "amc"), figure_asf()).clip;
+  const Take again = read_pair(write_take(clip, "amc"), figure_asf()).take;
   EXPECT_LT(angle_between(again.rotation(1, foot), clip.rotation(1, foot)), 1e-6);
   EXPECT_NEAR(again.root_position(2).y, clip.root_position(2).y, 1e-6);
   EXPECT_EQ(again.root_position(2).x, clip.root_position(2).x);
@@ -106,7 +106,7 @@ TEST(AmcWriter, OnlyChangedSamplesAreWrittenAnew) {
 TEST(AmcWriter, ChangesOfEverySampleReadBack) {
   for (const char* name : {"figure", "gaps", "order", "radians", "three_dofs"}) {
     const std::string text = read_file(acclaim_fixture(std::string("amc/good/") + name + ".amc"));
-    Clip clip = read_pair(text, figure_asf()).clip;
+    Take clip = read_pair(text, figure_asf()).take;
     Random random(4);
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
       for (std::size_t j = 0; j < clip.joint_count(); ++j) {
@@ -121,7 +121,7 @@ TEST(AmcWriter, ChangesOfEverySampleReadBack) {
       for (std::size_t i = 1; i < clip.point_count(); ++i)
         clip.position(f, i) += {0.25, random.normal(), -0.5};
     }
-    const Clip again = read_pair(write_clip(clip, "amc"), figure_asf()).clip;
+    const Take again = read_pair(write_take(clip, "amc"), figure_asf()).take;
     expect_same_motion(clip, again, 1e-4);
   }
 }
@@ -132,10 +132,10 @@ TEST(AmcWriter, AnglesContinueTheFrameBefore) {
   for (int f = 0; f < 40; ++f) {
     amc += fmt::format("{}\nroot 0 0 0 0 0 0\na {} 10.0000 20.0000\n", f + 1, 170.0 + f);
   }
-  Clip clip = read_pair(amc, asf).clip;
+  Take clip = read_pair(amc, asf).take;
   for (std::size_t f = 5; f < 30; ++f)
     clip.rotation(f, 1) = clip.rotation(f, 1) * exp({0.01, 0, 0});
-  const auto lines = lines_of(write_clip(clip, "amc"));
+  const auto lines = lines_of(write_take(clip, "amc"));
   double previous = 170;
   for (std::size_t i = 2; i < lines.size(); i += 3) {
     const double x = std::stod(lines[i].substr(2));
@@ -145,19 +145,19 @@ TEST(AmcWriter, AnglesContinueTheFrameBefore) {
 }
 
 TEST(AmcWriter, OtherFramesKeepHeaderOrderAndColumns) {
-  const Clip clip = read_figure();
-  Clip shorter = slice(clip, 1, 3);
+  const Take clip = read_figure();
+  Take shorter = slice(clip, 1, 3);
   shorter.source = clip.source;
-  const std::string text = write_clip(shorter, "amc");
+  const std::string text = write_take(shorter, "amc");
   EXPECT_EQ(text.substr(0, text.find("1\n")), figure_amc().substr(0, figure_amc().find("1\n")));
-  const Clip again = read_pair(text, figure_asf()).clip;
+  const Take again = read_pair(text, figure_asf()).take;
   expect_same_motion(shorter, again, 1e-4);
 }
 
 TEST(AmcWriter, AnyClipBecomesASkeletonAndItsMotion) {
   Random random(9);
   for (const char* order : {"XYZ", "ZXY", "YZX", "ZYX", "XZY", "YXZ"}) {
-    Clip clip;
+    Take clip;
     const auto channels = make_channels(false, parse_rotation_order(order));
     clip.skeleton.add_joint("Hips", -1, {1, 2, 3},
                             make_channels(true, parse_rotation_order(order)));
@@ -184,7 +184,7 @@ TEST(AmcWriter, AnyClipBecomesASkeletonAndItsMotion) {
       }
     }
     clip.validate();
-    const Clip again = written_and_read(clip);
+    const Take again = written_and_read(clip);
     expect_same_positions(clip, again, 1e-9);
     EXPECT_DOUBLE_EQ(again.metres_per_unit, 0.01);
     for (const char* name : {"Spine", "Left", "Right", "Hand"}) {
@@ -196,14 +196,14 @@ TEST(AmcWriter, AnyClipBecomesASkeletonAndItsMotion) {
 }
 
 TEST(AmcWriter, EndsOfChainsStayWhereTheyAre) {
-  Clip clip;
+  Take clip;
   clip.skeleton.add_joint("a", -1, {}, make_channels(true, parse_rotation_order("ZXY")));
   clip.skeleton.add_joint("b", 0, {0, 1, 0}, make_channels(false, parse_rotation_order("ZXY")));
   clip.skeleton.end_sites = {{1, {0, 2, 0}, ""}, {0, {3, 0, 0}, ""}};
   clip.frame_rate_hz = 30;
   clip.positions = {{1, 1, 1}};
   clip.rotations = {rotation_of({10, 20, 30}, "ZXY"), rotation_of({40, 50, 60}, "ZXY")};
-  const Clip again = written_and_read(clip);
+  const Take again = written_and_read(clip);
   const auto expected = joint_positions(clip, true), found = joint_positions(again, true);
   for (std::size_t i = 2; i < expected.size(); ++i) {
     EXPECT_TRUE(std::any_of(found.begin(), found.end(),
@@ -212,7 +212,7 @@ TEST(AmcWriter, EndsOfChainsStayWhereTheyAre) {
 }
 
 TEST(AmcWriter, NamesThatTheFormatCannotHoldAreAltered) {
-  Clip clip;
+  Take clip;
   const auto channels = make_channels(false, parse_rotation_order("ZXY"));
   clip.skeleton.add_joint("hips", -1, {}, make_channels(true, parse_rotation_order("ZXY")));
   for (const char* name : {"left arm", "left_arm", "root", "12", "", "a(b),c#d", ":mark", "end",
@@ -222,16 +222,16 @@ TEST(AmcWriter, NamesThatTheFormatCannotHoldAreAltered) {
   clip.frame_rate_hz = 30;
   clip.positions = {{}};
   clip.rotations.assign(clip.joint_count(), rotation_of({1, 2, 3}, "ZXY"));
-  const Clip again = written_and_read(clip);
+  const Take again = written_and_read(clip);
   expect_same_positions(clip, again, 1e-9,
                         {"root", "left_arm", "left_arm_2", "_root", "_12", "joint", "a_b__c_d",
                          "_mark", "_end", "mixamorig:Hips", "_nan"});
 }
 
 TEST(AmcWriter, LimitsAreWritten) {
-  Clip clip = read_figure();
+  Take clip = read_figure();
   clip.source = {};
-  const Clip again = written_and_read(clip);
+  const Take again = written_and_read(clip);
   const auto a = static_cast<std::size_t>(clip.skeleton.find("thigh"));
   const auto b = static_cast<std::size_t>(again.skeleton.find("thigh"));
   ASSERT_EQ(again.skeleton.limits[b].size(), 3u);
@@ -244,30 +244,30 @@ TEST(AmcWriter, LimitsAreWritten) {
 
 TEST(AmcWriter, RefusesWhatTheFormatCannotHold) {
   const auto refuse = [](auto change) {
-    Clip clip;
+    Take clip;
     clip.skeleton.add_joint("a", -1, {}, make_channels(true, parse_rotation_order("ZXY")));
     clip.skeleton.add_joint("b", 0, {1, 2, 3}, {});
     clip.frame_rate_hz = 30;
     clip.positions = {{}};
     clip.rotations = {{}, {}};
     change(clip);
-    return message_of([&] { write_clip(clip, "amc"); }, ErrorKind::usage);
+    return message_of([&] { write_take(clip, "amc"); }, ErrorKind::usage);
   };
-  EXPECT_EQ(refuse([](Clip&) {}), "no error");
-  EXPECT_EQ(refuse([](Clip& clip) { clip.skeleton.parents[1] = -1; }),
+  EXPECT_EQ(refuse([](Take&) {}), "no error");
+  EXPECT_EQ(refuse([](Take& clip) { clip.skeleton.parents[1] = -1; }),
             "ASF holds one root; joint \"b\" is another");
-  EXPECT_EQ(refuse([](Clip& clip) {
+  EXPECT_EQ(refuse([](Take& clip) {
               clip.skeleton.channels[1] = make_channels(false, parse_rotation_order("ZXZ"));
             }),
             "ASF cannot hold joint \"b\", which turns about one axis twice");
-  EXPECT_EQ(refuse([](Clip& clip) {
+  EXPECT_EQ(refuse([](Take& clip) {
               clip.rotation(0, 1) = rotation_of({5, 0, 0}, "Z");
             }),
             "joint \"b\" turns but has no rotation channels");
 }
 
 TEST(AmcWriter, ARootWithoutPositionsKeepsItsPlace) {
-  Clip clip;
+  Take clip;
   clip.skeleton.add_joint("a", -1, {1, 2, 3}, make_channels(false, parse_rotation_order("ZXY")));
   clip.skeleton.add_joint("b", 0, {0, 1, 0}, make_channels(false, parse_rotation_order("ZXY")));
   clip.frame_rate_hz = 30;

@@ -6,20 +6,20 @@ namespace {
 
 using namespace test;
 
-Clip read_skeleton(const std::string& asf) { return read_clip(asf, "take.asf").clip; }
+Take read_skeleton(const std::string& asf) { return read_joints(asf, "take.asf").take; }
 
 std::string refusal(const std::string& asf) {
-  return message_of([&] { read_clip(asf, "take.asf"); }, ErrorKind::unreadable_input);
+  return message_of([&] { read_joints(asf, "take.asf"); }, ErrorKind::unreadable_input);
 }
 
 TEST(AsfReader, AFileAloneIsAClipOfNoFrames) {
-  const ReadResult result = read_clip(figure_asf(), "take.asf");
-  EXPECT_EQ(result.clip.frame_count(), 0u);
-  EXPECT_EQ(result.clip.joint_count(), 10u);
-  EXPECT_EQ(result.clip.frame_rate_hz, 120);
+  const TakeResult result = read_joints(figure_asf(), "take.asf");
+  EXPECT_EQ(result.take.frame_count(), 0u);
+  EXPECT_EQ(result.take.joint_count(), 10u);
+  EXPECT_EQ(result.take.frame_rate_hz, 120);
   EXPECT_TRUE(result.diagnostics.empty());
-  result.clip.validate();
-  EXPECT_EQ(result.clip.translated_joints.size(), 1u);
+  result.take.validate();
+  EXPECT_EQ(result.take.translated_joints.size(), 1u);
 }
 
 TEST(AsfReader, JointsAreDepthFirstWhateverTheHierarchySays) {
@@ -52,9 +52,9 @@ TEST(AsfReader, LengthsAreInchesOverTheUnit) {
 }
 
 TEST(AsfReader, RadiansAreOfAxesLimitsAndOrientation) {
-  const Clip degrees =
+  const Take degrees =
       read_skeleton(chain_asf({"axis 0 0 90 XYZ\ndof rx\nlimits (-180 90)"}, "angle deg\n"));
-  const Clip radians = read_skeleton(chain_asf(
+  const Take radians = read_skeleton(chain_asf(
       {"axis 0 0 1.5707963267948966 XYZ\ndof rx\nlimits (-3.141592653589793 1.5707963267948966)"},
       "angle rad\n"));
   EXPECT_LT(angle_between(degrees.skeleton.rest_rotations[1], radians.skeleton.rest_rotations[1]),
@@ -87,7 +87,7 @@ TEST(AsfReader, ThePresetOfTheRootMovesAndTurnsTheWholeFigure) {
   const std::string asf = chain_asf({"direction 0 1 0\nlength 2", "length 1"}, "",
                                     "order tx ty tz rx ry rz\naxis XYZ\nposition 1 2 3\n"
                                     "orientation 0 0 90\n");
-  const Clip clip = read_pair("1\nroot 10 0 0 0 0 0\n", asf).clip;
+  const Take clip = read_pair("1\nroot 10 0 0 0 0 0\n", asf).take;
   const Pose pose = forward_kinematics(clip, 0);
   EXPECT_LT(norm(pose.positions[0] - Vec3{11, 2, 3}), 1e-12);
   EXPECT_LT(norm(pose.positions[2] - Vec3{9, 2, 3}), 1e-12);
@@ -95,7 +95,7 @@ TEST(AsfReader, ThePresetOfTheRootMovesAndTurnsTheWholeFigure) {
 
 TEST(AsfReader, RepairsAreNamed) {
   const auto repairs = [](const std::string& asf, const char* name) {
-    return read_clip(asf, "take.asf").diagnostics.count(name);
+    return read_joints(asf, "take.asf").diagnostics.count(name);
   };
   EXPECT_EQ(repairs(chain_asf({"dof rx ry\nlimits (0 1)"}), "limits_mismatch"), 1u);
   EXPECT_EQ(repairs(chain_asf({"colour red"}), "unknown_keyword"), 1u);
@@ -103,7 +103,7 @@ TEST(AsfReader, RepairsAreNamed) {
   EXPECT_EQ(repairs(chain_asf({""}, "", "axis XYZ\n"), "root_order_missing"), 1u);
   ReadOptions strict;
   strict.strict = true;
-  EXPECT_EQ(message_of([&] { read_clip(chain_asf({"colour red"}), "take.asf", strict); },
+  EXPECT_EQ(message_of([&] { read_joints(chain_asf({"colour red"}), "take.asf", strict); },
                        ErrorKind::quality_limit),
             "take.asf:7: \"colour\" is not a keyword of the format");
 }
@@ -125,7 +125,7 @@ TEST(AsfReader, ErrorsNameTheLine) {
 TEST(AsfReader, DepthIsLimited) {
   ReadOptions shallow;
   shallow.max_depth = 3;
-  EXPECT_EQ(message_of([&] { read_clip(figure_asf(), "take.asf", shallow); },
+  EXPECT_EQ(message_of([&] { read_joints(figure_asf(), "take.asf", shallow); },
                        ErrorKind::unreadable_input),
             "take.asf:34: bones nested deeper than 3");
 }

@@ -66,7 +66,7 @@ TEST(BadBvh, EachFileGetsOneLineThatNamesThePlace) {
   for (const auto& path : fixtures_in("bad")) {
     const auto expected = expected_messages().find(path.filename().string());
     ASSERT_NE(expected, expected_messages().end()) << path;
-    EXPECT_EQ(message_of([&] { read_clip(path); }, ErrorKind::unreadable_input),
+    EXPECT_EQ(message_of([&] { read_joints(path); }, ErrorKind::unreadable_input),
               path.string() + ":" + expected->second);
     ++seen;
   }
@@ -103,10 +103,10 @@ TEST(BadBvh, ANumberEndsWithWhiteSpaceOnly) {
 }
 
 TEST(BadBvh, AFileThatCannotBeOpenedIsNamed) {
-  EXPECT_EQ(message_of([] { read_clip(std::filesystem::path("no/such/take.bvh")); },
+  EXPECT_EQ(message_of([] { read_joints(std::filesystem::path("no/such/take.bvh")); },
                        ErrorKind::unreadable_input),
             "no/such/take.bvh: No such file or directory");
-  EXPECT_EQ(message_of([] { read_clip(std::filesystem::path(KINEMEND_TEST_FIXTURES)); },
+  EXPECT_EQ(message_of([] { read_joints(std::filesystem::path(KINEMEND_TEST_FIXTURES)); },
                        ErrorKind::unreadable_input),
             std::string(KINEMEND_TEST_FIXTURES) + ": Is a directory");
 }

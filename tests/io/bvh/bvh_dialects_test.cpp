@@ -7,13 +7,13 @@ namespace {
 
 using namespace test;
 
-Clip read_good(const std::string& name) { return read_clip(fixture("good/" + name)).clip; }
+Take read_good(const std::string& name) { return read_joints(fixture("good/" + name)).take; }
 std::size_t repairs(const std::string& name, const char* kind) {
-  return read_clip(fixture("good/" + name)).diagnostics.count(kind);
+  return read_joints(fixture("good/" + name)).diagnostics.count(kind);
 }
 
 TEST(BvhReader, ReadsNamesOffsetsChannelsAndMotion) {
-  const Clip clip = read_good("plain.bvh");
+  const Take clip = read_good("plain.bvh");
   clip.validate();
   EXPECT_EQ(clip.skeleton.names, (std::vector<std::string>{"Hips", "Spine"}));
   EXPECT_EQ(clip.skeleton.parents, (std::vector<std::int32_t>{-1, 0}));
@@ -36,7 +36,7 @@ TEST(BvhReader, ReadsNamesOffsetsChannelsAndMotion) {
 }
 
 TEST(BvhReader, LayoutDoesNotChangeTheMotion) {
-  const Clip plain = read_good("plain.bvh");
+  const Take plain = read_good("plain.bvh");
   for (const char* name : {"no_final_line_end.bvh", "crlf.bvh",
                            "cr_only.bvh",           "mixed_line_ends.bvh",
                            "byte_order_mark.bvh",   "tabs.bvh",
@@ -48,7 +48,7 @@ TEST(BvhReader, LayoutDoesNotChangeTheMotion) {
                            "trailing_text.bvh",     "decimal_comma.bvh",
                            "comma_separated.bvh",   "no_keyword.bvh"}) {
     SCOPED_TRACE(name);
-    const Clip clip = read_good(name);
+    const Take clip = read_good(name);
     clip.validate();
     EXPECT_EQ(clip.frame_rate_hz, 120);
     EXPECT_EQ(clip.skeleton.names, plain.skeleton.names);
@@ -68,9 +68,9 @@ TEST(BvhReader, SpacesMayStandOnEitherSideOfASeparatingComma) {
       if (text[i] == ',') changed += separator;
       if (text[i] != ',' && text[i] != ' ') changed += text[i];
     }
-    const Clip clip = read_text(changed);
+    const Take clip = read_text(changed);
     EXPECT_EQ(clip.rotations, read_good("plain.bvh").rotations) << separator;
-    EXPECT_EQ(write_clip(clip), changed);
+    EXPECT_EQ(write_take(clip), changed);
   }
 }
 
@@ -89,13 +89,13 @@ TEST(BvhReader, RepairsAreNamedAndCounted) {
   EXPECT_EQ(repairs("no_offset.bvh", "offset_missing"), 1u);
   EXPECT_EQ(repairs("no_motion.bvh", "motion_missing"), 1u);
   EXPECT_EQ(repairs("gaps.bvh", "value_not_finite"), 5u);
-  const ReadResult result = read_clip(fixture("good/frames_too_many.bvh"));
+  const TakeResult result = read_joints(fixture("good/frames_too_many.bvh"));
   ASSERT_EQ(result.diagnostics.entries().size(), 1u);
   EXPECT_EQ(result.diagnostics.entries()[0].first_line, 17u);
   EXPECT_EQ(result.diagnostics.entries()[0].message, "Frames: says 10, the file holds 3");
   for (const char* name : {"plain.bvh", "crlf.bvh", "tabs.bvh", "wrapped.bvh", "one_line.bvh",
                            "trailing_blanks.bvh"}) {
-    EXPECT_TRUE(read_clip(fixture(std::string("good/") + name)).diagnostics.empty()) << name;
+    EXPECT_TRUE(read_joints(fixture(std::string("good/") + name)).diagnostics.empty()) << name;
   }
 }
 
@@ -104,21 +104,21 @@ TEST(BvhReader, StrictTurnsARepairIntoAnError) {
   strict.strict = true;
   std::size_t refused = 0;
   for (const auto& path : fixtures_in("good")) {
-    const ReadResult lenient = read_clip(path);
+    const TakeResult lenient = read_joints(path);
     if (lenient.diagnostics.empty()) {
-      EXPECT_NO_THROW(read_clip(path, strict)) << path;
+      EXPECT_NO_THROW(read_joints(path, strict)) << path;
       continue;
     }
     ++refused;
     const Diagnostic& first = lenient.diagnostics.entries()[0];
-    EXPECT_EQ(message_of([&] { read_clip(path, strict); }, ErrorKind::quality_limit),
+    EXPECT_EQ(message_of([&] { read_joints(path, strict); }, ErrorKind::quality_limit),
               path.string() + ":" + std::to_string(first.first_line) + ": " + first.message);
   }
   EXPECT_GE(refused, 13u);
 }
 
 TEST(BvhReader, NamesMayHoldAnything) {
-  const Clip clip = read_good("names.bvh");
+  const Take clip = read_good("names.bvh");
   EXPECT_EQ(clip.skeleton.names,
             (std::vector<std::string>{"mixamorig:Hips of Eve", "endJoint", "endJoint", ""}));
   EXPECT_EQ(clip.skeleton.parents, (std::vector<std::int32_t>{-1, 0, 0, 2}));
@@ -127,7 +127,7 @@ TEST(BvhReader, NamesMayHoldAnything) {
 }
 
 TEST(BvhReader, SeveralRootsAreAllowed) {
-  const Clip clip = read_good("several_roots.bvh");
+  const Take clip = read_good("several_roots.bvh");
   clip.validate();
   EXPECT_EQ(clip.skeleton.parents, (std::vector<std::int32_t>{-1, 0, -1, 2}));
   EXPECT_EQ(clip.translated_joints, (std::vector<std::int32_t>{2}));
@@ -137,7 +137,7 @@ TEST(BvhReader, SeveralRootsAreAllowed) {
 }
 
 TEST(BvhReader, PositionChannelsReplaceTheOffsetOnAnyJoint) {
-  const Clip clip = read_good("positions_everywhere.bvh");
+  const Take clip = read_good("positions_everywhere.bvh");
   clip.validate();
   EXPECT_EQ(clip.translated_joints, (std::vector<std::int32_t>{1}));
   EXPECT_EQ(clip.position(2, 1), (Vec3{1, 10.2, -1}));
@@ -146,16 +146,16 @@ TEST(BvhReader, PositionChannelsReplaceTheOffsetOnAnyJoint) {
 }
 
 TEST(BvhReader, AxesWithoutAChannelKeepTheOffset) {
-  const Clip clip = read_good("some_positions.bvh");
+  const Take clip = read_good("some_positions.bvh");
   EXPECT_EQ(clip.root_position(1), (Vec3{0, 92.1, 0}));
   EXPECT_EQ(read_good("no_channels.bvh").frame_count(), 0u);
 }
 
 TEST(BvhReader, ChannelsMayComeInAnyOrderAndNumber) {
-  const Clip first = read_good("rotation_first.bvh");
+  const Take first = read_good("rotation_first.bvh");
   EXPECT_EQ(first.root_position(0), (Vec3{10, -20, 30}));
   EXPECT_LT(angle_between(first.rotation(0, 0), rotation_of({1, 92, -3.5}, "ZXY")), 1e-14);
-  const Clip mixed = read_good("mixed_channels.bvh");
+  const Take mixed = read_good("mixed_channels.bvh");
   mixed.validate();
   EXPECT_EQ(mixed.root_position(0), (Vec3{1, 3, 2}));
   EXPECT_LT(angle_between(mixed.rotation(0, 0), rotation_of({10, 20, 30}, "YZX")), 1e-14);
@@ -171,15 +171,15 @@ TEST(BvhReader, ChannelsMayComeInAnyOrderAndNumber) {
 TEST(BvhReader, FewOrNoFramesAreRead) {
   EXPECT_EQ(read_good("one_frame.bvh").frame_count(), 1u);
   EXPECT_EQ(read_good("zero_frames.bvh").frame_count(), 0u);
-  const Clip clip = read_good("no_motion.bvh");
+  const Take clip = read_good("no_motion.bvh");
   clip.validate();
   EXPECT_EQ(clip.frame_count(), 0u);
   EXPECT_EQ(clip.frame_rate_hz, 30);
 }
 
 TEST(BvhReader, NumbersComeInManyForms) {
-  const Clip clip = read_good("number_forms.bvh");
-  const Clip plain = read_good("plain.bvh");
+  const Take clip = read_good("number_forms.bvh");
+  const Take plain = read_good("plain.bvh");
   EXPECT_EQ(clip.root_position(0), plain.root_position(0));
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_LT(angle_between(clip.rotations[i], plain.rotations[i]), 1e-14) << i;
@@ -189,7 +189,7 @@ TEST(BvhReader, NumbersComeInManyForms) {
 }
 
 TEST(BvhReader, SamplesThatAreNoNumberAreHeldAndUnobserved) {
-  const Clip clip = read_good("gaps.bvh"), plain = read_good("plain.bvh");
+  const Take clip = read_good("gaps.bvh"), plain = read_good("plain.bvh");
   clip.validate();
   EXPECT_EQ(clip.observed, (std::vector<std::uint8_t>{0, 1, 1, 0, 1, 0}));
   // The start takes what comes next, all else what came before.
@@ -202,7 +202,7 @@ TEST(BvhReader, SamplesThatAreNoNumberAreHeldAndUnobserved) {
 }
 
 TEST(BvhReader, AJointWithoutAnyNumberRests) {
-  const Clip clip = read_good("joint_of_gaps.bvh");
+  const Take clip = read_good("joint_of_gaps.bvh");
   clip.validate();
   EXPECT_EQ(clip.observed, (std::vector<std::uint8_t>{1, 0, 1, 0, 1, 0}));
   EXPECT_EQ(clip.rotation(1, 1), Quat{});

@@ -26,13 +26,13 @@ TEST(RealBvh, EveryTakeIsValidAndComesBackToTheByte) {
   for (const fs::path& path : real_takes()) {
     SCOPED_TRACE(path);
     if (malformed.count(path.filename().string()) > 0) {
-      EXPECT_THROW(read_clip(path), Error);
+      EXPECT_THROW(read_joints(path), Error);
       continue;
     }
     const std::string bytes = read_file(path);
-    const Clip clip = read_clip(bytes, path.string()).clip;
+    const Take clip = read_joints(bytes, path.string()).take;
     clip.validate();
-    EXPECT_TRUE(write_clip(clip) == bytes);
+    EXPECT_TRUE(write_take(clip) == bytes);
     ++takes;
   }
   EXPECT_GT(takes, 400u);
@@ -46,10 +46,10 @@ TEST(RealBvh, ChangedTakesReadBackAndJumpNowhere) {
   for (std::size_t i = 0; i < paths.size(); i += 20) {
     SCOPED_TRACE(paths[i]);
     const std::string bytes = read_file(paths[i]);
-    Clip clip = read_clip(bytes, paths[i].string()).clip;
+    Take clip = read_joints(bytes, paths[i].string()).take;
     for (Quat& q : clip.rotations) q = q * exp({0.002, -0.003, 0.001});
-    const std::string text = write_clip(clip);
-    const Clip again = read_clip(text, "again.bvh").clip;
+    const std::string text = write_take(clip);
+    const Take again = read_joints(text, "again.bvh").take;
     expect_same_motion(clip, again, 2e-5);
     std::size_t channels = 0;
     for (const auto& joint : clip.skeleton.channels) channels += joint.size();

@@ -58,9 +58,9 @@ double largest_step(const std::vector<std::vector<double>>& rows) {
 
 TEST(BvhRewriter, AnUnchangedClipComesBackToTheByte) {
   for (const auto& path : fixtures_in("good")) {
-    const ReadResult read = read_clip(path);
+    const TakeResult read = read_joints(path);
     if (read.diagnostics.count("value_not_finite") > 0) continue;
-    EXPECT_EQ(write_clip(read.clip), read_file(path)) << path;
+    EXPECT_EQ(write_take(read.take), read_file(path)) << path;
   }
 }
 
@@ -68,14 +68,14 @@ TEST(BvhRewriter, OneChangedSampleChangesItsDigitsOnly) {
   Random random(21);
   for (const auto& path : fixtures_in("good")) {
     SCOPED_TRACE(path);
-    Clip clip = read_clip(path).clip;
+    Take clip = read_joints(path).take;
     for (int i = 0; i < 10 && clip.frame_count() > 0; ++i) {
       const std::size_t frame = random.below(clip.frame_count()),
                         joint = random.below(clip.joint_count());
       const std::size_t turns = clip.skeleton.rotation_order(joint).count;
-      Clip changed = clip;
+      Take changed = clip;
       changed.rotation(frame, joint) = changed.rotation(frame, joint) * exp({0.01, 0.02, 0.03});
-      const std::string before = write_clip(clip), after = write_clip(changed);
+      const std::string before = write_take(clip), after = write_take(changed);
       EXPECT_EQ(blanks_of(before), blanks_of(after));
       const auto old_words = words_of(before), new_words = words_of(after);
       ASSERT_EQ(old_words.size(), new_words.size());
@@ -91,8 +91,8 @@ TEST(BvhRewriter, OneChangedSampleChangesItsDigitsOnly) {
 TEST(BvhRewriter, ChangedSamplesReadBackAsWritten) {
   for (const auto& path : fixtures_in("good")) {
     SCOPED_TRACE(path);
-    Clip clip = read_clip(path).clip;
-    const Clip source = clip;
+    Take clip = read_joints(path).take;
+    const Take source = clip;
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
       clip.root_position(f) += {0.125, 0.25, -0.5};
       for (std::size_t i = 1; i < clip.point_count(); ++i) clip.position(f, i) += {0.1, 0.2, 0.3};
@@ -103,7 +103,7 @@ TEST(BvhRewriter, ChangedSamplesReadBackAsWritten) {
               clip.rotation(f, j) * exp({0.01, -0.02, 0.015 * static_cast<double>(f)});
       }
     }
-    const Clip again = read_clip(write_clip(clip), path.string()).clip;
+    const Take again = read_joints(write_take(clip), path.string()).take;
     ASSERT_EQ(again.rotations.size(), clip.rotations.size());
     for (std::size_t i = 0; i < clip.rotations.size(); ++i) {
       if (clip.skeleton.rotation_order(i % clip.joint_count()).count != 3) continue;
@@ -122,45 +122,45 @@ TEST(BvhRewriter, ChangedSamplesReadBackAsWritten) {
 }
 
 TEST(BvhRewriter, WritesNoExponentsAndAsManyDecimalsAsTheSource) {
-  Clip clip = read_clip(fixture("good/plain.bvh")).clip;
+  Take clip = read_joints(fixture("good/plain.bvh")).take;
   clip.rotation(1, 1) = rotation_of({1e-7, 12.34567, -0.00004}, "ZXY");
-  EXPECT_NE(write_clip(clip).find(" 0.0000 12.3457 0.0000\n"), std::string::npos);
+  EXPECT_NE(write_take(clip).find(" 0.0000 12.3457 0.0000\n"), std::string::npos);
   // Four decimals where the source is coarser.
-  Clip coarse = read_clip(fixture("good/coarse.bvh")).clip;
+  Take coarse = read_joints(fixture("good/coarse.bvh")).take;
   coarse.rotation(1, 1) = rotation_of({5.5, 6, -7.125}, "ZXY");
-  EXPECT_NE(write_clip(coarse).find(" 5.5000 6 -7.1250\n"), std::string::npos);
-  Clip comma = read_clip(fixture("good/decimal_comma.bvh")).clip;
+  EXPECT_NE(write_take(coarse).find(" 5.5000 6 -7.1250\n"), std::string::npos);
+  Take comma = read_joints(fixture("good/decimal_comma.bvh")).take;
   comma.rotation(1, 1) = rotation_of({5.5, 6, -7.125}, "ZXY");
-  EXPECT_NE(write_clip(comma).find(" 5,5000 6,0000 -7,1250\n"), std::string::npos);
+  EXPECT_NE(write_take(comma).find(" 5,5000 6,0000 -7,1250\n"), std::string::npos);
 }
 
 TEST(BvhRewriter, WhatIsNoNumberIsWrittenAsItIsHeld) {
-  Clip clip = read_clip(fixture("good/gaps.bvh")).clip;
-  const std::string held = write_clip(clip);
+  Take clip = read_joints(fixture("good/gaps.bvh")).take;
+  const std::string held = write_take(clip);
   EXPECT_THAT(held, testing::EndsWith(
                         "1.0000 92.0000 -3.5000 11.0000 -21.0000 31.0000 5.5000 6.2500 -7.1250\n"
                         "1.1000 92.0000 -3.4000 11.0000 -21.0000 31.0000 5.5000 6.2500 -7.1250\n"
                         "1.1000 92.2000 -3.3000 12.0000 -22.0000 32.0000 5.5000 6.2500 -7.1250\n"));
   clip.rotation(1, 1) = rotation_of({5.6, 6.35, -7.225}, "ZXY");
-  EXPECT_THAT(write_clip(clip),
+  EXPECT_THAT(write_take(clip),
               testing::HasSubstr(
                   "1.1000 92.0000 -3.4000 11.0000 -21.0000 31.0000 5.6000 6.3500 -7.2250\n"));
 }
 
 TEST(BvhRewriter, ANewRateReplacesTheFrameTimeOnly) {
-  Clip clip = read_clip(fixture("good/tabs.bvh")).clip;
+  Take clip = read_joints(fixture("good/tabs.bvh")).take;
   clip.frame_rate_hz = 60;
   std::string expected = read_file(fixture("good/tabs.bvh"));
   expected.replace(expected.find("0.0083333"), 9, "0.016667");
-  EXPECT_EQ(write_clip(clip), expected);
+  EXPECT_EQ(write_take(clip), expected);
 }
 
 TEST(BvhRewriter, OtherFramesKeepTheHierarchyText) {
   const std::string source = read_file(fixture("good/crlf.bvh"));
-  Clip clip = read_clip(fixture("good/crlf.bvh")).clip;
+  Take clip = read_joints(fixture("good/crlf.bvh")).take;
   clip.positions.pop_back();
   clip.rotations.resize(clip.frame_count() * clip.joint_count());
-  const std::string text = write_clip(clip);
+  const std::string text = write_take(clip);
   const std::size_t motion = source.find("MOTION");
   EXPECT_EQ(text.substr(0, motion), source.substr(0, motion));
   EXPECT_NE(text.find("MOTION\r\nFrames: 2\r\nFrame Time: 0.0083333\r\n1.0000 92.0000"),
@@ -172,21 +172,21 @@ TEST(BvhRewriter, AFullyChangedTrackIsContinuousWhereTheSourceWraps) {
   std::vector<std::array<double, 3>> angles;
   for (int f = 0; f < 300; ++f)
     angles.push_back({wrapped(4.0 * f), 30 * std::sin(f * 0.1), wrapped(-3.0 * f)});
-  Clip clip = read_text(spinner_text(angles));
-  EXPECT_GT(largest_step(rows_of(write_clip(clip), 3)), 300);
+  Take clip = read_text(spinner_text(angles));
+  EXPECT_GT(largest_step(rows_of(write_take(clip), 3)), 300);
   for (Quat& q : clip.rotations) q = q * exp({0.01, 0.01, 0.01});
-  EXPECT_LT(largest_step(rows_of(write_clip(clip), 3)), 10);
+  EXPECT_LT(largest_step(rows_of(write_take(clip), 3)), 10);
 }
 
 TEST(BvhRewriter, SmallChangesStayOnTheSourcesBranch) {
   // A source on the second branch, many turns away, that a fresh decomposition would not find.
   std::vector<std::array<double, 3>> angles;
   for (int f = 0; f < 100; ++f) angles.push_back({730 + 0.5 * f, 120 - 0.1 * f, -400 + 0.2 * f});
-  Clip clip = read_text(spinner_text(angles));
+  Take clip = read_text(spinner_text(angles));
   Random random(3);
   for (Quat& q : clip.rotations)
     q = q * exp({0.01 * random.normal(), 0.01 * random.normal(), 0.01 * random.normal()});
-  const auto rows = rows_of(write_clip(clip), 3);
+  const auto rows = rows_of(write_take(clip), 3);
   for (std::size_t f = 0; f < rows.size(); ++f) {
     for (std::size_t c = 0; c < 3; ++c) ASSERT_NEAR(rows[f][c], angles[f][c], 12) << f;
   }
@@ -196,11 +196,11 @@ TEST(BvhRewriter, ARepairAmidKeptFramesMovesNoJumpOfTheSource) {
   std::vector<std::array<double, 3>> angles;
   for (int f = 0; f < 60; ++f) angles.push_back({wrapped(150 + 2.0 * f), 10, 5});
   const std::string text = spinner_text(angles);
-  Clip clip = read_text(text);
+  Take clip = read_text(text);
   // The source wraps between frames 14 and 15; frames 13 to 17 are nudged.
   for (std::size_t f = 13; f < 18; ++f)
     clip.rotation(f, 0) = clip.rotation(f, 0) * exp({0, 0.001, 0.001});
-  const auto before = rows_of(text, 3), after = rows_of(write_clip(clip), 3);
+  const auto before = rows_of(text, 3), after = rows_of(write_take(clip), 3);
   for (std::size_t f = 0; f < before.size(); ++f) {
     for (std::size_t c = 0; c < 3; ++c) ASSERT_NEAR(before[f][c], after[f][c], 0.2) << f;
     if (f < 13 || f > 17) {
@@ -214,9 +214,9 @@ TEST(BvhRewriter, ASpikeThatFlippedTheBranchIsWrittenLikeItsNeighbours) {
   for (int f = 0; f < 40; ++f) angles.push_back({20.0 + f, 70, -10.0 + f});
   const auto smooth = angles;
   angles[20] = {-150, 95, 170};
-  Clip clip = read_text(spinner_text(angles));
+  Take clip = read_text(spinner_text(angles));
   clip.rotation(20, 0) = rotation_of(smooth[20], "ZXY");
-  const auto rows = rows_of(write_clip(clip), 3);
+  const auto rows = rows_of(write_take(clip), 3);
   for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(rows[20][c], smooth[20][c], 1e-3);
 }
 
@@ -224,22 +224,22 @@ TEST(BvhRewriter, NothingJumpsNearGimbalLock) {
   std::vector<std::array<double, 3>> angles;
   for (int f = 0; f < 400; ++f)
     angles.push_back({0.5 * f, 89.9 * std::sin(f * 0.05), 20 * std::cos(f * 0.03)});
-  Clip clip = read_text(spinner_text(angles));
+  Take clip = read_text(spinner_text(angles));
   for (Quat& q : clip.rotations) q = q * exp({1e-4, 1e-4, 1e-4});
-  const auto rows = rows_of(write_clip(clip), 3);
+  const auto rows = rows_of(write_take(clip), 3);
   // Near the poles the outer angles turn against each other, but never by a flip.
   EXPECT_LT(largest_step(rows), 90);
-  const Clip again = read_text(write_clip(clip));
+  const Take again = read_text(write_take(clip));
   expect_same_motion(clip, again, 1e-5);
 }
 
 TEST(BvhRewriter, HugeSourceAnglesDoNoHarm) {
-  const Clip source = read_text(spinner_text({{1, 2, 3}, {1e15, 2, 3}, {1, 2, 3}}));
+  const Take source = read_text(spinner_text({{1, 2, 3}, {1e15, 2, 3}, {1, 2, 3}}));
   source.validate();
   for (std::size_t f = 1; f < 3; ++f) {
-    Clip clip = source;
+    Take clip = source;
     clip.rotation(f, 0) = rotation_of({1.3171, 2, 3}, "ZXY");
-    EXPECT_LT(angle_between(read_text(write_clip(clip)).rotation(f, 0), clip.rotation(f, 0)), 1e-5);
+    EXPECT_LT(angle_between(read_text(write_take(clip)).rotation(f, 0), clip.rotation(f, 0)), 1e-5);
   }
 }
 
@@ -255,13 +255,13 @@ TEST(BvhRewriter, LongTakesWithGapsKeepTheirDigits) {
     text += gap ? "nan 1.0 nan 2.0\n"
                 : std::to_string(f) + ".25 1.5 " + std::to_string(f % 90) + ".125 2.0\n";
   }
-  Clip clip = read_text(text);
+  Take clip = read_text(text);
   clip.validate();
   EXPECT_EQ(clip.root_position(0).x, 2.25);
   EXPECT_EQ(clip.root_position(2049).x, 2047.25);
   EXPECT_LT(angle_between(clip.rotation(2049, 0), rotation_of({1.5, 67.125, 2}, "ZXY")), 1e-14);
   clip.rotation(4000, 0) = clip.rotation(4000, 0) * exp({0.1, 0, 0});
-  const auto before = words_of(text), after = words_of(write_clip(clip));
+  const auto before = words_of(text), after = words_of(write_take(clip));
   ASSERT_EQ(before.size(), after.size());
   std::size_t different = 0;
   for (std::size_t w = first_word; w < before.size(); ++w) {

@@ -14,8 +14,8 @@ using namespace test;
 
 // A valid clip of random shape: tree, channels, rates and motion. Angles stay clear of what the
 // channels cannot reach.
-Clip random_clip(Random& random) {
-  Clip clip;
+Take random_clip(Random& random) {
+  Take clip;
   const std::size_t joints = 1 + random.below(12), frames = random.below(20);
   std::vector<RotationOrder> orders;
   for (std::size_t j = 0; j < joints; ++j) {
@@ -65,12 +65,12 @@ TEST(BvhWriter, WhatIsWrittenReadsBackTheSame) {
   Random random(11);
   for (int i = 0; i < 300; ++i) {
     SCOPED_TRACE(i);
-    const Clip clip = random_clip(random);
+    const Take clip = random_clip(random);
     clip.validate();
-    const std::string text = write_clip(clip);
-    const ReadResult again = read_clip(text, "again.bvh");
+    const std::string text = write_take(clip);
+    const TakeResult again = read_joints(text, "again.bvh");
     EXPECT_TRUE(again.diagnostics.empty());
-    const Skeleton &a = clip.skeleton, &b = again.clip.skeleton;
+    const Skeleton &a = clip.skeleton, &b = again.take.skeleton;
     ASSERT_EQ(a.names, b.names);
     ASSERT_EQ(a.parents, b.parents);
     ASSERT_EQ(a.offsets, b.offsets);
@@ -83,14 +83,14 @@ TEST(BvhWriter, WhatIsWrittenReadsBackTheSame) {
       };
       ASSERT_EQ(std::count_if(b.end_sites.begin(), b.end_sites.end(), same), 1);
     }
-    ASSERT_NEAR(again.clip.frame_rate_hz, clip.frame_rate_hz, 1e-12 * clip.frame_rate_hz);
-    expect_same_motion(clip, again.clip, 3e-6);
-    EXPECT_EQ(write_clip(again.clip), text);
+    ASSERT_NEAR(again.take.frame_rate_hz, clip.frame_rate_hz, 1e-12 * clip.frame_rate_hz);
+    expect_same_motion(clip, again.take, 3e-6);
+    EXPECT_EQ(write_take(again.take), text);
   }
 }
 
 TEST(BvhWriter, PlainLayoutIsTheUsualOne) {
-  Clip clip;
+  Take clip;
   clip.skeleton.add_joint("Hips", -1, {0, 90.5, 0},
                           make_channels(true, parse_rotation_order("ZXY")));
   clip.skeleton.add_joint("Spine", 0, {0, 10, -0.25},
@@ -100,7 +100,7 @@ TEST(BvhWriter, PlainLayoutIsTheUsualOne) {
   clip.positions = {{1, 2, 3}};
   clip.rotations = {rotation_of({10, 20, 30}, "ZXY"), rotation_of({-1, -2, -3}, "XYZ")};
   EXPECT_EQ(
-      write_clip(clip),
+      write_take(clip),
       "HIERARCHY\n"
       "ROOT Hips\n"
       "{\n"
@@ -123,7 +123,7 @@ TEST(BvhWriter, PlainLayoutIsTheUsualOne) {
 }
 
 TEST(BvhWriter, AnglesContinueTheFrameBefore) {
-  Clip clip;
+  Take clip;
   const RotationOrder order = parse_rotation_order("ZXY");
   clip.skeleton.add_joint("spinner", -1, {}, make_channels(true, order));
   clip.frame_rate_hz = 120;
@@ -132,7 +132,7 @@ TEST(BvhWriter, AnglesContinueTheFrameBefore) {
     clip.positions.push_back({});
     clip.rotations.push_back(rotation_of({1.44 * f, 88 * std::sin(f * 0.01), 0.3 * f}, "ZXY"));
   }
-  const auto rows = rows_of(write_clip(clip), 6);
+  const auto rows = rows_of(write_take(clip), 6);
   ASSERT_EQ(rows.size(), 500u);
   for (int f = 0; f < 500; ++f) {
     const std::vector<double>& row = rows[static_cast<std::size_t>(f)];
@@ -143,7 +143,7 @@ TEST(BvhWriter, AnglesContinueTheFrameBefore) {
 }
 
 TEST(BvhWriter, RestRotationsGoIntoTheAngles) {
-  Clip clip;
+  Take clip;
   clip.skeleton.add_joint("a", -1, {}, make_channels(true, parse_rotation_order("ZXY")));
   clip.skeleton.add_joint("b", 0, {0, 1, 0}, make_channels(false, parse_rotation_order("ZXY")));
   clip.skeleton.end_sites.push_back({1, {0, 1, 0}, ""});
@@ -153,13 +153,13 @@ TEST(BvhWriter, RestRotationsGoIntoTheAngles) {
   clip.positions = {{0, 0, 0}};
   clip.rotations = {rotation_of({40, 50, 60}, "XYZ"), rotation_of({1, 2, 3}, "XYZ")};
   const auto before = joint_positions(clip, true),
-             after = joint_positions(read_text(write_clip(clip)), true);
+             after = joint_positions(read_text(write_take(clip)), true);
   ASSERT_EQ(before.size(), after.size());
   for (std::size_t i = 0; i < before.size(); ++i) EXPECT_LT(norm(before[i] - after[i]), 1e-6);
 }
 
 TEST(BvhWriter, JointsAreWrittenDepthFirstWhateverTheirOrder) {
-  Clip clip;
+  Take clip;
   const auto channels = make_channels(false, parse_rotation_order("ZXY"));
   clip.skeleton.add_joint("root", -1, {}, make_channels(true, parse_rotation_order("ZXY")));
   clip.skeleton.add_joint("left", 0, {1, 0, 0}, channels);
@@ -169,40 +169,40 @@ TEST(BvhWriter, JointsAreWrittenDepthFirstWhateverTheirOrder) {
   clip.positions = {{}};
   clip.rotations = {Quat{}, rotation_of({1, 0, 0}, "Z"), rotation_of({2, 0, 0}, "Z"),
                     rotation_of({3, 0, 0}, "Z")};
-  const Clip again = read_text(write_clip(clip));
+  const Take again = read_text(write_take(clip));
   EXPECT_EQ(again.skeleton.names, (std::vector<std::string>{"root", "left", "left hand", "right"}));
   EXPECT_LT(angle_between(again.rotation(0, 2), rotation_of({3, 0, 0}, "Z")), 1e-8);
 }
 
 TEST(BvhWriter, RefusesWhatTheFormatCannotHold) {
   const auto refuse = [](auto change) {
-    Clip clip;
+    Take clip;
     clip.skeleton.add_joint("a", -1, {1, 2, 3}, make_channels(true, parse_rotation_order("ZXY")));
     clip.skeleton.add_joint("b", 0, {1, 2, 3}, {});
     clip.frame_rate_hz = 30;
     clip.positions = {{1, 2, 3}};
     clip.rotations = {Quat{}, Quat{}};
-    write_clip(clip);
+    write_take(clip);
     change(clip);
-    return message_of([&] { write_clip(clip); }, ErrorKind::usage);
+    return message_of([&] { write_take(clip); }, ErrorKind::usage);
   };
-  EXPECT_EQ(refuse([](Clip& c) { c.skeleton.names[1] = "a\nb"; }),
+  EXPECT_EQ(refuse([](Take& c) { c.skeleton.names[1] = "a\nb"; }),
             "BVH cannot hold the name \"a.b\"");
-  EXPECT_EQ(refuse([](Clip& c) {
+  EXPECT_EQ(refuse([](Take& c) {
               c.rotations[1] = rotation_of({1, 0, 0}, "X");
             }),
             "joint \"b\" turns but has no rotation channels");
-  EXPECT_EQ(refuse([](Clip& c) {
+  EXPECT_EQ(refuse([](Take& c) {
               c.skeleton.channels[0] = make_channels(false, parse_rotation_order("ZXY"));
               c.root_position(0).x = 9;
             }),
             "joint \"a\" moves but has no position channels");
   EXPECT_EQ(
-      refuse([](Clip& c) { c.root_position(0).x = std::numeric_limits<double>::quiet_NaN(); }),
+      refuse([](Take& c) { c.root_position(0).x = std::numeric_limits<double>::quiet_NaN(); }),
       "a value to write is not finite");
-  EXPECT_EQ(refuse([](Clip& c) { c.rotations.pop_back(); }),
+  EXPECT_EQ(refuse([](Take& c) { c.rotations.pop_back(); }),
             "the arrays of the clip have different numbers of frames");
-  EXPECT_EQ(refuse([](Clip& c) { c.frame_rate_hz = 0; }),
+  EXPECT_EQ(refuse([](Take& c) { c.frame_rate_hz = 0; }),
             "a frame rate of 0 Hz is outside 0.1 to 100000 Hz");
 }
 

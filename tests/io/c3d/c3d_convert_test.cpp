@@ -12,21 +12,19 @@ TEST(C3dConversions, BringAllThroughThatTheyDoNotConcern) {
   }
 }
 
-const C3dParameters& parameters_of(const MarkerClip& clip) { return document_of(clip).parameters; }
+const C3dParameters& parameters_of(const Take& clip) { return document_of(clip).parameters; }
 
-MarkerClip written(const MarkerClip& clip) {
-  return read_c3d_bytes(write_markers(clip, "c3d")).clip;
-}
+Take written(const Take& clip) { return read_c3d_bytes(write_take(clip, "c3d")).clip; }
 
 TEST(C3dConversions, TurnTheAxesOfTheScreen) {
-  const auto screen = [](const MarkerClip& clip, const char* name) {
+  const auto screen = [](const Take& clip, const char* name) {
     return parameters_of(clip).text("POINT", name);
   };
-  const MarkerClip clip = read_good_c3d("laboratory");
-  const MarkerClip up_y = written(turn_axes(clip, Axis::z, Axis::y));
+  const Take clip = read_good_c3d("laboratory");
+  const Take up_y = written(turn_axes(clip, Axis::z, Axis::y));
   EXPECT_EQ(screen(up_y, "X_SCREEN"), "+X");
   EXPECT_EQ(screen(up_y, "Y_SCREEN"), "+Y");
-  const MarkerClip up_x = written(turn_axes(clip, Axis::z, Axis::x));
+  const Take up_x = written(turn_axes(clip, Axis::z, Axis::x));
   EXPECT_EQ(screen(up_x, "X_SCREEN"), "-Z");
   EXPECT_EQ(screen(up_x, "Y_SCREEN"), "+X");
   EXPECT_EQ(screen(written(turn_axes(up_x, Axis::x, Axis::z)), "X_SCREEN"), "+X");
@@ -34,8 +32,8 @@ TEST(C3dConversions, TurnTheAxesOfTheScreen) {
 
 // What plates measure has the units of analog channels, what a model made of it those of its own.
 TEST(C3dConversions, ScaleLengthsOnly) {
-  const MarkerClip clip = read_good_c3d("laboratory");
-  const MarkerClip metres = written(scale_lengths(clip, 0.001, "m"));
+  const Take clip = read_good_c3d("laboratory");
+  const Take metres = written(scale_lengths(clip, 0.001, "m"));
   EXPECT_EQ(parameters_of(metres).text("POINT", "UNITS"), "m");
   EXPECT_EQ(parameters_of(metres).text("POINT", "MOMENT_UNITS"), "Nmm");
   EXPECT_EQ(metres.position(2, 3), clip.position(2, 3));
@@ -44,8 +42,8 @@ TEST(C3dConversions, ScaleLengthsOnly) {
 }
 
 TEST(C3dConversions, NumberTheFramesOfTheTrialAnew) {
-  const MarkerClip clip = read_good_c3d("laboratory");
-  const MarkerClip half = written(resample(clip, 25));
+  const Take clip = read_good_c3d("laboratory");
+  const Take half = written(resample(clip, 25));
   // Frame 20 at 50 Hz is 0.38 s into the trial: between frames 10 and 11 at 25 Hz.
   EXPECT_EQ(half.first_frame, 11);
   EXPECT_NEAR(half.events[0].time_s, 0.25 + 0.02, 1e-6);
@@ -57,14 +55,14 @@ TEST(C3dConversions, NumberTheFramesOfTheTrialAnew) {
 }
 
 TEST(C3dConversions, NameWhatTheyCut) {
-  const auto losses = [](const MarkerClip& clip, double rate_hz) {
+  const auto losses = [](const Take& clip, double rate_hz) {
     std::vector<std::string> names;
-    const Diagnostics lost = lost_in_writing(MarkerClip(resample(clip, rate_hz)), "c3d");
+    const Diagnostics lost = lost_in_writing(Take(resample(clip, rate_hz)), "c3d");
     for (const Diagnostic& loss : lost.entries()) names.push_back(loss.name);
     return names;
   };
   using Names = std::vector<std::string>;
-  const MarkerClip clip = read_good_c3d("laboratory");
+  const Take clip = read_good_c3d("laboratory");
   EXPECT_EQ(losses(clip, 50), Names{});
   EXPECT_EQ(losses(clip, 100), Names{"analog_cut"});
   EXPECT_EQ(losses(clip, 25), Names{"analog_held"});
@@ -73,7 +71,7 @@ TEST(C3dConversions, NameWhatTheyCut) {
 }
 
 TEST(C3dConversions, NameWhatOtherFormatsCannotHold) {
-  const MarkerClip clip = read_good_c3d("laboratory");
+  const Take clip = read_good_c3d("laboratory");
   for (const char* const format : {"trc", "csv", "glb"}) {
     const Diagnostics lost = lost_in_writing(clip, format);
     ASSERT_EQ(lost.entries().size(), 1u) << format;
@@ -82,15 +80,15 @@ TEST(C3dConversions, NameWhatOtherFormatsCannotHold) {
                   " files cannot hold 3 analog channels at 200 Hz; 2 force plates; the parameters "
                   "of SUBJECTS, PROCESSING; 2 events; a point that is not a position");
   }
-  EXPECT_TRUE(lost_in_writing(MarkerClip(make_marker_clip({"A"}, 1, 100)), "trc").empty());
+  EXPECT_TRUE(lost_in_writing(Take(make_marker_take({"A"}, 1, 100)), "trc").empty());
 }
 
 TEST(C3dConversions, LeaveAMarkerThatStandsAtTheOrigin) {
   for (const char* const name : {"laboratory", "laboratory_integer", "origin_alone"}) {
     SCOPED_TRACE(name);
-    const MarkerClip clip = read_good_c3d(name);
+    const Take clip = read_good_c3d(name);
     const auto marker = static_cast<std::size_t>(std::max(0, clip.find("ORIGIN")));
-    const auto expect_there = [&](const MarkerClip& take) {
+    const auto expect_there = [&](const Take& take) {
       for (std::size_t f = 0; f < take.frame_count(); ++f) {
         EXPECT_TRUE(take.is_observed(f, marker));
         EXPECT_EQ(take.position(f, marker), Vec3{});
@@ -100,9 +98,8 @@ TEST(C3dConversions, LeaveAMarkerThatStandsAtTheOrigin) {
     expect_there(written(clip));
     expect_there(written(without_layout(clip)));
     for (const char* const format : {"trc", "csv"}) {
-      const std::string text = write_markers(clip, format);
-      const MarkerClip again =
-          std::get<MarkerClip>(read_take(text, std::string("take.") + format).take);
+      const std::string text = write_take(clip, format);
+      const Take again = read_take(text, std::string("take.") + format).take;
       expect_there(again);
       expect_there(written(again));
     }
@@ -110,16 +107,16 @@ TEST(C3dConversions, LeaveAMarkerThatStandsAtTheOrigin) {
 }
 
 TEST(C3dConversions, WriteOtherFormatsWithoutPointsThatAreNoPositions) {
-  const MarkerClip clip = read_good_c3d("laboratory");
-  const MarkerClip kept = positions_only(clip);
+  const Take clip = read_good_c3d("laboratory");
+  const Take kept = positions_only(clip);
   EXPECT_LT(kept.marker_count(), clip.marker_count());
   for (const char* const format : {"trc", "csv", "tsv"}) {
-    const AnyTake take = read_take(write_markers(clip, format), std::string("take.") + format).take;
-    EXPECT_EQ(std::get<MarkerClip>(take).names, kept.names) << format;
+    const Take take = read_take(write_take(clip, format), std::string("take.") + format).take;
+    EXPECT_EQ(take.names, kept.names) << format;
   }
-  MarkerClip angles = clip;
+  Take angles = clip;
   angles.is_position.assign(clip.marker_count(), 0);
-  EXPECT_THROW(write_markers(angles, "trc"), Error);
+  EXPECT_THROW(write_take(angles, "trc"), Error);
 }
 
 }  // namespace

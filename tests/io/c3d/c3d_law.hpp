@@ -16,29 +16,27 @@ namespace kinemend::test {
 /// A conversion, and what it may change.
 struct C3dConversion {
   const char* title;
-  std::function<MarkerClip(const MarkerClip&)> convert;
+  std::function<Take(const Take&)> convert;
   double factor = 1;                                                      ///< of lengths
   std::array<Vec3, 3> axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  ///< where they went
   bool resamples = false;
   bool same_bytes = false;
 };
 
-inline MarkerClip without_layout(MarkerClip clip) {
+inline Take without_layout(Take clip) {
   drop_layout(clip.source);
   return clip;
 }
 
 /// Of every kind; the last two rates: one that analog rates are seldom a multiple of.
-inline std::vector<C3dConversion> c3d_conversions(const MarkerClip& clip) {
+inline std::vector<C3dConversion> c3d_conversions(const Take& clip) {
   const double rate = clip.frame_rate_hz;
-  const auto fps = [](double to) {
-    return [to](const MarkerClip& take) { return resample(take, to); };
-  };
+  const auto fps = [](double to) { return [to](const Take& take) { return resample(take, to); }; };
   const auto unit = [](double factor, std::string name) {
-    return [=](const MarkerClip& take) { return scale_lengths(take, factor, name); };
+    return [=](const Take& take) { return scale_lengths(take, factor, name); };
   };
   const auto up = [](Axis from, Axis to) {
-    return [=](const MarkerClip& take) { return turn_axes(take, from, to); };
+    return [=](const Take& take) { return turn_axes(take, from, to); };
   };
   const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
   return {{"own unit", unit(1, clip.unit), 1, {x, y, z}, false, true},
@@ -53,7 +51,7 @@ inline std::vector<C3dConversion> c3d_conversions(const MarkerClip& clip) {
           {"twice the rate", fps(2 * rate), 1, {x, y, z}, true},
           {"another rate", fps(0.7 * rate), 1, {x, y, z}, true},
           {"turned, scaled and resampled",
-           [=](const MarkerClip& take) {
+           [=](const Take& take) {
              return scale_lengths(turn_axes(resample(take, rate / 2), Axis::z, Axis::y), 0.01, "v");
            },
            0.01,
@@ -142,8 +140,7 @@ inline void expect_plates_to_follow(const C3dParameters& before, const C3dParame
 }
 
 /// The same values at the same rate, from the first on; what is cut or repeated is named.
-inline void expect_same_analog(const MarkerClip& before, const MarkerClip& after,
-                               const Diagnostics& losses) {
+inline void expect_same_analog(const Take& before, const Take& after, const Diagnostics& losses) {
   const C3dAnalog was = analog_of(before), is = analog_of(after);
   if (losses.count("analog_lost") > 0) {
     EXPECT_TRUE(is.values.empty());
@@ -163,12 +160,12 @@ inline void expect_same_analog(const MarkerClip& before, const MarkerClip& after
   }
 }
 
-inline double moment_s(const MarkerClip& clip, std::size_t event) {
+inline double moment_s(const Take& clip, std::size_t event) {
   return clip.events[event].time_s - static_cast<double>(clip.first_frame - 1) / clip.frame_rate_hz;
 }
 
 /// Events keep label, context and their moment of the motion.
-inline void expect_same_events(const MarkerClip& before, const MarkerClip& after) {
+inline void expect_same_events(const Take& before, const Take& after) {
   ASSERT_EQ(after.events.size(), before.events.size());
   for (std::size_t i = 0; i < before.events.size(); ++i) {
     EXPECT_EQ(after.events[i].label, before.events[i].label);
@@ -178,7 +175,7 @@ inline void expect_same_events(const MarkerClip& before, const MarkerClip& after
 }
 
 /// Positions follow, all else that stands among the points stays; nothing is missing that was not.
-inline void expect_points_to_follow(const MarkerClip& before, const MarkerClip& after,
+inline void expect_points_to_follow(const Take& before, const Take& after,
                                     const C3dConversion& conversion) {
   ASSERT_EQ(after.names, before.names);
   EXPECT_EQ(after.is_position, before.is_position);
@@ -199,18 +196,18 @@ inline void expect_points_to_follow(const MarkerClip& before, const MarkerClip& 
 
 /// The law for one file: what a conversion does not concern comes through, or is named.
 inline void expect_lawful_conversions(const std::string& bytes) {
-  const MarkerClip before = read_c3d_bytes(bytes).clip;
+  const Take before = read_c3d_bytes(bytes).clip;
   for (const C3dConversion& conversion : c3d_conversions(before)) {
     SCOPED_TRACE(conversion.title);
-    const MarkerClip converted = conversion.convert(before);
+    const Take converted = conversion.convert(before);
     const Diagnostics losses = lost_in_writing(converted, "c3d");
-    const std::string out = write_markers(converted, "c3d");
+    const std::string out = write_take(converted, "c3d");
     if (conversion.same_bytes) {
-      ASSERT_TRUE(out == write_markers(before, "c3d"));
+      ASSERT_TRUE(out == write_take(before, "c3d"));
       ASSERT_TRUE(losses.empty());
       continue;
     }
-    const MarkerClip after = read_c3d_bytes(out).clip;
+    const Take after = read_c3d_bytes(out).clip;
     const C3dParameters& was = document_of(before).parameters;
     const C3dParameters& is = document_of(after).parameters;
     ASSERT_NO_FATAL_FAILURE(expect_same_parameters(was, is, conversion, losses));

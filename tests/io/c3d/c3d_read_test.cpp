@@ -27,7 +27,7 @@ std::vector<Row> expected_rows(const std::string& name) {
 // Cell `i`; empty where the row is shorter.
 std::string cell(const Row& row, std::size_t i) { return i < row.size() ? row[i] : ""; }
 
-void expect_sample(const MarkerClip& clip, const Row& row) {
+void expect_sample(const Take& clip, const Row& row) {
   const std::size_t i = std::stoul(row[1]) * clip.marker_count() + std::stoul(row[2]);
   ASSERT_LT(i, clip.observed.size());
   EXPECT_EQ(clip.observed[i], std::stoi(row[3]));
@@ -40,7 +40,7 @@ void expect_sample(const MarkerClip& clip, const Row& row) {
 
 void expect_fixture(const std::string& name) {
   const C3dResult result = read_c3d_bytes(good_c3d(name));
-  const MarkerClip& clip = result.clip;
+  const Take& clip = result.clip;
   clip.validate();
   const C3dAnalog analog = analog_of(clip);
   std::vector<std::string> names;
@@ -152,7 +152,7 @@ TEST(C3dReader, SaysWhichByteIsWrong) {
 }
 
 TEST(C3dReader, TellsWhatElseAFileHolds) {
-  const MarkerClip clip = read_good_c3d("dec_integer");
+  const Take clip = read_good_c3d("dec_integer");
   EXPECT_EQ(fact_of(clip, "encoding"), "DEC integers in steps of 0.125");
   EXPECT_EQ(fact_of(clip, "analog"), "2 channels at 100 Hz");
   EXPECT_EQ(fact_of(clip, "events"), "2");
@@ -175,8 +175,8 @@ TEST(C3dReader, TakesTheRateThatIsAskedForWhereTheFileHasNone) {
 
 TEST(C3dReader, IsFoundByContent) {
   for (const char* const name : {"intel_real", "bytes_before_header", "no_processor"}) {
-    const AnyTake take = read_take(good_c3d(name), "walk").take;
-    EXPECT_EQ(source_of(take).format, "c3d");
+    const Take take = read_take(good_c3d(name), "walk").take;
+    EXPECT_EQ(take.source.format, "c3d");
   }
 }
 

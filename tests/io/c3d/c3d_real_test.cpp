@@ -17,7 +17,7 @@ const fs::path data = KINEMEND_DATA_FOLDER;
 const fs::path samples = data / "c3d/btk/c3d.org";
 const fs::path suite = data / "c3d/kineticstoolkit/c3d_test_suite";
 
-MarkerClip read_real(const fs::path& path) { return std::get<MarkerClip>(read_take(path).take); }
+Take read_real(const fs::path& path) { return read_take(path).take; }
 
 std::vector<fs::path> real_files() {
   std::vector<fs::path> paths;
@@ -41,11 +41,11 @@ TEST(RealC3d, EveryFileIsValidAndComesBackToTheByte) {
     const std::string bytes = read_file(path);
     const C3dResult read = read_c3d_bytes(bytes);
     read.clip.validate();
-    const std::string written = write_markers(read.clip, "c3d");
+    const std::string written = write_take(read.clip, "c3d");
     if (was_mended(read.diagnostics)) {
       // Numbers that are not finite, and nothing else.
       EXPECT_EQ(written.size(), bytes.size());
-      EXPECT_TRUE(write_markers(read_c3d_bytes(written).clip, "c3d") == written);
+      EXPECT_TRUE(write_take(read_c3d_bytes(written).clip, "c3d") == written);
     } else {
       EXPECT_TRUE(written == bytes);
     }
@@ -82,7 +82,7 @@ TEST(RealC3d, OnlyTheKnownFilesAreRepaired) {
 }
 
 // `analog_tolerance`: beside what reals lose.
-void expect_same_recording(const MarkerClip& a, const MarkerClip& b, double tolerance,
+void expect_same_recording(const Take& a, const Take& b, double tolerance,
                            double analog_tolerance) {
   EXPECT_EQ(a.frame_rate_hz, b.frame_rate_hz);
   EXPECT_EQ(a.first_frame, b.first_frame);
@@ -152,7 +152,7 @@ TEST(RealC3d, OneRecordingReadsEqualInEveryEncoding) {
        0.1},
   };
   for (const Recording& recording : recordings) {
-    const MarkerClip first = read_real(recording.first);
+    const Take first = read_real(recording.first);
     EXPECT_EQ(first.marker_count(), recording.markers);
     EXPECT_EQ(first.frame_count(), recording.frames);
     EXPECT_EQ(first.events.size(), recording.events);
@@ -167,22 +167,22 @@ TEST(RealC3d, OneRecordingReadsEqualInEveryEncoding) {
 }
 
 TEST(RealC3d, ReadsWhatIsKnownOfTheTakes) {
-  const MarkerClip walk = read_real(data / "cmu/c3d/85_02.c3d");
+  const Take walk = read_real(data / "cmu/c3d/85_02.c3d");
   EXPECT_EQ(walk.names[0], "Male:LFWT");
   EXPECT_EQ(walk.find("LFWT"), 0);
   EXPECT_EQ(walk.frame_count(), 810u);
   EXPECT_EQ(walk.frame_rate_hz, 120);
   EXPECT_EQ(std::count(walk.observed.begin(), walk.observed.end(), 0), 0);
-  const MarkerClip dance = read_real(data / "cmu/c3d/05_13.c3d");
+  const Take dance = read_real(data / "cmu/c3d/05_13.c3d");
   EXPECT_EQ(dance.marker_count(), 330u);
   EXPECT_EQ(dance.names[329].substr(0, 6), "Dance:");
   EXPECT_EQ(dance.first_frame, 20);
-  const MarkerClip paired = read_real(data / "paired/S02-Trial-Walk-1-vicon.c3d");
+  const Take paired = read_real(data / "paired/S02-Trial-Walk-1-vicon.c3d");
   EXPECT_EQ(std::count(paired.is_position.begin(), paired.is_position.end(), 0), 11);
 }
 
 TEST(RealC3d, ReadsMoreThan255AnalogChannels) {
-  const MarkerClip clip = read_real(suite / "others/many_analogs.c3d");
+  const Take clip = read_real(suite / "others/many_analogs.c3d");
   const C3dAnalog analog = analog_of(clip);
   ASSERT_EQ(analog.names.size(), 922u);
   EXPECT_NE(analog.names[921], "");
@@ -191,7 +191,7 @@ TEST(RealC3d, ReadsMoreThan255AnalogChannels) {
 
 // This program writes 65,535 and zeros where a marker is missing.
 TEST(RealC3d, NoMarkerOfTheRollingTakeIsAtTheOrigin) {
-  const MarkerClip clip = read_real(data / "c3d/other/03_rolling.c3d");
+  const Take clip = read_real(data / "c3d/other/03_rolling.c3d");
   std::size_t missing = 0;
   for (std::size_t i = 0; i < clip.positions.size(); ++i) {
     if (clip.observed[i] == 0) {
@@ -208,7 +208,7 @@ TEST(RealC3d, ChangedTakesReadBack) {
   for (const fs::path& path : real_files()) {
     if (path.filename() == "Empty.c3d") continue;
     SCOPED_TRACE(path);
-    MarkerClip clip = read_real(path);
+    Take clip = read_real(path);
     const C3dLayout layout = document_of(clip).layout;
     const bool in_range = std::all_of(clip.positions.begin(), clip.positions.end(), [&](Vec3 p) {
       return norm(p) < 32000 * layout.scale || layout.is_float;
@@ -222,11 +222,11 @@ TEST(RealC3d, ChangedTakesReadBack) {
         clip.residuals[i] = 0;
       }
     }
-    const MarkerClip again = read_c3d_bytes(write_markers(clip, "c3d")).clip;
+    const Take again = read_c3d_bytes(write_take(clip, "c3d")).clip;
     EXPECT_EQ(document_of(again).layout.is_float, layout.is_float || !in_range);
     expect_same_samples(clip, again, layout.is_float ? 1e-2 : 0.9 * layout.scale);
     clip.source.document.reset();
-    expect_same_samples(clip, read_c3d_bytes(write_markers(clip, "c3d")).clip, 1e-2);
+    expect_same_samples(clip, read_c3d_bytes(write_take(clip, "c3d")).clip, 1e-2);
   }
 }
 

@@ -26,20 +26,18 @@ inline std::string good_c3d(const std::string& name) {
 }
 
 struct C3dResult {
-  MarkerClip clip;
+  Take clip;
   Diagnostics diagnostics;
 };
 
 inline C3dResult read_c3d_bytes(std::string bytes, const ReadOptions& options = {}) {
   TakeResult result = read_take(std::move(bytes), "take.c3d", options);
-  return {std::get<MarkerClip>(std::move(result.take)), std::move(result.diagnostics)};
+  return {std::move(result.take), std::move(result.diagnostics)};
 }
 
-inline MarkerClip read_good_c3d(const std::string& name) {
-  return read_c3d_bytes(good_c3d(name)).clip;
-}
+inline Take read_good_c3d(const std::string& name) { return read_c3d_bytes(good_c3d(name)).clip; }
 
-inline const C3dDocument& document_of(const MarkerClip& clip) {
+inline const C3dDocument& document_of(const Take& clip) {
   return dynamic_cast<const C3dDocument&>(*clip.source.document);
 }
 
@@ -59,7 +57,7 @@ inline std::vector<std::string> analog_texts(const C3dDocument& document, const 
 }
 
 /// Without channels where the file has none.
-inline C3dAnalog analog_of(const MarkerClip& clip) {
+inline C3dAnalog analog_of(const Take& clip) {
   const C3dDocument& document = document_of(clip);
   const C3dLayout& layout = document.layout;
   C3dAnalog analog;
@@ -78,14 +76,14 @@ inline C3dAnalog analog_of(const MarkerClip& clip) {
   return analog;
 }
 
-inline std::string fact_of(const MarkerClip& clip, const std::string& name) {
+inline std::string fact_of(const Take& clip, const std::string& name) {
   for (const SourceFact& fact : clip.source.facts) {
     if (fact.name == name) return fact.text;
   }
   return "";
 }
 
-inline void expect_same_samples(const MarkerClip& a, const MarkerClip& b, double tolerance = 0) {
+inline void expect_same_samples(const Take& a, const Take& b, double tolerance = 0) {
   ASSERT_EQ(a.names, b.names);
   ASSERT_EQ(a.observed, b.observed);
   ASSERT_EQ(a.positions.size(), b.positions.size());

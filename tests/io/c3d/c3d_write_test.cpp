@@ -26,9 +26,9 @@ TEST(C3dWriter, UnchangedClipsComeBackToTheByte) {
   for (const auto& entry : std::filesystem::directory_iterator(c3d_folder() / "good")) {
     const std::string bytes = read_file(entry.path());
     const C3dResult read = read_c3d_bytes(bytes);
-    const std::string written = write_markers(read.clip, "c3d");
+    const std::string written = write_take(read.clip, "c3d");
     EXPECT_TRUE(was_mended(read.diagnostics) || written == bytes) << entry.path();
-    EXPECT_TRUE(write_markers(read_c3d_bytes(written).clip, "c3d") == written) << entry.path();
+    EXPECT_TRUE(write_take(read_c3d_bytes(written).clip, "c3d") == written) << entry.path();
   }
 }
 
@@ -36,17 +36,17 @@ TEST(C3dWriter, OnlyTheBytesOfChangedSamplesChange) {
   for (const char* const name : encodings) {
     SCOPED_TRACE(name);
     const std::string bytes = good_c3d(name);
-    MarkerClip clip = read_c3d_bytes(bytes).clip;
+    Take clip = read_c3d_bytes(bytes).clip;
     const C3dLayout layout = document_of(clip).layout;
     clip.position(4, 1).y += 2.5;
-    const std::string out = write_markers(clip, "c3d");
+    const std::string out = write_take(clip, "c3d");
     const std::size_t value = layout.value_bytes();
     const std::size_t place = layout.data_begin + 4 * layout.frame_bytes() + (4 + 1) * value;
     for (const std::size_t i : changed_bytes(bytes, out)) {
       EXPECT_GE(i, place);
       EXPECT_LT(i, place + value);
     }
-    const MarkerClip again = read_c3d_bytes(out).clip;
+    const Take again = read_c3d_bytes(out).clip;
     expect_same_samples(clip, again);
     EXPECT_EQ(again.residuals, clip.residuals);
   }
@@ -55,7 +55,7 @@ TEST(C3dWriter, OnlyTheBytesOfChangedSamplesChange) {
 TEST(C3dWriter, FilledSamplesLoseTheirResidualOfMinusOne) {
   for (const char* const name : encodings) {
     SCOPED_TRACE(name);
-    MarkerClip clip = read_good_c3d(name);
+    Take clip = read_good_c3d(name);
     ASSERT_FALSE(clip.is_observed(2, 1));
     ASSERT_FALSE(clip.is_observed(5, 2));
     for (const auto& [frame, marker] : {std::pair<std::size_t, std::size_t>{2, 1}, {5, 2}}) {
@@ -64,7 +64,7 @@ TEST(C3dWriter, FilledSamplesLoseTheirResidualOfMinusOne) {
       clip.observed[i] = 1;
       clip.residuals[i] = 0;
     }
-    const MarkerClip again = read_c3d_bytes(write_markers(clip, "c3d")).clip;
+    const Take again = read_c3d_bytes(write_take(clip, "c3d")).clip;
     expect_same_samples(clip, again);
     EXPECT_EQ(again.residuals, clip.residuals);
     // The cameras that saw other samples are still there.
@@ -75,10 +75,10 @@ TEST(C3dWriter, FilledSamplesLoseTheirResidualOfMinusOne) {
 TEST(C3dWriter, SamplesThatAreNowMissingBecomeZerosWithMinusOne) {
   for (const char* const name : encodings) {
     SCOPED_TRACE(name);
-    MarkerClip clip = read_good_c3d(name);
+    Take clip = read_good_c3d(name);
     clip.observed[0] = 0;
     clip.residuals[0] = -1;
-    const std::string out = write_markers(clip, "c3d");
+    const std::string out = write_take(clip, "c3d");
     expect_same_samples(clip, read_c3d_bytes(out).clip);
     const C3dLayout& layout = document_of(clip).layout;
     const std::string_view place =
@@ -90,12 +90,12 @@ TEST(C3dWriter, SamplesThatAreNowMissingBecomeZerosWithMinusOne) {
 // Zeros that were told to mean missing by the samples around them say so themselves once those
 // change.
 TEST(C3dWriter, GapsOfZerosAreMarkedInAFileThatChanges) {
-  MarkerClip clip = read_good_c3d("zeros");
+  Take clip = read_good_c3d("zeros");
   ASSERT_FALSE(clip.is_observed(0, 1));
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     if (clip.is_observed(f, 0)) clip.position(f, 0) = {0.125, 0, 0};
   }
-  const C3dResult again = read_c3d_bytes(write_markers(clip, "c3d"));
+  const C3dResult again = read_c3d_bytes(write_take(clip, "c3d"));
   EXPECT_TRUE(again.diagnostics.empty());
   expect_same_samples(clip, again.clip);
 }
@@ -103,12 +103,12 @@ TEST(C3dWriter, GapsOfZerosAreMarkedInAFileThatChanges) {
 TEST(C3dWriter, ResidualsAreWrittenInStepsOfTheScale) {
   for (const char* const name : encodings) {
     SCOPED_TRACE(name);
-    MarkerClip clip = read_good_c3d(name);
+    Take clip = read_good_c3d(name);
     clip.residuals[0] = 0.5;     // 4 steps
     clip.residuals[1] = 0.001f;  // less than one, but measured
     clip.residuals[3] = 1000;    // more than a byte holds
     clip.residuals[5] = 0;       // filtered
-    const MarkerClip again = read_c3d_bytes(write_markers(clip, "c3d")).clip;
+    const Take again = read_c3d_bytes(write_take(clip, "c3d")).clip;
     EXPECT_EQ(again.residuals[0], 0.5f);
     EXPECT_EQ(again.residuals[1], 0.125f);
     EXPECT_EQ(again.residuals[3], 255 * 0.125f);
@@ -118,9 +118,9 @@ TEST(C3dWriter, ResidualsAreWrittenInStepsOfTheScale) {
 }
 
 TEST(C3dWriter, IntegersAreRoundedToTheirScale) {
-  MarkerClip clip = read_good_c3d("mips_integer");
+  Take clip = read_good_c3d("mips_integer");
   clip.positions[0] = {1.06, -1.07, 100};
-  const MarkerClip again = read_c3d_bytes(write_markers(clip, "c3d")).clip;
+  const Take again = read_c3d_bytes(write_take(clip, "c3d")).clip;
   EXPECT_EQ(again.positions[0].x, 1.0);
   EXPECT_EQ(again.positions[0].y, -1.125);
   EXPECT_EQ(again.positions[0].z, 100);
@@ -129,9 +129,9 @@ TEST(C3dWriter, IntegersAreRoundedToTheirScale) {
 TEST(C3dWriter, WhatDoesNotFitIntoIntegersBecomesAFileOfRealsThatLosesNothing) {
   for (const char* const name : {"dec_integer", "unsigned_analog"}) {
     SCOPED_TRACE(name);
-    MarkerClip clip = read_good_c3d(name);
+    Take clip = read_good_c3d(name);
     clip.positions[0].x = 40000 * 0.125;
-    const MarkerClip again = read_c3d_bytes(write_markers(clip, "c3d")).clip;
+    const Take again = read_c3d_bytes(write_take(clip, "c3d")).clip;
     EXPECT_EQ(fact_of(again, "encoding"), "Intel reals");
     expect_same_samples(clip, again);
     EXPECT_EQ(again.is_position, clip.is_position);
@@ -150,11 +150,11 @@ TEST(C3dWriter, WhatDoesNotFitIntoIntegersBecomesAFileOfRealsThatLosesNothing) {
 TEST(C3dWriter, AChangedRateIsPatchedWhereItStands) {
   for (const char* const name : encodings) {
     SCOPED_TRACE(name);
-    MarkerClip clip = read_good_c3d(name);
+    Take clip = read_good_c3d(name);
     clip.frame_rate_hz = 60;
-    const std::string out = write_markers(clip, "c3d");
+    const std::string out = write_take(clip, "c3d");
     EXPECT_LE(changed_bytes(good_c3d(name), out).size(), 12u);
-    const MarkerClip again = read_c3d_bytes(out).clip;
+    const Take again = read_c3d_bytes(out).clip;
     EXPECT_EQ(again.frame_rate_hz, 60);
     EXPECT_EQ(fact_of(again, "analog"), "2 channels at 120 Hz");
     EXPECT_EQ(document_of(again).parameters.number("ANALOG", "RATE"), 120);
@@ -162,8 +162,8 @@ TEST(C3dWriter, AChangedRateIsPatchedWhereItStands) {
 }
 
 TEST(C3dWriter, OtherMarkersGetANewFileWithTheSourcesParameters) {
-  const MarkerClip source = read_good_c3d("dec_real");
-  MarkerClip clip = make_marker_clip({"A", "B"}, 6, 50);
+  const Take source = read_good_c3d("dec_real");
+  Take clip = make_marker_take({"A", "B"}, 6, 50);
   clip.source = source.source;
   clip.unit = "mm";
   for (std::size_t f = 0; f < 6; ++f) {
@@ -172,7 +172,7 @@ TEST(C3dWriter, OtherMarkersGetANewFileWithTheSourcesParameters) {
   }
   clip.is_position = {1, 0};
   clip.events = {{"Stop", "General", 123.75}};
-  const MarkerClip again = read_c3d_bytes(write_markers(clip, "c3d")).clip;
+  const Take again = read_c3d_bytes(write_take(clip, "c3d")).clip;
   expect_same_samples(clip, again);
   EXPECT_EQ(again.is_position, clip.is_position);
   EXPECT_EQ(again.unit, "mm");
@@ -189,17 +189,17 @@ TEST(C3dWriter, OtherMarkersGetANewFileWithTheSourcesParameters) {
 TEST(C3dWriter, NewFilesOfDamagedSourcesReadBack) {
   for (const char* const name : {"groups_of_one_number.c3d", "analog_without_channels.c3d"}) {
     SCOPED_TRACE(name);
-    MarkerClip clip = read_c3d_bytes(read_file(c3d_folder() / "found" / name)).clip;
+    Take clip = read_c3d_bytes(read_file(c3d_folder() / "found" / name)).clip;
     clip.events.push_back({"again", "", 2});
-    expect_same_samples(clip, read_c3d_bytes(write_markers(clip, "c3d")).clip);
+    expect_same_samples(clip, read_c3d_bytes(write_take(clip, "c3d")).clip);
   }
 }
 
 TEST(C3dWriter, OtherFramesGetANewFileWithoutAnalogSamples) {
-  const MarkerClip source = read_good_c3d("intel_real");
-  MarkerClip clip = slice(source, 1, 4);
+  const Take source = read_good_c3d("intel_real");
+  Take clip = slice(source, 1, 4);
   clip.source.document = source.source.document;
-  const MarkerClip again = read_c3d_bytes(write_markers(clip, "c3d")).clip;
+  const Take again = read_c3d_bytes(write_take(clip, "c3d")).clip;
   expect_same_samples(clip, again);
   EXPECT_EQ(again.first_frame, 2);
   EXPECT_EQ(again.residuals, clip.residuals);
@@ -210,7 +210,7 @@ TEST(C3dWriter, OtherFramesGetANewFileWithoutAnalogSamples) {
 
 // What c3d.org demands of a header, read here byte by byte.
 TEST(C3dWriter, NewFilesKeepTheRulesOfTheManual) {
-  MarkerClip clip = make_marker_clip({"Ann:A", "B", "\u53f3"}, 3, 120);
+  Take clip = make_marker_take({"Ann:A", "B", "\u53f3"}, 3, 120);
   clip.unit = "m";
   clip.first_frame = 7;
   clip.events = {{"Foot Strike", "Left", 0.5}};
@@ -218,7 +218,7 @@ TEST(C3dWriter, NewFilesKeepTheRulesOfTheManual) {
     clip.positions[i] = {0.5, -1.6, 0.25 * static_cast<double>(i)};
     clip.observed[i] = i == 4 ? 0 : 1;
   }
-  const std::string out = write_markers(clip, "c3d");
+  const std::string out = write_take(clip, "c3d");
   const auto word = [&](std::size_t number) {
     std::uint16_t value = 0;
     std::memcpy(&value, out.data() + 2 * (number - 1), 2);
@@ -249,7 +249,7 @@ TEST(C3dWriter, NewFilesKeepTheRulesOfTheManual) {
   EXPECT_EQ(real(data + 12), 0.0f);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(real(data + 4 * 16 + 4 * i), 0.0f);
   EXPECT_EQ(real(data + 4 * 16 + 12), -1.0f);
-  const MarkerClip again = read_c3d_bytes(out).clip;
+  const Take again = read_c3d_bytes(out).clip;
   const C3dParameters& parameters = document_of(again).parameters;
   EXPECT_EQ(parameters.count("POINT", "DATA_START"), word(9));
   EXPECT_EQ(parameters.text("POINT", "UNITS"), "m");
@@ -265,9 +265,9 @@ TEST(C3dWriter, HoldsMoreThan255MarkersAndEvents) {
   std::vector<std::string> names;
   for (int m = 0; m < 700; ++m) names.push_back("Marker" + std::to_string(m));
   names[100] = std::string(200, 'n');
-  MarkerClip clip = make_marker_clip(names, 2, 100);
+  Take clip = make_marker_take(names, 2, 100);
   for (int i = 0; i < 300; ++i) clip.events.push_back({"e" + std::to_string(i), "", 0.25 * i});
-  const MarkerClip again = read_c3d_bytes(write_markers(clip, "c3d")).clip;
+  const Take again = read_c3d_bytes(write_take(clip, "c3d")).clip;
   EXPECT_EQ(again.names, names);
   ASSERT_EQ(again.events.size(), 300u);
   EXPECT_EQ(again.events[299].label, "e299");
@@ -277,14 +277,14 @@ TEST(C3dWriter, HoldsMoreThan255MarkersAndEvents) {
 TEST(C3dWriter, HoldsMoreThan65535Frames) {
   for (const std::int64_t first : {1, 70000}) {
     const std::size_t frames = 70001;
-    MarkerClip clip = make_marker_clip({"A"}, frames, 100);
+    Take clip = make_marker_take({"A"}, frames, 100);
     clip.first_frame = first;
     for (std::size_t f = 0; f < frames; ++f) {
       clip.positions[f] = {static_cast<double>(f), 1, 2};
       clip.observed[f] = 1;
     }
-    std::string out = write_markers(clip, "c3d");
-    const MarkerClip again = read_c3d_bytes(out).clip;
+    std::string out = write_take(clip, "c3d");
+    const Take again = read_c3d_bytes(out).clip;
     EXPECT_EQ(again.frame_count(), frames);
     EXPECT_EQ(again.first_frame, first);
     expect_same_samples(clip, again);
@@ -297,8 +297,8 @@ TEST(C3dWriter, HoldsMoreThan65535Frames) {
 // A misprint of the manual has it that the high word counts 65,535 frames.
 TEST(C3dWriter, ReadsFrameFieldsThatFollowTheMisprint) {
   const std::size_t frames = 70001;
-  MarkerClip clip = make_marker_clip({"A"}, frames, 100);
-  std::string out = write_markers(clip, "c3d");
+  Take clip = make_marker_take({"A"}, frames, 100);
+  std::string out = write_take(clip, "c3d");
   const std::size_t low = 70001 % 65536, misprinted = 70001 - 65535;
   const std::string field = "ACTUAL_END_FIELD";
   const std::size_t at = out.find(field) + field.size() + 2 + 2 + 1;
@@ -309,20 +309,20 @@ TEST(C3dWriter, ReadsFrameFieldsThatFollowTheMisprint) {
 }
 
 TEST(C3dWriter, RefusesWhatTheFormatCannotHold) {
-  const auto refusal = [](const MarkerClip& clip) -> std::string {
+  const auto refusal = [](const Take& clip) -> std::string {
     try {
-      write_markers(clip, "c3d");
+      write_take(clip, "c3d");
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::usage);
       return error.what();
     }
     return "no error";
   };
-  EXPECT_EQ(refusal(make_marker_clip({std::string(256, 'n')}, 1, 100)),
+  EXPECT_EQ(refusal(make_marker_take({std::string(256, 'n')}, 1, 100)),
             "a text of 256 bytes; C3D files can hold 255");
-  EXPECT_EQ(refusal(make_marker_clip(std::vector<std::string>(65536), 1, 100)),
+  EXPECT_EQ(refusal(make_marker_take(std::vector<std::string>(65536), 1, 100)),
             "65536 markers; C3D files can hold 65,535");
-  MarkerClip clip = read_good_c3d("intel_real");
+  Take clip = read_good_c3d("intel_real");
   clip.positions[0].x = 1e39;
   EXPECT_EQ(refusal(clip), "1e+39 is too large for a C3D file");
   // Larger than any real of a DEC machine; new files hold Intel's.

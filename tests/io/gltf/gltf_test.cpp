@@ -112,8 +112,8 @@ std::vector<Vec3> node_positions(const Glb& glb, std::size_t frame) {
   return world;
 }
 
-Clip random_clip() {
-  Clip clip;
+Take random_clip() {
+  Take clip;
   clip.frame_rate_hz = 60;
   clip.metres_per_unit = 0.01;
   const RotationOrder order = parse_rotation_order("ZXY");
@@ -139,8 +139,8 @@ Clip random_clip() {
 }
 
 TEST(GlbWriter, NodesAndAnimationGiveTheJointPositionsInMetres) {
-  const Clip clip = random_clip();
-  const Glb glb = parse(write_clip(clip, "glb"));
+  const Take clip = random_clip();
+  const Glb glb = parse(write_take(clip, "glb"));
   const std::size_t points = clip.joint_count() + clip.skeleton.end_sites.size();
   const auto expected = joint_positions(clip, true);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -151,8 +151,8 @@ TEST(GlbWriter, NodesAndAnimationGiveTheJointPositionsInMetres) {
 }
 
 TEST(GlbWriter, TimesAreSecondsAndSignsContinue) {
-  const Clip clip = random_clip();
-  const Glb glb = parse(write_clip(clip, "glb"));
+  const Take clip = random_clip();
+  const Glb glb = parse(write_take(clip, "glb"));
   const json& animation = glb.document["animations"][0];
   std::size_t rotations = 0;
   for (const json& channel : animation["channels"]) {
@@ -178,8 +178,8 @@ TEST(GlbWriter, TimesAreSecondsAndSignsContinue) {
 
 // Inverse bind matrices take the rest pose of each joint to the origin.
 TEST(GlbWriter, TheSkinIsBoundToTheRestPose) {
-  Clip clip = random_clip();
-  const Glb glb = parse(write_clip(clip, "glb"));
+  Take clip = random_clip();
+  const Glb glb = parse(write_take(clip, "glb"));
   const json& skin = glb.document["skins"][0];
   ASSERT_EQ(skin["joints"].size(), clip.joint_count());
   const auto matrices = floats(glb, skin["inverseBindMatrices"]);
@@ -206,8 +206,8 @@ TEST(GlbWriter, TheSkinIsBoundToTheRestPose) {
 }
 
 TEST(GlbWriter, BonesReachFromJointToChild) {
-  const Clip clip = random_clip();
-  const Glb glb = parse(write_clip(clip, "glb"));
+  const Take clip = random_clip();
+  const Glb glb = parse(write_take(clip, "glb"));
   const json& primitive = glb.document["meshes"][0]["primitives"][0];
   const auto positions = floats(glb, primitive["attributes"]["POSITION"]);
   const auto normals = floats(glb, primitive["attributes"]["NORMAL"]);
@@ -222,23 +222,23 @@ TEST(GlbWriter, BonesReachFromJointToChild) {
 }
 
 TEST(GlbWriter, AGuessedUnitMakesAPerson) {
-  Clip clip = read_clip(std::filesystem::path(KINEMEND_TAKES) / "walk.bvh").clip;
+  Take clip = read_joints(std::filesystem::path(KINEMEND_TAKES) / "walk.bvh").take;
   const auto unit = guess_length_unit(clip.skeleton);
   ASSERT_TRUE(unit);
-  const Glb glb = parse(write_clip(clip, "glb"));
+  const Glb glb = parse(write_take(clip, "glb"));
   const auto found = node_positions(glb, 0);
   const auto expected = joint_positions(clip, true);
   EXPECT_LT(norm(found[5] - unit->metres * expected[5]), 1e-5);
 }
 
 TEST(GlbWriter, NamesThatAreNotUtf8LoseTheirBadBytes) {
-  Clip clip = random_clip();
+  Take clip = random_clip();
   clip.skeleton.names[1] = "Sp\xFFine";
-  EXPECT_EQ(parse(write_clip(clip, "glb")).document["nodes"][1]["name"], "Spine");
+  EXPECT_EQ(parse(write_take(clip, "glb")).document["nodes"][1]["name"], "Spine");
 }
 
 TEST(GlbWriter, MarkersMoveAndVanishWhereTheyAreMissing) {
-  MarkerClip clip = make_marker_clip({"A", "never", "B"}, 4, 100);
+  Take clip = make_marker_take({"A", "never", "B"}, 4, 100);
   clip.unit = "mm";
   for (std::size_t f = 0; f < 4; ++f) {
     clip.position(f, 0) = {1000.0 * static_cast<double>(f), 500, 0};
@@ -246,7 +246,7 @@ TEST(GlbWriter, MarkersMoveAndVanishWhereTheyAreMissing) {
   }
   clip.position(2, 2) = {0, 0, 250};
   clip.observed[3 * 2 + 2] = 1;
-  const Glb glb = parse(write_markers(clip, "glb"));
+  const Glb glb = parse(write_take(clip, "glb"));
   const json& nodes = glb.document["nodes"];
   ASSERT_EQ(nodes.size(), 3u) << "two markers and their group";
   EXPECT_EQ(nodes[0]["name"], "A");
@@ -268,7 +268,7 @@ TEST(GlbWriter, MarkersMoveAndVanishWhereTheyAreMissing) {
 }
 
 TEST(GlbWriter, FilesAreWrittenNotRead) {
-  const std::string bytes = write_clip(random_clip(), "glb");
+  const std::string bytes = write_take(random_clip(), "glb");
   EXPECT_EQ(message_of([&] { read_take(bytes, "a.glb", {}); }, ErrorKind::usage),
             "a.glb: glb files are written, not read");
 }

@@ -21,10 +21,8 @@ TakeResult read_table(std::string bytes, ReadOptions options = {}) {
   options.format = "csv";
   return read_take(std::move(bytes), "take.csv", options);
 }
-MarkerClip read_markers(std::string bytes) {
-  return std::get<MarkerClip>(read_table(std::move(bytes)).take);
-}
-Clip read_joints(std::string bytes) { return std::get<Clip>(read_table(std::move(bytes)).take); }
+Take read_markers(std::string bytes) { return read_table(std::move(bytes)).take; }
+Take joints_of(std::string bytes) { return read_table(std::move(bytes)).take; }
 
 std::map<std::string, std::size_t> repairs_of(const std::string& name) {
   std::map<std::string, std::size_t> counts;
@@ -36,7 +34,7 @@ std::map<std::string, std::size_t> repairs_of(const std::string& name) {
 TEST(CsvReader, ReadsNamesPositionsRateAndUnit) {
   const TakeResult result = read_table(csv_fixture("good/plain.csv"));
   EXPECT_TRUE(result.diagnostics.empty());
-  const auto& clip = std::get<MarkerClip>(result.take);
+  const auto& clip = result.take;
   EXPECT_THAT(clip.names, ElementsAre("LASI", "RASI"));
   EXPECT_THAT(clip.positions,
               ElementsAre(Vec3{-201.25, -116.5, 721.75}, Vec3{129.5, -188.25, 724.125},
@@ -49,13 +47,13 @@ TEST(CsvReader, ReadsNamesPositionsRateAndUnit) {
 }
 
 TEST(CsvReader, LayoutsOfTheSameTakeReadTheSame) {
-  const MarkerClip plain = read_markers(csv_fixture("good/plain.csv"));
+  const Take plain = read_markers(csv_fixture("good/plain.csv"));
   for (const char* name :
        {"crlf", "bom", "semicolon_comma", "semicolon", "tabs", "quoted_comma", "dotted", "spaced",
         "colons", "no_frame", "no_frame_no_time", "no_rate", "milliseconds", "extra_column",
         "filler_rows", "spreadsheet_separator"}) {
     SCOPED_TRACE(name);
-    const MarkerClip clip = read_markers(csv_fixture(std::string("good/") + name + ".csv"));
+    const Take clip = read_markers(csv_fixture(std::string("good/") + name + ".csv"));
     EXPECT_EQ(clip.names, plain.names);
     EXPECT_EQ(clip.positions, plain.positions);
     EXPECT_EQ(clip.observed, plain.observed);
@@ -107,7 +105,7 @@ TEST(CsvReader, QuotedNamesMayHoldCommasAndQuotes) {
 }
 
 TEST(CsvReader, ViconExportsAreRead) {
-  const MarkerClip clip = read_markers(csv_fixture("good/vicon.csv"));
+  const Take clip = read_markers(csv_fixture("good/vicon.csv"));
   EXPECT_THAT(clip.names, ElementsAre("Ann:LASI", "Ann:RASI"));
   EXPECT_EQ(clip.frame_rate_hz, 100);
   EXPECT_EQ(clip.unit, "mm");
@@ -116,7 +114,7 @@ TEST(CsvReader, ViconExportsAreRead) {
 }
 
 TEST(CsvReader, MarkersOfOptiTrackExportsAreRead) {
-  const MarkerClip clip = read_markers(csv_fixture("good/optitrack.csv"));
+  const Take clip = read_markers(csv_fixture("good/optitrack.csv"));
   EXPECT_THAT(clip.names, ElementsAre("Ann:LASI"));
   EXPECT_EQ(clip.frame_rate_hz, 120);
   EXPECT_EQ(metres_per_unit(clip.unit), 1);
@@ -167,8 +165,8 @@ TEST(CsvReader, LaboratoriesTablesAreReadRight) {
     SCOPED_TRACE(table.name);
     const std::string bytes = csv_fixture(std::string("good/") + table.name + ".csv");
     // By its content, under any name.
-    const AnyTake take = read_take(bytes, "take.txt").take;
-    const auto& clip = std::get<MarkerClip>(take);
+    const Take take = read_take(bytes, "take.txt").take;
+    const auto& clip = take;
     EXPECT_EQ(clip.names, table.markers);
     EXPECT_EQ(clip.frame_rate_hz, table.rate_hz);
     EXPECT_EQ(clip.unit, table.unit);
@@ -194,12 +192,12 @@ TEST(CsvReader, TheRateMayBeGiven) {
   ReadOptions options;
   options.frame_rate_hz = 250;
   const TakeResult result = read_table(csv_fixture("good/nothing_but_markers.csv"), options);
-  EXPECT_EQ(std::get<MarkerClip>(result.take).frame_rate_hz, 250);
+  EXPECT_EQ(result.take.frame_rate_hz, 250);
   EXPECT_TRUE(result.diagnostics.empty());
 }
 
 TEST(CsvReader, JointsHaveTheSkeletonOfTheLinesAbove) {
-  const Clip clip = read_joints(csv_fixture("good/joints.csv"));
+  const Take clip = joints_of(csv_fixture("good/joints.csv"));
   const Skeleton& skeleton = clip.skeleton;
   EXPECT_THAT(skeleton.names, ElementsAre("root", "Left; \"Hip\"", "Slider"));
   EXPECT_THAT(skeleton.parents, ElementsAre(-1, 0, 1));
@@ -224,7 +222,7 @@ TEST(CsvReader, JointsHaveTheSkeletonOfTheLinesAbove) {
 }
 
 TEST(CsvReader, JointsWithoutSkeletonHangOnTheFirst) {
-  const Clip clip = read_joints(csv_fixture("good/joints_without_skeleton.csv"));
+  const Take clip = joints_of(csv_fixture("good/joints_without_skeleton.csv"));
   EXPECT_THAT(clip.skeleton.names, ElementsAre("Hips", "Knee"));
   EXPECT_THAT(clip.skeleton.parents, ElementsAre(-1, 0));
   EXPECT_EQ(clip.rotation(1, 1), Quat{}) << "w stands last, and is not 1";
@@ -295,56 +293,56 @@ TEST(CsvWriter, EveryFixtureComesBackToTheByte) {
 
 TEST(CsvWriter, OnlyChangedSamplesGetNewDigits) {
   const std::string bytes = csv_fixture("good/gaps.csv");
-  MarkerClip clip = read_markers(bytes);
+  Take clip = read_markers(bytes);
   clip.position(0, 1) = {129.5, -188.3759, 724.125};
   clip.position(0, 0) = {1, 2, 3};
   clip.observed[0] = 1;
-  EXPECT_EQ(write_markers(clip, "csv"), with(with(bytes, "1,0.00,,,,129.5,-188.25,",
-                                                  "1,0.00,1.000,2.000,3.000,129.5,-188.376,"),
-                                             "-200.75,NaN,721.5,nan,nan,nan", ",,,,,"));
+  EXPECT_EQ(write_take(clip, "csv"), with(with(bytes, "1,0.00,,,,129.5,-188.25,",
+                                               "1,0.00,1.000,2.000,3.000,129.5,-188.376,"),
+                                          "-200.75,NaN,721.5,nan,nan,nan", ",,,,,"));
   const std::string quoted = csv_fixture("good/quoted_comma.csv");
   clip = read_markers(quoted);
   clip.position(0, 0).x = 5;
   clip.observed[1] = 0;
-  EXPECT_EQ(write_markers(clip, "csv"), with(with(quoted, "\"-201,25\"", "\"5,000\""),
-                                             "\"129,5\",\"-188,25\",\"724,125\"", ",,"));
+  EXPECT_EQ(write_take(clip, "csv"), with(with(quoted, "\"-201,25\"", "\"5,000\""),
+                                          "\"129,5\",\"-188,25\",\"724,125\"", ",,"));
 }
 
 TEST(CsvWriter, OnlyChangedJointsGetNewDigits) {
   const std::string bytes = csv_fixture("good/joints.csv");
-  Clip clip = read_joints(bytes);
+  Take clip = joints_of(bytes);
   clip.rotation(0, 1) = {0.8, 0, 0.6, 0};
   clip.root_position(1).x = 0.125;
   clip.position(2, 1).y = -42;
   std::string expected =
       with(with(bytes, "0.6,0.8,0,0,1,", "0.8,0,0.6,0,1,"), ",0.25,91", ",0.125,91");
   expected = with(expected, "0,-41,0", "0,-42,0");
-  EXPECT_EQ(write_clip(clip, "csv"), expected);
+  EXPECT_EQ(write_take(clip, "csv"), expected);
   clip.rotation(2, 1) = {0.6, 0, 0, 0.8};
   clip.observed[2 * 3 + 1] = 1;
-  EXPECT_EQ(write_clip(clip, "csv"), with(expected, "0.8,0,,,,,", "0.8,0,0.6,0,0,0.8,"));
+  EXPECT_EQ(write_take(clip, "csv"), with(expected, "0.8,0,,,,,", "0.8,0,0.6,0,0,0.8,"));
 }
 
 // Only the trajectories of an export change; what stands above and below them stays.
 TEST(CsvWriter, SectionsAndColumnsOfOtherThingsStay) {
   const std::string nexus = csv_fixture("good/nexus.csv");
-  MarkerClip clip = read_markers(nexus);
+  Take clip = read_markers(nexus);
   clip.position(2, 1) = {129, -187.5, 724.375};
-  EXPECT_EQ(write_markers(clip, "csv"), with(nexus, "-187.75", "-187.500"));
+  EXPECT_EQ(write_take(clip, "csv"), with(nexus, "-187.75", "-187.500"));
   EXPECT_TRUE(lost_in_writing(clip, "csv").empty());
   const std::string motive = csv_fixture("good/motive_125.csv");
   clip = read_markers(motive);
   clip.observed[2] = 1;
   clip.position(1, 0) = {1, 2, 3};
-  EXPECT_EQ(write_markers(clip, "csv"), with(motive, "1.0,,,,1,2,3", "1.0,1.00,2.00,3.00,1,2,3"));
+  EXPECT_EQ(write_take(clip, "csv"), with(motive, "1.0,,,,1,2,3", "1.0,1.00,2.00,3.00,1,2,3"));
 }
 
 TEST(CsvWriter, WhatATableLosesInANewLayoutIsNamed) {
-  const auto lost = [](const MarkerClip& clip, const char* format) {
+  const auto lost = [](const Take& clip, const char* format) {
     const Diagnostics losses = lost_in_writing(clip, format);
     return losses.empty() ? "" : losses.entries()[0].message;
   };
-  const MarkerClip nexus = read_markers(csv_fixture("good/nexus.csv"));
+  const Take nexus = read_markers(csv_fixture("good/nexus.csv"));
   const std::string sections = "the sections Devices, Model Outputs, Events are left out";
   EXPECT_EQ(lost(nexus, "c3d"), sections);
   EXPECT_EQ(lost(scale_lengths(nexus, 0.001, "m"), "csv"), sections);
@@ -357,23 +355,23 @@ TEST(CsvWriter, BvhComesBackFromCsvToTheDigit) {
   std::size_t compared = 0;
   for (const auto& path : fixtures_in("good")) {
     SCOPED_TRACE(path.filename());
-    Clip clip = read_clip(path).clip;
+    Take clip = read_joints(path).take;
     if (clip.joint_count() == 0 || clip.frame_count() == 0 || !clip.observed.empty()) continue;
     clip.source = {};
-    const TakeResult result = read_table(write_clip(clip, "csv"));
-    Clip again = std::get<Clip>(result.take);
+    const TakeResult result = read_table(write_take(clip, "csv"));
+    Take again = result.take;
     EXPECT_EQ(again.rotations, clip.rotations);
     EXPECT_EQ(again.positions, clip.positions);
     EXPECT_EQ(again.frame_rate_hz, clip.frame_rate_hz);
     again.source = {};
-    EXPECT_EQ(write_clip(again, "bvh"), write_clip(clip, "bvh"));
+    EXPECT_EQ(write_take(again, "bvh"), write_take(clip, "bvh"));
     ++compared;
   }
   EXPECT_GT(compared, 5u);
 }
 
 TEST(CsvWriter, MarkersMadeInMemoryReadBackExactly) {
-  MarkerClip clip = make_marker_clip({"A", "B, b", "Ann:C"}, 40, 30000 / 1001.0);
+  Take clip = make_marker_take({"A", "B, b", "Ann:C"}, 40, 30000 / 1001.0);
   clip.unit = "m";
   clip.first_frame = 7;
   Random random(3);
@@ -382,9 +380,9 @@ TEST(CsvWriter, MarkersMadeInMemoryReadBackExactly) {
     clip.observed[i] = 1;
     clip.positions[i] = {random.normal(), 1e-3 * random.normal(), -5};
   }
-  const TakeResult result = read_take(write_markers(clip, "csv"), "no extension", {});
+  const TakeResult result = read_take(write_take(clip, "csv"), "no extension", {});
   EXPECT_TRUE(result.diagnostics.empty());
-  const auto& again = std::get<MarkerClip>(result.take);
+  const auto& again = result.take;
   EXPECT_EQ(again.names, clip.names);
   EXPECT_EQ(again.positions, clip.positions);
   EXPECT_EQ(again.observed, clip.observed);
@@ -394,11 +392,11 @@ TEST(CsvWriter, MarkersMadeInMemoryReadBackExactly) {
 }
 
 TEST(CsvWriter, RefusesWhatTheFormatCannotHold) {
-  const auto error = [](const MarkerClip& clip) {
-    return message_of([&] { write_markers(clip, "csv"); }, ErrorKind::usage);
+  const auto error = [](const Take& clip) {
+    return message_of([&] { write_take(clip, "csv"); }, ErrorKind::usage);
   };
-  EXPECT_EQ(error(make_marker_clip({"a\nb"}, 1, 100)), "CSV cannot hold the name \"a.b\"");
-  EXPECT_EQ(error(make_marker_clip({}, 0, 100)), "CSV cannot hold a clip without markers");
+  EXPECT_EQ(error(make_marker_take({"a\nb"}, 1, 100)), "CSV cannot hold the name \"a.b\"");
+  EXPECT_EQ(error(make_marker_take({}, 0, 100)), "CSV cannot hold a clip without markers");
 }
 
 }  // namespace

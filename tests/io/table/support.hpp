@@ -13,10 +13,10 @@ inline std::string trc_fixture(const std::string& name) {
   return read_file(std::filesystem::path(KINEMEND_TEST_FIXTURES) / "trc" / name);
 }
 
-inline MarkerClip read_trc(std::string bytes) {
+inline Take read_trc(std::string bytes) {
   ReadOptions options;
   options.format = "trc";
-  return std::get<MarkerClip>(read_take(std::move(bytes), "take.trc", options).take);
+  return read_take(std::move(bytes), "take.trc", options).take;
 }
 
 /// The text with `from` (which it holds once) replaced.

@@ -30,7 +30,7 @@ std::map<std::string, std::size_t> trc_repairs_of(const std::string& name) {
   return counts;
 }
 
-std::string observed_text(const MarkerClip& clip) {
+std::string observed_text(const Take& clip) {
   std::string text;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     for (std::size_t m = 0; m < clip.marker_count(); ++m)
@@ -42,8 +42,8 @@ std::string observed_text(const MarkerClip& clip) {
 
 void expect_like_plain(const std::string& name) {
   SCOPED_TRACE(name);
-  const MarkerClip plain = read_trc(trc_fixture("good/plain.trc"));
-  const MarkerClip clip = read_trc(trc_fixture(name));
+  const Take plain = read_trc(trc_fixture("good/plain.trc"));
+  const Take clip = read_trc(trc_fixture(name));
   EXPECT_EQ(clip.names, plain.names);
   EXPECT_EQ(clip.positions, plain.positions);
   EXPECT_EQ(clip.observed, plain.observed);
@@ -54,7 +54,7 @@ void expect_like_plain(const std::string& name) {
 TEST(TrcReader, ReadsNamesPositionsRateAndUnit) {
   const TakeResult result = read_trc_take(trc_fixture("good/plain.trc"));
   EXPECT_TRUE(result.diagnostics.empty());
-  const auto& clip = std::get<MarkerClip>(result.take);
+  const auto& clip = result.take;
   EXPECT_THAT(clip.names, ElementsAre("LASI", "RASI"));
   EXPECT_THAT(
       clip.positions,
@@ -141,38 +141,38 @@ TEST(TrcReader, MissingSamplesAreMaskedWhicheverWayTheyAreWritten) {
   EXPECT_EQ(observed_text(read_trc(trc_fixture("good/zeros.trc"))), "11 01 11");
   EXPECT_EQ(observed_text(read_trc(trc_fixture("good/short_rows.trc"))), "11 10 00");
   EXPECT_EQ(observed_text(read_trc(trc_fixture("good/cut_row.trc"))), "11 11 00");
-  const MarkerClip clip = read_trc(trc_fixture("good/nan.trc"));
+  const Take clip = read_trc(trc_fixture("good/nan.trc"));
   EXPECT_EQ(clip.position(1, 0), Vec3{});
   EXPECT_EQ(clip.position(1, 1), Vec3{});
 }
 
 TEST(TrcReader, AMarkerThatPassesTheOriginIsNotMissing) {
-  const MarkerClip clip = read_trc(trc_fixture("good/through_origin.trc"));
+  const Take clip = read_trc(trc_fixture("good/through_origin.trc"));
   EXPECT_EQ(observed_text(clip), "11 11 11");
   EXPECT_EQ(clip.position(1, 0), Vec3{});
 }
 
 TEST(TrcReader, MetresAreMetres) {
-  const MarkerClip clip = read_trc(trc_fixture("good/metres.trc"));
+  const Take clip = read_trc(trc_fixture("good/metres.trc"));
   EXPECT_EQ(clip.unit, "m");
   EXPECT_EQ(clip.position(2, 1), (Vec3{0.1295, -0.1880, 0.7244}));
 }
 
 TEST(TrcReader, MarkersWithoutNamesAreCountedByTheWidestRow) {
-  const MarkerClip clip = read_trc(trc_fixture("good/unnamed.trc"));
+  const Take clip = read_trc(trc_fixture("good/unnamed.trc"));
   EXPECT_THAT(clip.names, ElementsAre("*1", "*2"));
   EXPECT_EQ(observed_text(clip), "00 10 11");
   EXPECT_EQ(clip.position(2, 1), (Vec3{129.51600, -187.97800, 724.38200}));
 }
 
 TEST(TrcReader, FramesMayStartLater) {
-  const MarkerClip clip = read_trc(trc_fixture("good/later_start.trc"));
+  const Take clip = read_trc(trc_fixture("good/later_start.trc"));
   EXPECT_EQ(clip.first_frame, 103);
   EXPECT_EQ(clip.frame_rate_hz, 100);
 }
 
 TEST(TrcReader, QuotesAreNoPartOfNamesAndNumbers) {
-  const MarkerClip clip = read_trc(trc_fixture("good/quoted.trc"));
+  const Take clip = read_trc(trc_fixture("good/quoted.trc"));
   EXPECT_THAT(clip.names, ElementsAre("L ASI", "R ASI"));
   EXPECT_EQ(clip.position(0, 0).x, -201.20056);
 }
@@ -196,7 +196,7 @@ TEST(TrcReader, TimesGiveTheRateWhereTheHeaderHasNone) {
   options.frame_rate_hz = 250;
   options.format = "trc";
   const auto result = read_take(head + "1\t\t1\t2\t3\n2\t\t1\t2\t3\n", "a.trc", options);
-  EXPECT_EQ(std::get<MarkerClip>(result.take).frame_rate_hz, 250);
+  EXPECT_EQ(result.take.frame_rate_hz, 250);
   EXPECT_EQ(result.diagnostics.count("frame_rate_assumed"), 1);
 }
 
@@ -229,8 +229,8 @@ TEST(TrcReader, StrictRefusesRepairs) {
 }
 
 TEST(TrcReader, IsFoundByItsFirstWord) {
-  const AnyTake take = read_take(trc_fixture("good/bom.trc"), "no extension", {}).take;
-  EXPECT_EQ(source_of(take).format, "trc");
+  const Take take = read_take(trc_fixture("good/bom.trc"), "no extension", {}).take;
+  EXPECT_EQ(take.source.format, "trc");
 }
 
 }  // namespace

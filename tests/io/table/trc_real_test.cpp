@@ -44,12 +44,12 @@ TEST(RealTrc, EveryFileIsReadToTheLastSampleAndComesBackToTheByte) {
     SCOPED_TRACE(path.filename());
     const std::string bytes = read_file(path);
     const TakeResult result = read_take(path);
-    const auto& clip = std::get<MarkerClip>(result.take);
+    const auto& clip = result.take;
     clip.validate();
     EXPECT_EQ(static_cast<std::size_t>(
                   std::count(clip.observed.begin(), clip.observed.end(), std::uint8_t{1})),
               full_triples(bytes) - result.diagnostics.count("zero_is_missing"));
-    EXPECT_EQ(write_markers(clip, "trc"), bytes);
+    EXPECT_EQ(write_take(clip, "trc"), bytes);
     ++read;
   }
   EXPECT_EQ(read, 10u);
@@ -65,10 +65,8 @@ TEST(RealTrc, EmptyAndTruncatedFilesAreOneClearLine) {
 }
 
 TEST(RealTrc, KnownFactsHold) {
-  const auto read = [](const char* name) {
-    return std::get<MarkerClip>(read_take(folder / name).take);
-  };
-  const MarkerClip gait = read("Gait.trc");
+  const auto read = [](const char* name) { return read_take(folder / name).take; };
+  const Take gait = read("Gait.trc");
   // 33 have names, the header says 66, the widest row holds 105.
   EXPECT_EQ(gait.marker_count(), 105u);
   EXPECT_EQ(gait.names[32], "PX");
@@ -76,11 +74,11 @@ TEST(RealTrc, KnownFactsHold) {
   EXPECT_EQ(gait.frame_count(), 487u);
   EXPECT_EQ(gait.frame_rate_hz, 100);
   EXPECT_EQ(gait.names[0], "R.Shoulder");
-  const MarkerClip motek = read("MOTEK/ballet_reduced.trc");
+  const Take motek = read("MOTEK/ballet_reduced.trc");
   EXPECT_EQ(motek.marker_count(), 41u);
   EXPECT_EQ(motek.frame_rate_hz, 30);
   EXPECT_EQ(motek.position(99, 0), (Vec3{-68.85837, 1595.47900, -80.09546}));
-  const MarkerClip unnamed = read("10002-20130731010438-Unnamed.trc");
+  const Take unnamed = read("10002-20130731010438-Unnamed.trc");
   EXPECT_EQ(unnamed.names[0], "*1");
   EXPECT_EQ(unnamed.frame_count(), 1313u);
   EXPECT_EQ(unnamed.frame_rate_hz, 400);

@@ -20,14 +20,12 @@ TakeResult read_table(std::string bytes, ReadOptions options = {}) {
   return read_take(std::move(bytes), "take.tsv", options);
 }
 
-MarkerClip read_markers(const std::string& name) {
-  return std::get<MarkerClip>(read_table(tsv_fixture(name)).take);
-}
+Take read_markers(const std::string& name) { return read_table(tsv_fixture(name)).take; }
 
 TEST(TsvReader, ReadsNamesPositionsRateAndUnit) {
   const TakeResult result = read_table(tsv_fixture("good/plain.tsv"));
   EXPECT_TRUE(result.diagnostics.empty());
-  const auto& clip = std::get<MarkerClip>(result.take);
+  const auto& clip = result.take;
   EXPECT_THAT(clip.names, ElementsAre("Wrist_L", "Hip_L"));
   EXPECT_EQ(clip.frame_count(), 3u);
   EXPECT_EQ(clip.position(0, 0), (Vec3{-473.521, 191.980, 613.382}));
@@ -38,11 +36,11 @@ TEST(TsvReader, ReadsNamesPositionsRateAndUnit) {
 }
 
 TEST(TsvReader, LayoutsOfTheSameTakeReadTheSame) {
-  const MarkerClip plain = read_markers("good/plain.tsv");
+  const Take plain = read_markers("good/plain.tsv");
   for (const char* const name : {"crlf", "no_types", "frame_time", "labels", "trailing_tabs",
                                  "events", "external_rate", "decimal_comma", "wrong_counts"}) {
     SCOPED_TRACE(name);
-    const MarkerClip clip = read_markers(std::string("good/") + name + ".tsv");
+    const Take clip = read_markers(std::string("good/") + name + ".tsv");
     EXPECT_EQ(clip.names, plain.names);
     EXPECT_EQ(clip.positions, plain.positions);
     EXPECT_EQ(clip.observed, plain.observed);
@@ -60,7 +58,7 @@ TEST(TsvReader, EmptyCellsOrElseZerosAreMissing) {
 }
 
 TEST(TsvReader, EventsAreRead) {
-  const MarkerClip clip = read_markers("good/events.tsv");
+  const Take clip = read_markers("good/events.tsv");
   ASSERT_EQ(clip.events.size(), 1u);
   EXPECT_EQ(clip.events[0].label, "Foot strike");
   EXPECT_EQ(clip.events[0].time_s, 0.00833);
@@ -108,7 +106,7 @@ TEST(TsvReader, IsFoundByContent) {
     const std::string bytes = read_file(path);
     if (bytes.empty()) continue;
     try {
-      EXPECT_EQ(source_of(read_take(bytes, "take.txt").take).format, "tsv") << path;
+      EXPECT_EQ(read_take(bytes, "take.txt").take.source.format, "tsv") << path;
     } catch (const Error& error) {
       EXPECT_EQ(path.parent_path().filename(), "bad") << error.what();
     }
@@ -125,24 +123,24 @@ TEST(TsvWriter, EveryFixtureComesBackToTheByte) {
 
 TEST(TsvWriter, OnlyChangedSamplesGetNewDigits) {
   const std::string bytes = tsv_fixture("good/labels.tsv");
-  MarkerClip clip = read_markers("good/labels.tsv");
+  Take clip = read_markers("good/labels.tsv");
   clip.position(1, 1).y = 165;
   std::string expected = bytes;
   const std::size_t at = expected.find("164.822");
   expected.replace(at, 7, "165.000");
-  EXPECT_EQ(write_markers(clip, "tsv"), expected);
+  EXPECT_EQ(write_take(clip, "tsv"), expected);
 }
 
 // Once a cell is empty, zeros say no longer that a sample is missing.
 TEST(TsvWriter, MissingSamplesStayMissingBesideNewOnes) {
-  MarkerClip clip = read_markers("good/zeros.tsv");
+  Take clip = read_markers("good/zeros.tsv");
   clip.observed[0] = 0;
-  const AnyTake again = read_table(write_markers(clip, "tsv")).take;
-  EXPECT_EQ(std::get<MarkerClip>(again).observed, clip.observed);
+  const Take again = read_table(write_take(clip, "tsv")).take;
+  EXPECT_EQ(again.observed, clip.observed);
 }
 
 TEST(TsvWriter, TakesOfOtherFormatsReadBack) {
-  MarkerClip clip = make_marker_clip({"Ann:LASI", "B"}, 3, 59.94);
+  Take clip = make_marker_take({"Ann:LASI", "B"}, 3, 59.94);
   clip.unit = "mm";
   clip.first_frame = 7;
   clip.events = {{"Foot strike", "Left", 0.25}};
@@ -150,9 +148,9 @@ TEST(TsvWriter, TakesOfOtherFormatsReadBack) {
     clip.positions[i] = {0.5 * static_cast<double>(i), -1.25, 0.0625};
     clip.observed[i] = 1;
   }
-  const TakeResult result = read_table(write_markers(clip, "tsv"));
+  const TakeResult result = read_table(write_take(clip, "tsv"));
   EXPECT_TRUE(result.diagnostics.empty());
-  const auto& again = std::get<MarkerClip>(result.take);
+  const auto& again = result.take;
   EXPECT_EQ(again.names, clip.names);
   EXPECT_EQ(again.observed, clip.observed);
   EXPECT_EQ(again.positions, clip.positions);
@@ -166,7 +164,7 @@ TEST(TsvWriter, TakesOfOtherFormatsReadBack) {
       lost_in_writing(clip, "tsv").entries()[0].message,
       "tsv files cannot hold measured samples at 0 0 0 (1), which it uses for missing markers");
   clip.unit = "m";
-  EXPECT_EQ(message_of([&] { write_markers(clip, "tsv"); }, ErrorKind::usage),
+  EXPECT_EQ(message_of([&] { write_take(clip, "tsv"); }, ErrorKind::usage),
             "TSV files are in millimetres, the take is in \"m\"");
 }
 
@@ -175,26 +173,26 @@ TEST(TsvWriter, ARowWithoutAnySampleStaysAFrame) {
   const std::string text =
       "NO_OF_FRAMES\t3\nNO_OF_MARKERS\t1\nFREQUENCY\t100\nMARKER_NAMES\tA\n"
       "1\t2\t3\n4\t5\t6\n7\t8\t9\n";
-  auto clip = std::get<MarkerClip>(read_table(text).take);
+  auto clip = read_table(text).take;
   ASSERT_EQ(clip.frame_count(), 3u);
   clip.observed[1] = 0;
-  const auto again = std::get<MarkerClip>(read_table(write_markers(clip, "tsv")).take);
+  const auto again = read_table(write_take(clip, "tsv")).take;
   EXPECT_THAT(again.observed, ElementsAre(1, 0, 1));
   EXPECT_EQ(again.position(2, 0), (Vec3{7, 8, 9}));
 }
 
 TEST(TsvWriter, NamesWithQuotesBlanksAndTabsReadBack) {
-  MarkerClip clip = make_marker_clip({"a\"b", "\"c\"", " d ", "\"e\tf\"g"}, 1, 100);
+  Take clip = make_marker_take({"a\"b", "\"c\"", " d ", "\"e\tf\"g"}, 1, 100);
   clip.unit = "mm";
   for (std::size_t m = 0; m < 4; ++m) clip.positions[m] = {1, 2, static_cast<double>(m)};
   clip.observed.assign(4, 1);
-  const std::string written = write_markers(clip, "tsv");
+  const std::string written = write_take(clip, "tsv");
   const TakeResult result = read_table(written);
   EXPECT_TRUE(result.diagnostics.empty());
-  EXPECT_EQ(std::get<MarkerClip>(result.take).names, clip.names);
-  EXPECT_EQ(std::get<MarkerClip>(result.take).positions, clip.positions);
+  EXPECT_EQ(result.take.names, clip.names);
+  EXPECT_EQ(result.take.positions, clip.positions);
   clip.names[0] = "a\nb";
-  EXPECT_EQ(message_of([&] { write_markers(clip, "tsv"); }, ErrorKind::usage),
+  EXPECT_EQ(message_of([&] { write_take(clip, "tsv"); }, ErrorKind::usage),
             "TSV cannot hold the name \"a.b\"");
 }
 

@@ -23,23 +23,18 @@ namespace {
 
 using testing::HasSubstr;
 
-Clip noisy_walk(double noise_deg = 0) {
+Take noisy_walk(double noise_deg = 0) {
   SynthOptions options;
   options.motion = "walk";
   options.duration_s = 2;
   options.frame_rate_hz = 60;
-  Clip clip = synthesize(options);
+  Take clip = synthesize(options);
   if (noise_deg > 0) add_noise(clip, noise_deg, 0.2, 3);
   return clip;
 }
 
-BodyLayout layout_of(const Clip& clip, std::vector<std::string> names = {}) {
+BodyLayout layout_of(const Take& clip, std::vector<std::string> names = {}) {
   BodyLayoutBuilder builder(std::move(names));
-  builder.add(clip);
-  return builder.finish();
-}
-BodyLayout layout_of(const MarkerClip& clip) {
-  BodyLayoutBuilder builder;
   builder.add(clip);
   return builder.finish();
 }
@@ -94,8 +89,8 @@ PriorFilter unlimited(PriorFilter filter) {
 }
 
 TEST(PriorCleaning, BringsATakeBackThatTheFilterLeftAlone) {
-  const Clip before = noisy_walk(1.5);
-  Clip after = before;
+  const Take before = noisy_walk(1.5);
+  Take after = before;
   const InPlaceTrace trace =
       clean_in_place(Filtering(layout_of(before), true, unlimited(keep)), after);
   EXPECT_LT(max_angle_deg(before, after), 1e-6);
@@ -105,8 +100,8 @@ TEST(PriorCleaning, BringsATakeBackThatTheFilterLeftAlone) {
 }
 
 TEST(PriorCleaning, PutsTheMeanPoseWhereTheFilterAnswersZero) {
-  const Clip before = noisy_walk(2);
-  Clip after = before;
+  const Take before = noisy_walk(2);
+  Take after = before;
   const BodyLayout layout = layout_of(before);
   clean_in_place(Filtering(layout, true, unlimited(flatten)), after);
   const auto arm = static_cast<std::size_t>(before.skeleton.find("LeftArm"));
@@ -116,26 +111,26 @@ TEST(PriorCleaning, PutsTheMeanPoseWhereTheFilterAnswersZero) {
 }
 
 TEST(PriorCleaning, KeepsItsHandsOffACleanTakeToTheLastDigit) {
-  const Clip before = noisy_walk();
-  Clip after = before;
+  const Take before = noisy_walk();
+  Take after = before;
   const InPlaceTrace trace = clean_in_place(Filtering(layout_of(before), true, flatten), after);
   EXPECT_EQ(after.rotations, before.rotations);
   EXPECT_EQ(after.positions, before.positions);
   EXPECT_EQ(count_of(trace, Action::despiked) + count_of(trace, Action::filled), 0);
 
-  const MarkerClip markers = marker_take("walk", 2, 60);
-  MarkerClip kept = markers;
+  const Take markers = marker_take("walk", 2, 60);
+  Take kept = markers;
   clean_in_place(Filtering(layout_of(markers), true, flatten), kept);
   EXPECT_EQ(kept.positions, markers.positions);
 }
 
 TEST(PriorCleaning, GoesAsFarAsTheNoiseAsksFor) {
-  const Clip truth = noisy_walk();
+  const Take truth = noisy_walk();
   const auto arm = static_cast<std::size_t>(truth.skeleton.find("LeftArm"));
   double before = 0;
   for (const double noise_deg : {0.3, 0.5, 0.6, 0.7, 0.9}) {
-    const Clip noisy = noisy_walk(noise_deg);
-    Clip after = noisy;
+    const Take noisy = noisy_walk(noise_deg);
+    Take after = noisy;
     clean_in_place(Filtering(layout_of(truth), true, unlimited(flatten)), after);
     const double change = geodesic_rms_deg_per_joint(noisy, after)[arm];
     EXPECT_GE(change, before - 0.1) << noise_deg;
@@ -145,10 +140,10 @@ TEST(PriorCleaning, GoesAsFarAsTheNoiseAsksFor) {
 }
 
 TEST(PriorCleaning, AFilterOfWhiteNoiseLeavesNoiseWithAColourToAuto) {
-  Clip noisy = synthesize({.motion = "walk", .duration_s = 6});
+  Take noisy = synthesize({.motion = "walk", .duration_s = 6});
   Random random(3);
   apply_damage(noisy, "ar1", {{"std_deg", 1.5}, {"correlation", 0.8}}, random);
-  Clip by_auto = noisy;
+  Take by_auto = noisy;
   clean_in_place(*make_auto(), by_auto);
   bool is_white = true, has_run = false;
   const auto note = [&](PriorWork& work) {
@@ -156,7 +151,7 @@ TEST(PriorCleaning, AFilterOfWhiteNoiseLeavesNoiseWithAColourToAuto) {
     is_white = work.is_white;
     has_run = true;
   };
-  Clip filtered = noisy;
+  Take filtered = noisy;
   clean_in_place(Filtering(layout_of(noisy), true, note), filtered);
   EXPECT_FALSE(is_white);
   filtered = noisy;
@@ -177,12 +172,12 @@ TEST(PriorCleaning, AFilterOfWhiteNoiseLeavesNoiseWithAColourToAuto) {
 
 // What the filter puts into a gap joins the samples beside it, which it may not change.
 TEST(PriorCleaning, WhatIsFilledInACleanTakeMeetsTheSamplesBesideIt) {
-  const Clip truth = noisy_walk();
+  const Take truth = noisy_walk();
   const auto arm = static_cast<std::size_t>(truth.skeleton.find("LeftArm"));
-  Clip clip = truth;
+  Take clip = truth;
   clip.observed.assign(clip.rotations.size(), 1);
   for (std::size_t f = 40; f < 60; ++f) clip.observed[f * clip.joint_count() + arm] = 0;
-  Clip after = clip;
+  Take after = clip;
   clean_in_place(Filtering(layout_of(truth), true, flatten), after);
   double usual = 0;
   for (std::size_t f = 1; f < truth.frame_count(); ++f)
@@ -192,12 +187,12 @@ TEST(PriorCleaning, WhatIsFilledInACleanTakeMeetsTheSamplesBesideIt) {
 }
 
 TEST(PriorCleaning, ChangesWhatIsSelectedOnly) {
-  const Clip before = noisy_walk(1.5);
+  const Take before = noisy_walk(1.5);
   const auto arm = static_cast<std::size_t>(before.skeleton.find("LeftArm"));
   CleanSettings settings;
   settings.joints = {"LeftArm"};
   const Filtering cleaner(layout_of(before), true, flatten);
-  const Clip after = clean_clip(before, cleaner, settings).clip;
+  const Take after = clean_take(before, cleaner, settings).take;
   for (std::size_t f = 0; f < before.frame_count(); ++f) {
     EXPECT_EQ(after.root_position(f), before.root_position(f));
     for (std::size_t j = 0; j < before.joint_count(); ++j) {
@@ -209,9 +204,9 @@ TEST(PriorCleaning, ChangesWhatIsSelectedOnly) {
 }
 
 TEST(PriorCleaning, LeavesJointsThatTheModelDoesNotKnowToAuto) {
-  const Clip before = noisy_walk(1.5);
+  const Take before = noisy_walk(1.5);
   const BodyLayout layout = layout_of(before, {"Hips", "*Leg", "*UpLeg"});
-  Clip after = before, by_auto = before;
+  Take after = before, by_auto = before;
   clean_in_place(Filtering(layout, true, unlimited(keep)), after);
   clean_in_place(*make_auto(), by_auto);
   const auto arm = static_cast<std::size_t>(before.skeleton.find("LeftArm"));
@@ -223,7 +218,7 @@ TEST(PriorCleaning, LeavesJointsThatTheModelDoesNotKnowToAuto) {
 }
 
 TEST(PriorCleaning, TellsTheFilterWhatIsMissingWhatIsSuspectAndHowLoudTheNoiseIs) {
-  Clip clip = noisy_walk(2);
+  Take clip = noisy_walk(2);
   const auto arm = static_cast<std::size_t>(clip.skeleton.find("LeftArm"));
   clip.observed.assign(clip.rotations.size(), 1);
   for (std::size_t f = 20; f < 30; ++f) clip.observed[f * clip.joint_count() + arm] = 0;
@@ -243,9 +238,9 @@ TEST(PriorCleaning, TellsTheFilterWhatIsMissingWhatIsSuspectAndHowLoudTheNoiseIs
 }
 
 TEST(PriorCleaning, FillsGapsOfJointsOrBridgesThem) {
-  Clip clip = noisy_walk();
+  Take clip = noisy_walk();
   const auto arm = static_cast<std::size_t>(clip.skeleton.find("LeftArm"));
-  const Clip truth = clip;
+  const Take truth = clip;
   const BodyLayout layout = layout_of(truth);
   clip.observed.assign(clip.rotations.size(), 1);
   for (std::size_t f = 20; f < 40; ++f) {
@@ -257,7 +252,7 @@ TEST(PriorCleaning, FillsGapsOfJointsOrBridgesThem) {
     work.channels.poses =
         encode_body(truth, layout, match_body(layout, truth), work.channels).poses;
   };
-  Clip filled = clip, bridged = clip;
+  Take filled = clip, bridged = clip;
   const InPlaceTrace trace = clean_in_place(Filtering(layout, true, oracle), filled);
   EXPECT_LT(max_angle_deg(filled, truth), 1e-6);
   EXPECT_EQ(trace.actions[arm][25], Action::filled);
@@ -267,9 +262,9 @@ TEST(PriorCleaning, FillsGapsOfJointsOrBridgesThem) {
 }
 
 TEST(PriorCleaning, LeavesJointsThatFlipToAutoButNotThoseThatAreMissing) {
-  const Clip truth = noisy_walk();
+  const Take truth = noisy_walk();
   const BodyLayout layout = layout_of(truth);
-  Clip clip = truth;
+  Take clip = truth;
   const auto left = static_cast<std::size_t>(clip.skeleton.find("LeftHand"));
   const auto right = static_cast<std::size_t>(clip.skeleton.find("RightHand"));
   clip.observed.assign(clip.rotations.size(), 1);
@@ -279,7 +274,7 @@ TEST(PriorCleaning, LeavesJointsThatFlipToAutoButNotThoseThatAreMissing) {
     clip.observed[f * clip.joint_count() + right] = 0;
     clip.rotation(f, right) = exp({3, 0, 0});
   }
-  Clip after = clip, by_auto = clip;
+  Take after = clip, by_auto = clip;
   clean_in_place(*make_auto(), by_auto);
   clean_in_place(Filtering(layout, true, flatten), after);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -290,7 +285,7 @@ TEST(PriorCleaning, LeavesJointsThatFlipToAutoButNotThoseThatAreMissing) {
 }
 
 TEST(PriorCleaning, ReportsRejectedMeasurementsAsSpikes) {
-  Clip clip = noisy_walk(1);
+  Take clip = noisy_walk(1);
   const BodyLayout layout = layout_of(clip);
   const std::size_t part = part_called(layout, "RightArm");
   const auto joint = static_cast<std::size_t>(clip.skeleton.find("RightArm"));
@@ -306,7 +301,7 @@ TEST(PriorCleaning, ReportsRejectedMeasurementsAsSpikes) {
 }
 
 TEST(PriorCleaning, NamesWhatTheTakeLacks) {
-  Clip clip = noisy_walk();
+  Take clip = noisy_walk();
   const BodyLayout layout = layout_of(clip);
   const auto hand = static_cast<std::size_t>(clip.skeleton.find("LeftHand"));
   clip.skeleton.names[hand] = "Gripper";
@@ -315,7 +310,7 @@ TEST(PriorCleaning, NamesWhatTheTakeLacks) {
   ASSERT_FALSE(trace.warnings.empty());
   EXPECT_THAT(trace.warnings[0], HasSubstr("LeftHand"));
 
-  Clip other = moving_take(30, 60);
+  Take other = moving_take(30, 60);
   try {
     clean_in_place(Filtering(layout, true, keep), other);
     FAIL() << "a body that the model does not know";
@@ -328,16 +323,16 @@ TEST(PriorCleaning, NamesWhatTheTakeLacks) {
 TEST(PriorCleaning, TakesAnyNumberOfFrames) {
   const BodyLayout layout = layout_of(noisy_walk());
   for (const std::size_t frames : {0, 1, 2, 3, 5}) {
-    Clip clip = slice(noisy_walk(1), 0, frames);
+    Take clip = slice(noisy_walk(1), 0, frames);
     clean_in_place(Filtering(layout, true, keep), clip);
     EXPECT_EQ(clip.frame_count(), frames);
   }
 }
 
 TEST(PriorCleaning, FillsMarkersThatAreNeverSeen) {
-  const MarkerClip truth = marker_take("walk", 2, 60);
+  const Take truth = marker_take("walk", 2, 60);
   const BodyLayout layout = layout_of(truth);
-  MarkerClip clip = truth;
+  Take clip = truth;
   const auto marker = static_cast<std::size_t>(clip.find("LeftHand1"));
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     clip.observed[f * clip.marker_count() + marker] = 0;
@@ -348,18 +343,18 @@ TEST(PriorCleaning, FillsMarkersThatAreNeverSeen) {
         encode_body(truth, layout, match_body(layout, truth), work.channels).poses;
   };
   const Filtering filling(layout, true, oracle), leaving(layout, false, oracle);
-  const MarkerResult filled = clean_markers(clip, filling);
+  const CleanResult filled = clean_take(clip, filling);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-    ASSERT_TRUE(filled.clip.is_observed(f, marker));
-    EXPECT_LT(norm(filled.clip.position(f, marker) - truth.position(f, marker)), 1e-6);
+    ASSERT_TRUE(filled.take.is_observed(f, marker));
+    EXPECT_LT(norm(filled.take.position(f, marker) - truth.position(f, marker)), 1e-6);
   }
   EXPECT_EQ(filled.report.tracks[marker].frames_missing, 0u);
-  EXPECT_FALSE(clean_markers(clip, leaving).clip.is_observed(5, marker));
+  EXPECT_FALSE(clean_take(clip, leaving).take.is_observed(5, marker));
 }
 
 TEST(PriorCleaning, FillsNoMarkerOutsideTheRangeOrTheSelection) {
-  const MarkerClip truth = marker_take("walk", 2, 60);
-  MarkerClip clip = truth;
+  const Take truth = marker_take("walk", 2, 60);
+  Take clip = truth;
   const auto marker = static_cast<std::size_t>(clip.find("LeftHand1"));
   const auto other = static_cast<std::size_t>(clip.find("RightHand1"));
   for (std::size_t f = 10; f < 60; ++f) {
@@ -370,7 +365,7 @@ TEST(PriorCleaning, FillsNoMarkerOutsideTheRangeOrTheSelection) {
   settings.range = {30, 119};
   settings.exclude = {"RightHand1"};
   const Filtering cleaner(layout_of(truth), true, keep);
-  const MarkerClip after = clean_markers(clip, cleaner, settings).clip;
+  const Take after = clean_take(clip, cleaner, settings).take;
   for (std::size_t f = 0; f < 60; ++f) {
     EXPECT_EQ(after.is_observed(f, marker), f < 10 || f >= 30) << f;
     EXPECT_EQ(after.is_observed(f, other), f < 10) << f;

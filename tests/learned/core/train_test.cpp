@@ -57,7 +57,7 @@ TEST(LearnedMethods, AnswersAnUnknownNameWithTheOneMeant) {
 TEST(TrainModel, RefusesWhatMakesNoSenseBeforeATakeIsRead) {
   const TrainingTakes unread{1, [](std::size_t) -> Take {
                                ADD_FAILURE() << "a take was read";
-                               return Clip();
+                               return Take();
                              }};
   for (const LearnedMethod& method : learned_methods()) {
     const auto message = [&](const OptionValues& values) {

@@ -18,7 +18,7 @@
 namespace kinemend {
 namespace {
 
-Clip walk_at(std::uint64_t seed, double rate_hz = 60) {
+Take walk_at(std::uint64_t seed, double rate_hz = 60) {
   SynthOptions options;
   options.duration_s = 3;
   options.frame_rate_hz = rate_hz;
@@ -26,9 +26,8 @@ Clip walk_at(std::uint64_t seed, double rate_hz = 60) {
   return synthesize(options);
 }
 
-MarkerClip markers_of(const Clip& clip) {
-  MarkerClip markers =
-      make_marker_clip(clip.skeleton.names, clip.frame_count(), clip.frame_rate_hz);
+Take markers_of(const Take& clip) {
+  Take markers = make_marker_take(clip.skeleton.names, clip.frame_count(), clip.frame_rate_hz);
   markers.positions = joint_positions(clip);
   markers.observed.assign(markers.positions.size(), 1);
   return markers;
@@ -72,11 +71,11 @@ Model trained(const LearnedMethod& method, const TrainingTakes& takes,
 }
 
 TEST(TakeStore, GivesTakesBackToTheBit) {
-  Clip clip = walk_at(1);
+  Take clip = walk_at(1);
   lose_frames(clip);
   test::add_translations(clip, {2}, Vec3{1, 2, 3});
   clip.observed_positions.assign(2 * clip.frame_count(), 1);
-  MarkerClip markers = markers_of(clip);
+  Take markers = markers_of(clip);
   markers.residuals.assign(markers.positions.size(), 0.25F);
   markers.unit = "cm";
   for (const std::size_t most_memory : {std::size_t{0}, std::size_t{1} << 24}) {
@@ -84,7 +83,7 @@ TEST(TakeStore, GivesTakesBackToTheBit) {
     store.add(clip);
     store.add(markers);
     ASSERT_EQ(store.count(), 2u);
-    const Clip again = store.take(0);
+    const Take again = store.take(0);
     EXPECT_EQ(again.skeleton.names, clip.skeleton.names);
     EXPECT_EQ(again.frame_rate_hz, clip.frame_rate_hz);
     EXPECT_EQ(again.positions, clip.positions);
@@ -92,7 +91,7 @@ TEST(TakeStore, GivesTakesBackToTheBit) {
     EXPECT_EQ(again.translated_joints, clip.translated_joints);
     EXPECT_EQ(again.observed, clip.observed);
     EXPECT_EQ(again.observed_positions, clip.observed_positions);
-    const MarkerClip seen = store.take(1);
+    const Take seen = store.take(1);
     EXPECT_EQ(seen.names, markers.names);
     EXPECT_EQ(seen.unit, "cm");
     EXPECT_EQ(seen.positions, markers.positions);

@@ -13,7 +13,7 @@ namespace {
 
 TEST(KnownBody, SeesABridgeOverAGapAndNotTheSampleBeforeIt) {
   constexpr std::size_t length = 24;
-  const Clip truth = synthesize({.motion = "walk", .duration_s = 2, .frame_rate_hz = 120});
+  const Take truth = synthesize({.motion = "walk", .duration_s = 2, .frame_rate_hz = 120});
   const auto knee = static_cast<std::size_t>(truth.skeleton.find("LeftLeg"));
   // Where the ends of the gap are farthest apart.
   std::size_t first = 20;
@@ -26,7 +26,7 @@ TEST(KnownBody, SeesABridgeOverAGapAndNotTheSampleBeforeIt) {
   BodyLayoutBuilder builder;
   builder.add(truth);
   const BodyLayout layout = builder.finish();
-  Clip clip = truth;
+  Take clip = truth;
   const NamedGap gap{"LeftLeg", first, last};
   mark_gaps(clip, {&gap, 1});
   const TakeView view = view_of(clip);

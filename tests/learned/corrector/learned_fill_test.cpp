@@ -19,14 +19,14 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 
-Clip walk_with_gap(double duration_s, double rate_hz, std::size_t first, std::size_t last) {
-  Clip clip = synthesize({.motion = "walk", .duration_s = duration_s, .frame_rate_hz = rate_hz});
+Take walk_with_gap(double duration_s, double rate_hz, std::size_t first, std::size_t last) {
+  Take clip = synthesize({.motion = "walk", .duration_s = duration_s, .frame_rate_hz = rate_hz});
   const NamedGap gap{"LeftLeg", first, last};
   mark_gaps(clip, {&gap, 1});
   return clip;
 }
 
-FillReport filled(Clip& clip, const LearnedFill& model) {
+FillReport filled(Take& clip, const LearnedFill& model) {
   FillSettings settings;
   settings.method = "learned";
   settings.models.learned = model;
@@ -38,7 +38,7 @@ LearnedFill content() {
   return make_learned_fill({}, std::make_shared<const Model>(one_smoother_model(0)));
 }
 
-double largest_distance_deg(const Clip& a, const Clip& b, std::size_t first, std::size_t last) {
+double largest_distance_deg(const Take& a, const Take& b, std::size_t first, std::size_t last) {
   const auto knee = static_cast<std::size_t>(a.skeleton.find("LeftLeg"));
   double largest = 0;
   for (std::size_t f = first; f <= last; ++f)
@@ -47,8 +47,8 @@ double largest_distance_deg(const Clip& a, const Clip& b, std::size_t first, std
 }
 
 TEST(LearnedFill, LeavesTheBridgeWhereTheNetworkIsContent) {
-  Clip clip = walk_with_gap(2, 120, 60, 99), straight = clip;
-  const Clip damaged = clip;
+  Take clip = walk_with_gap(2, 120, 60, 99), straight = clip;
+  const Take damaged = clip;
   const FillReport report = filled(clip, content());
   ASSERT_EQ(report.filled(), 1u);
   EXPECT_EQ(report.gaps[0].method, "learned");
@@ -65,7 +65,7 @@ TEST(LearnedFill, LeavesTheBridgeWhereTheNetworkIsContent) {
 }
 
 TEST(LearnedFill, ChangesTheBridgeWhereTheNetworkSmooths) {
-  Clip clip = walk_with_gap(2, 120, 60, 99), straight = clip;
+  Take clip = walk_with_gap(2, 120, 60, 99), straight = clip;
   filled(clip, make_learned_fill({}, std::make_shared<const Model>(one_smoother_model(8))));
   filled(straight, content());
   EXPECT_GT(largest_distance_deg(clip, straight, 60, 99), 0.1);
@@ -73,8 +73,8 @@ TEST(LearnedFill, ChangesTheBridgeWhereTheNetworkSmooths) {
 }
 
 TEST(LearnedFill, LeavesShortAndSlowTakesToAutoAndSaysSo) {
-  const auto expect_auto = [](Clip clip, const char* reason) {
-    Clip automatic = clip;
+  const auto expect_auto = [](Take clip, const char* reason) {
+    Take automatic = clip;
     EXPECT_THAT(filled(clip, content()).warnings, Contains(HasSubstr(reason)));
     fill_gaps(automatic);
     EXPECT_EQ(clip.rotations, automatic.rotations);
@@ -84,7 +84,7 @@ TEST(LearnedFill, LeavesShortAndSlowTakesToAutoAndSaysSo) {
 }
 
 TEST(LearnedFill, LeavesPositionsToAuto) {
-  Clip clip = synthesize({.motion = "walk", .duration_s = 2, .frame_rate_hz = 120});
+  Take clip = synthesize({.motion = "walk", .duration_s = 2, .frame_rate_hz = 120});
   const NamedGap gap{"Hips", 60, 65};
   mark_gaps(clip, {&gap, 1});
   const FillReport report = filled(clip, content());

@@ -22,11 +22,11 @@ namespace {
 
 constexpr std::size_t gaussian_of_50_ms = 5;
 
-Clip walk_for_networks(double rate_hz) {
+Take walk_for_networks(double rate_hz) {
   return synthesize({.motion = "walk", .duration_s = 3, .frame_rate_hz = rate_hz});
 }
 
-Clip with_damage(Clip clip, const std::string& damage, const OptionValues& options) {
+Take with_damage(Take clip, const std::string& damage, const OptionValues& options) {
   Random random(5);
   apply_damage(clip, damage, options, random);
   return clip;
@@ -47,7 +47,7 @@ Model expecting(Model model, double deviation_deg) {
   return model;
 }
 
-Clip without_known_names(Clip clip) {
+Take without_known_names(Take clip) {
   for (std::size_t j = 0; j < clip.skeleton.joint_count(); ++j)
     clip.skeleton.names[j] = "Q" + std::to_string(j);
   return clip;
@@ -55,29 +55,29 @@ Clip without_known_names(Clip clip) {
 
 TEST(LearnedCleaner, SmoothsByTimeAndNotByFrames) {
   for (const double rate_hz : {60.0, 120.0, 240.0}) {
-    const Clip truth = walk_for_networks(rate_hz);
-    const Clip noisy = with_damage(truth, "gaussian", {{"std_deg", 3.0}});
-    const Clip cleaned = clean_clip(noisy, *asking_for(gaussian_of_50_ms)).clip;
+    const Take truth = walk_for_networks(rate_hz);
+    const Take noisy = with_damage(truth, "gaussian", {{"std_deg", 3.0}});
+    const Take cleaned = clean_take(noisy, *asking_for(gaussian_of_50_ms)).take;
     EXPECT_LT(rms_deg(truth, cleaned), 0.75 * rms_deg(truth, noisy)) << rate_hz << " Hz";
   }
 }
 
 TEST(LearnedCleaner, MakesTheSameOfJointsWhoseNamesItDoesNotKnow) {
-  const Clip noisy = with_damage(walk_for_networks(120), "gaussian", {{"std_deg", 1.0}});
+  const Take noisy = with_damage(walk_for_networks(120), "gaussian", {{"std_deg", 1.0}});
   const std::unique_ptr<Cleaner> smoothing = asking_for(gaussian_of_50_ms);
-  const Clip known = clean_clip(noisy, *smoothing).clip;
-  Clip unknown = clean_clip(without_known_names(noisy), *smoothing).clip;
+  const Take known = clean_take(noisy, *smoothing).take;
+  Take unknown = clean_take(without_known_names(noisy), *smoothing).take;
   unknown.skeleton.names = known.skeleton.names;
   // Vectors about another reference are the same but for the curvature of rotations.
   EXPECT_LT(rms_deg(known, unknown), 0.1);
 }
 
 TEST(LearnedCleaner, SmoothsMarkers) {
-  const MarkerClip truth = joint_markers(walk_for_networks(120));
-  MarkerClip noisy = truth;
+  const Take truth = joint_markers(walk_for_networks(120));
+  Take noisy = truth;
   Random random(5);
   apply_damage(noisy, "gaussian", {{"std_deg", 4.0}}, random);
-  const MarkerClip cleaned = clean_markers(noisy, *asking_for(gaussian_of_50_ms)).clip;
+  const Take cleaned = clean_take(noisy, *asking_for(gaussian_of_50_ms)).take;
   double before = 0, after = 0;
   for (std::size_t i = 0; i < truth.positions.size(); ++i) {
     const Vec3 damage = noisy.positions[i] - truth.positions[i];
@@ -89,40 +89,40 @@ TEST(LearnedCleaner, SmoothsMarkers) {
 }
 
 TEST(LearnedCleaner, RepairsSpikesBeforeTheNetworkSeesThem) {
-  const Clip truth = walk_for_networks(120);
-  const Clip spiky = with_damage(truth, "outliers", {{"share", 0.005}, {"std_deg", 25.0}});
-  EXPECT_LT(rms_deg(truth, clean_clip(spiky, *asking_for(0)).clip), 0.4 * rms_deg(truth, spiky));
+  const Take truth = walk_for_networks(120);
+  const Take spiky = with_damage(truth, "outliers", {{"share", 0.005}, {"std_deg", 25.0}});
+  EXPECT_LT(rms_deg(truth, clean_take(spiky, *asking_for(0)).take), 0.4 * rms_deg(truth, spiky));
 }
 
 TEST(LearnedCleaner, KeepsACleanTakeOfWhichItsNetworkKeepsAll) {
-  const Clip walk = walk_for_networks(120);
-  for (const Clip& take : {walk, without_known_names(walk)})
-    EXPECT_LT(rms_deg(take, clean_clip(take, *asking_for(0)).clip), 1e-3);
+  const Take walk = walk_for_networks(120);
+  for (const Take& take : {walk, without_known_names(walk)})
+    EXPECT_LT(rms_deg(take, clean_take(take, *asking_for(0)).take), 1e-3);
 }
 
 TEST(LearnedCleaner, TakesWhatIsMeasuredForNoiseWhereItsNetworkKeepsAll) {
-  const Clip walk = walk_for_networks(120),
+  const Take walk = walk_for_networks(120),
              noisy = with_damage(walk, "gaussian", {{"std_deg", 1.0}});
-  EXPECT_LT(rms_deg(walk, clean_clip(noisy, *asking_for(0)).clip), 0.6 * rms_deg(walk, noisy));
+  EXPECT_LT(rms_deg(walk, clean_take(noisy, *asking_for(0)).take), 0.6 * rms_deg(walk, noisy));
 }
 
 TEST(LearnedCleaner, GivesTheSameAgain) {
-  const Clip noisy = with_damage(walk_for_networks(120), "gaussian", {{"std_deg", 3.0}});
-  EXPECT_EQ(clean_clip(noisy, *asking_for(gaussian_of_50_ms)).clip.rotations,
-            clean_clip(noisy, *asking_for(gaussian_of_50_ms)).clip.rotations);
+  const Take noisy = with_damage(walk_for_networks(120), "gaussian", {{"std_deg", 3.0}});
+  EXPECT_EQ(clean_take(noisy, *asking_for(gaussian_of_50_ms)).take.rotations,
+            clean_take(noisy, *asking_for(gaussian_of_50_ms)).take.rotations);
 }
 
 TEST(LearnedCleaner, LeavesShortTakesAndSlowOnesToAutoAndSaysSo) {
-  const Clip noisy = with_damage(walk_for_networks(120), "gaussian", {{"std_deg", 3.0}});
-  Clip slow = noisy;
+  const Take noisy = with_damage(walk_for_networks(120), "gaussian", {{"std_deg", 3.0}});
+  Take slow = noisy;
   slow.frame_rate_hz = 15;
   const std::unique_ptr<Cleaner> learned = asking_for(gaussian_of_50_ms), automatic = make_auto();
   for (const auto& [take, reason] :
-       {std::pair{Clip(slice(noisy, 0, 3)), "shorter than half a second"},
+       {std::pair{Take(slice(noisy, 0, 3)), "shorter than half a second"},
         {slice(noisy, 0, 59), "shorter than half a second"},
         {slow, "below 20 Hz"}}) {
-    const CleanResult result = clean_clip(take, *learned);
-    EXPECT_EQ(result.clip.rotations, clean_clip(take, *automatic).clip.rotations);
+    const CleanResult result = clean_take(take, *learned);
+    EXPECT_EQ(result.take.rotations, clean_take(take, *automatic).take.rotations);
     ASSERT_EQ(result.report.fall_backs.size(), 1U);
     EXPECT_EQ(result.report.fall_backs[0].method, "auto");
     EXPECT_THAT(result.report.fall_backs[0].reason, testing::HasSubstr(reason));
@@ -130,42 +130,42 @@ TEST(LearnedCleaner, LeavesShortTakesAndSlowOnesToAutoAndSaysSo) {
 }
 
 TEST(LearnedCleaner, SaysHowFarItsResultIsExpectedToBeOff) {
-  const Clip noisy = with_damage(walk_for_networks(120), "gaussian", {{"std_deg", 2.0}});
+  const Take noisy = with_damage(walk_for_networks(120), "gaussian", {{"std_deg", 2.0}});
   const CleanReport report =
-      clean_clip(noisy, *cleaner_of(expecting(one_smoother_model(gaussian_of_50_ms), 0.5))).report;
+      clean_take(noisy, *cleaner_of(expecting(one_smoother_model(gaussian_of_50_ms), 0.5))).report;
   ASSERT_GE(report.tracks.size(), noisy.joint_count());
   for (const TrackSummary& track : report.tracks) EXPECT_NEAR(track.left, 0.5, 1e-3) << track.name;
 }
 
 TEST(LearnedCleaner, LeavesTracksAloneWhoseChangeIsSmallBesideWhatMayBeWrongAnyway) {
-  const Clip truth = walk_for_networks(120);
-  Clip clip = with_damage(truth, "gaussian", {{"std_deg", 0.2}});
+  const Take truth = walk_for_networks(120);
+  Take clip = with_damage(truth, "gaussian", {{"std_deg", 0.2}});
   // A spike is repaired all the same.
   const std::size_t knee = 2, frame = 200;
   clip.rotation(frame, knee) = clip.rotation(frame, knee) * exp(Vec3{2, 0, 0});
   const Model smoothing = one_smoother_model(gaussian_of_50_ms);
-  const CleanResult unsure = clean_clip(clip, *cleaner_of(expecting(smoothing, 40)));
+  const CleanResult unsure = clean_take(clip, *cleaner_of(expecting(smoothing, 40)));
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     for (std::size_t j = 0; j < clip.joint_count(); ++j) {
       if (f == frame && j == knee) continue;
-      ASSERT_EQ(unsure.clip.rotation(f, j), clip.rotation(f, j)) << "frame " << f;
+      ASSERT_EQ(unsure.take.rotation(f, j), clip.rotation(f, j)) << "frame " << f;
     }
   }
-  EXPECT_LT(angle_between(unsure.clip.rotation(frame, knee), truth.rotation(frame, knee)), 0.05);
+  EXPECT_LT(angle_between(unsure.take.rotation(frame, knee), truth.rotation(frame, knee)), 0.05);
   EXPECT_TRUE(unsure.report.noise.empty());
   EXPECT_EQ(unsure.report.tracks[knee].left, 0);
-  const CleanResult sure = clean_clip(clip, *cleaner_of(expecting(smoothing, 0.1)));
-  EXPECT_NE(sure.clip.rotation(100, knee), clip.rotation(100, knee));
+  const CleanResult sure = clean_take(clip, *cleaner_of(expecting(smoothing, 0.1)));
+  EXPECT_NE(sure.take.rotation(100, knee), clip.rotation(100, knee));
 }
 
 // What shows from frame to frame is measurable, however large it is; and small errors are nothing
 // to speak of.
 TEST(LearnedCleaner, NamesNoiseThatIsLargeAndSlowOnly) {
-  const Clip clip = walk_for_networks(120);
-  const auto characters = [&](const Clip& take, double expected_deg) {
+  const Take clip = walk_for_networks(120);
+  const auto characters = [&](const Take& take, double expected_deg) {
     const std::unique_ptr<Cleaner> cleaner =
         cleaner_of(expecting(one_smoother_model(gaussian_of_50_ms), expected_deg));
-    std::vector<NoiseCharacter> noise = clean_clip(take, *cleaner).report.noise;
+    std::vector<NoiseCharacter> noise = clean_take(take, *cleaner).report.noise;
     std::erase_if(noise, [](const NoiseCharacter& one) {
       return one.space != Space::rotation || !one.is_expected;
     });

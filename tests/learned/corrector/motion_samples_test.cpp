@@ -15,7 +15,7 @@ namespace {
 const TrainingSequences& walks() {
   static const TrainingSequences sequences = [] {
     SynthOptions options{.motion = "walk", .duration_s = 6, .frame_rate_hz = 120};
-    const Clip clip = synthesize(options);
+    const Take clip = synthesize(options);
     return encode_takes({1, [&](std::size_t) { return Take(clip); }}, {}, 120);
   }();
   return sequences;

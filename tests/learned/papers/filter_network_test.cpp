@@ -109,7 +109,7 @@ TEST(FilterNetwork, ThatDoesNotFitItselfOrItsBodyIsRefusedWithTheLayer) {
 TEST(FilterTake, HoldsTheJointsButTheRootAndHowTheRootTurns) {
   SynthOptions options;
   options.duration_s = 2;
-  Clip clip = synthesize(options);
+  Take clip = synthesize(options);
   BodyLayoutBuilder builder;
   builder.add(clip);
   const BodyLayout layout = builder.finish();

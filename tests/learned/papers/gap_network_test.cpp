@@ -23,7 +23,7 @@ TakeWithGap with_gap() {
   SynthOptions options;
   options.duration_s = 2;
   options.frame_rate_hz = 120;
-  const Clip clip = synthesize(options);
+  const Take clip = synthesize(options);
   BodyLayoutBuilder builder;
   builder.add(clip);
   TakeWithGap take{builder.finish(), {}};

@@ -14,31 +14,31 @@
 namespace kinemend::test {
 namespace {
 
-Clip slow_walk(std::uint64_t seed, double rate_hz = 30) {
+Take slow_walk(std::uint64_t seed, double rate_hz = 30) {
   SynthOptions options{.motion = "walk", .duration_s = 4, .frame_rate_hz = rate_hz};
   options.seed = seed;
   return synthesize(options);
 }
 
 std::shared_ptr<const Model> learned(const OptionValues& options = {}) {
-  static const std::vector<Clip> clips = {slow_walk(1, 120), slow_walk(2, 120), slow_walk(3, 120)};
+  static const std::vector<Take> clips = {slow_walk(1, 120), slow_walk(2, 120), slow_walk(3, 120)};
   return std::make_shared<const Model>(train_model(
       "kalman-learned", {clips.size(), [](std::size_t i) { return Take(clips[i]); }}, options));
 }
 
-Clip noisy(Clip clip, double std_deg) {
+Take noisy(Take clip, double std_deg) {
   Random random(7);
   apply_damage(clip, "gaussian", {{"std_deg", std_deg}}, random);
   return clip;
 }
 
-Clip cleaned(const Cleaner& cleaner, Clip clip) {
+Take cleaned(const Cleaner& cleaner, Take clip) {
   clean_in_place(cleaner, clip);
   return clip;
 }
 
 TEST(KalmanLearned, BringsANoisyWalkNearerToTheTruthThanAutoDoes) {
-  const Clip truth = slow_walk(4), input = noisy(truth, 3);
+  const Take truth = slow_walk(4), input = noisy(truth, 3);
   const double before = rms_deg(truth, input);
   const double by_auto = rms_deg(truth, cleaned(*make_auto(), input));
   const double smoothed = rms_deg(truth, cleaned(*make_kalman_learned({}, learned()), input));
@@ -53,8 +53,8 @@ TEST(KalmanLearned, BringsANoisyWalkNearerToTheTruthThanAutoDoes) {
 TEST(KalmanLearned, KeepsTheRateOfTheTake) {
   for (const double rate_hz : {120.0, 60.0, 25.0}) {
     for (const std::int64_t order : {1, 2}) {
-      const Clip truth = slow_walk(4, rate_hz), input = noisy(truth, 3);
-      const Clip result = cleaned(*make_kalman_learned({}, learned({{"order", order}})), input);
+      const Take truth = slow_walk(4, rate_hz), input = noisy(truth, 3);
+      const Take result = cleaned(*make_kalman_learned({}, learned({{"order", order}})), input);
       EXPECT_EQ(result.frame_count(), truth.frame_count());
       EXPECT_LT(rms_deg(truth, result), 0.5 * rms_deg(truth, input)) << rate_hz << " " << order;
     }
@@ -62,26 +62,26 @@ TEST(KalmanLearned, KeepsTheRateOfTheTake) {
 }
 
 TEST(KalmanLearned, WorksInASubspace) {
-  const Clip truth = slow_walk(4), input = noisy(truth, 3);
+  const Take truth = slow_walk(4), input = noisy(truth, 3);
   const auto cleaner = make_kalman_learned({}, learned({{"directions", std::int64_t{15}}}));
   EXPECT_LT(rms_deg(truth, cleaned(*cleaner, input)), 0.5 * rms_deg(truth, input));
 }
 
 TEST(KalmanLearned, LeavesACleanWalkAlone) {
-  const Clip truth = slow_walk(4);
+  const Take truth = slow_walk(4);
   EXPECT_LT(rms_deg(truth, cleaned(*make_kalman_learned({}, learned()), truth)), 0.2);
 }
 
 TEST(KalmanLearned, FillsAnArmThatIsMissingThroughout) {
-  const Clip truth = slow_walk(4);
-  Clip input = truth;
+  const Take truth = slow_walk(4);
+  Take input = truth;
   input.observed.assign(truth.rotations.size(), 1);
   const auto arm = static_cast<std::size_t>(truth.skeleton.find("LeftArm"));
   for (std::size_t f = 0; f < truth.frame_count(); ++f) {
     input.observed[f * truth.joint_count() + arm] = 0;
     input.rotation(f, arm) = {};
   }
-  const Clip result = cleaned(*make_kalman_learned({}, learned()), input);
+  const Take result = cleaned(*make_kalman_learned({}, learned()), input);
   EXPECT_LT(geodesic_rms_deg_per_joint(truth, result)[arm], 8);
 }
 

@@ -24,11 +24,11 @@ using testing::SizeIs;
 
 constexpr std::size_t first = 60, last = 119;
 
-Clip walk_to_fill(double rate_hz = 120) {
+Take walk_to_fill(double rate_hz = 120) {
   return synthesize({.motion = "walk", .duration_s = 2, .frame_rate_hz = rate_hz});
 }
 
-Clip gapped(Clip clip, const std::vector<std::string>& names) {
+Take gapped(Take clip, const std::vector<std::string>& names) {
   std::vector<NamedGap> gaps;
   for (const std::string& name : names) gaps.push_back({name, first, last});
   mark_gaps(clip, gaps);
@@ -36,7 +36,7 @@ Clip gapped(Clip clip, const std::vector<std::string>& names) {
 }
 
 // A network that adds so many degrees to each channel in the middle of a gap.
-std::shared_ptr<const Model> adding(const Clip& clip, double degrees,
+std::shared_ptr<const Model> adding(const Take& clip, double degrees,
                                     std::vector<std::string> names = {}) {
   BodyLayoutBuilder builder(std::move(names));
   builder.add(clip);
@@ -44,21 +44,21 @@ std::shared_ptr<const Model> adding(const Clip& clip, double degrees,
       constant_filter_model(builder.finish(), FilterHead::residual, degrees, {false, true}));
 }
 
-FillReport filled(Clip& clip, std::shared_ptr<const Model> model) {
+FillReport filled(Take& clip, std::shared_ptr<const Model> model) {
   FillSettings settings;
   settings.method = "recurrent";
   settings.models.recurrent = make_recurrent_fill({}, std::move(model));
   return fill_gaps(clip, settings);
 }
 
-std::size_t joint_of(const Clip& clip, const char* name) {
+std::size_t joint_of(const Take& clip, const char* name) {
   return static_cast<std::size_t>(clip.skeleton.find(name));
 }
 
 TEST(RecurrentFill, IsTheStraightLineAndWhatTheNetworkAddsToIt) {
-  const Clip truth = walk_to_fill();
+  const Take truth = walk_to_fill();
   const std::size_t knee = joint_of(truth, "LeftLeg");
-  Clip straight = gapped(truth, {"LeftLeg"}), bent = straight;
+  Take straight = gapped(truth, {"LeftLeg"}), bent = straight;
   const FillReport report = filled(straight, adding(truth, 0));
   ASSERT_THAT(report.gaps, SizeIs(1));
   EXPECT_EQ(report.gaps[0].method, "recurrent");
@@ -76,11 +76,11 @@ TEST(RecurrentFill, IsTheStraightLineAndWhatTheNetworkAddsToIt) {
 }
 
 TEST(RecurrentFill, LeavesTheRootAndUnknownJointsToAutoAndSaysSo) {
-  const Clip truth = walk_to_fill();
-  Clip clip = gapped(truth, {"LeftLeg", "Hips", "Head"});
+  const Take truth = walk_to_fill();
+  Take clip = gapped(truth, {"LeftLeg", "Hips", "Head"});
   std::vector<std::string> known = truth.skeleton.names;
   std::erase(known, "Head");
-  Clip automatic = clip;
+  Take automatic = clip;
   const FillReport report = filled(clip, adding(truth, 5, known));
   fill_gaps(automatic);
   EXPECT_THAT(report.warnings, testing::Contains(HasSubstr("(Head): the model does not know")));
@@ -96,8 +96,8 @@ TEST(RecurrentFill, LeavesTheRootAndUnknownJointsToAutoAndSaysSo) {
 }
 
 TEST(RecurrentFill, LeavesATakeAtAnotherRateToAuto) {
-  const Clip truth = walk_to_fill(60);
-  Clip clip = gapped(truth, {"LeftLeg"}), automatic = clip;
+  const Take truth = walk_to_fill(60);
+  Take clip = gapped(truth, {"LeftLeg"}), automatic = clip;
   const FillReport report = filled(clip, adding(truth, 5));
   fill_gaps(automatic);
   EXPECT_EQ(clip.rotations, automatic.rotations);
@@ -106,7 +106,7 @@ TEST(RecurrentFill, LeavesATakeAtAnotherRateToAuto) {
 }
 
 TEST(RecurrentFill, RefusesAModelThatFillsNoGaps) {
-  const Clip clip = walk_to_fill();
+  const Take clip = walk_to_fill();
   EXPECT_THROW(make_recurrent_fill({}), Error);  // the model that ships
   BodyLayoutBuilder builder;
   builder.add(clip);
@@ -124,19 +124,19 @@ class RecurrentPair : public testing::Test {
     return std::make_shared<const Model>(
         constant_filter_model(builder.finish(), FilterHead::gaussian, std::log(width_frames)));
   }
-  Clip noisy() const {
-    Clip clip = truth_;
+  Take noisy() const {
+    Take clip = truth_;
     Random random(3);
     apply_damage(clip, "gaussian", {{"std_deg", 3.0}}, random);
     return gapped(clip, {"LeftLeg"});
   }
-  const Clip truth_ = walk_to_fill();
+  const Take truth_ = walk_to_fill();
 };
 
 TEST_F(RecurrentPair, FillsTheGapsThatTheFilterSees) {
-  const Clip damaged = noisy();
-  const Clip alone = clean_clip(damaged, *make_recurrent({}, filter())).clip;
-  const Clip pair = clean_clip(damaged, *make_recurrent({}, filter(), adding(truth_, 10))).clip;
+  const Take damaged = noisy();
+  const Take alone = clean_take(damaged, *make_recurrent({}, filter())).take;
+  const Take pair = clean_take(damaged, *make_recurrent({}, filter(), adding(truth_, 10))).take;
   const std::size_t knee = joint_of(truth_, "LeftLeg");
   EXPECT_NEAR(degrees_per_radian * angle_between(alone.rotation(90, knee), pair.rotation(90, knee)),
               10 * std::sqrt(3), 4);

@@ -22,12 +22,12 @@ namespace {
 
 using testing::HasSubstr;
 
-Clip walk_at(double rate_hz, double duration_s = 1.5) {
+Take walk_at(double rate_hz, double duration_s = 1.5) {
   SynthOptions options{.motion = "walk", .duration_s = duration_s, .frame_rate_hz = rate_hz};
   return synthesize(options);
 }
 
-Clip damaged_by(Clip clip, const std::string& damage, const OptionValues& options) {
+Take damaged_by(Take clip, const std::string& damage, const OptionValues& options) {
   Random random(5);
   apply_damage(clip, damage, options, random);
   return clip;
@@ -40,17 +40,17 @@ const Cleaner& cleaner() {
 
 TEST(Recurrent, TakesNoiseAwayAtAnyRate) {
   for (const double rate_hz : {30.0, 120.0, 240.0}) {
-    const Clip truth = walk_at(rate_hz);
-    const Clip noisy = damaged_by(truth, "gaussian", {{"std_deg", 3.0}});
-    const Clip cleaned = clean_clip(noisy, cleaner()).clip;
+    const Take truth = walk_at(rate_hz);
+    const Take noisy = damaged_by(truth, "gaussian", {{"std_deg", 3.0}});
+    const Take cleaned = clean_take(noisy, cleaner()).take;
     EXPECT_LT(rms_deg(truth, cleaned), 0.7 * rms_deg(truth, noisy)) << rate_hz << " Hz";
   }
 }
 
 TEST(Recurrent, LeavesToAutoATakeAtAnotherRateAndSaysSo) {
-  const Clip noisy = damaged_by(walk_at(60), "gaussian", {{"std_deg", 3.0}});
-  const CleanResult result = clean_clip(noisy, cleaner());
-  EXPECT_LT(rms_deg(clean_clip(noisy, *make_auto()).clip, result.clip), 1e-6);
+  const Take noisy = damaged_by(walk_at(60), "gaussian", {{"std_deg", 3.0}});
+  const CleanResult result = clean_take(noisy, cleaner());
+  EXPECT_LT(rms_deg(clean_take(noisy, *make_auto()).take, result.take), 1e-6);
   ASSERT_FALSE(result.report.fall_backs.empty());
   EXPECT_EQ(result.report.fall_backs.front().reason,
             "the network filters takes of 120 Hz only, and this one has 60");
@@ -58,15 +58,15 @@ TEST(Recurrent, LeavesToAutoATakeAtAnotherRateAndSaysSo) {
 
 TEST(Recurrent, LeavesACleanTakeAsItIs) {
   for (const double rate_hz : {60.0, 120.0}) {
-    const Clip truth = walk_at(rate_hz);
-    EXPECT_EQ(clean_clip(truth, cleaner()).clip.rotations, truth.rotations);
+    const Take truth = walk_at(rate_hz);
+    EXPECT_EQ(clean_take(truth, cleaner()).take.rotations, truth.rotations);
   }
 }
 
 TEST(Recurrent, RefusesATakeOfMarkersAndSaysWhy) {
-  const MarkerClip markers = joint_markers(walk_at(120));
+  const Take markers = joint_markers(walk_at(120));
   try {
-    clean_markers(markers, cleaner());
+    clean_take(markers, cleaner());
     FAIL() << "was cleaned";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
@@ -82,24 +82,24 @@ TEST(Recurrent, RefusesAModelOfAnotherMethodAndOneThatLacksALayer) {
 }
 
 TEST(Recurrent, FillsGapsOrLeavesThemBridged) {
-  Clip clip = damaged_by(walk_at(120), "gaussian", {{"std_deg", 2.0}});
+  Take clip = damaged_by(walk_at(120), "gaussian", {{"std_deg", 2.0}});
   const auto knee = static_cast<std::size_t>(clip.skeleton.find("LeftLeg"));
   clip.observed.assign(clip.frame_count() * clip.joint_count(), 1);
   for (std::size_t f = 60; f < 90; ++f) clip.observed[f * clip.joint_count() + knee] = 0;
-  const Clip filled = clean_clip(clip, cleaner()).clip;
-  const Clip truth = walk_at(120);
+  const Take filled = clean_take(clip, cleaner()).take;
+  const Take truth = walk_at(120);
   for (std::size_t f = 60; f < 90; ++f)
     EXPECT_LT(angle_between(filled.rotation(f, knee), truth.rotation(f, knee)), 0.8) << f;
 }
 
 TEST(Recurrent, IsTheSameForAnyNumberOfRuns) {
-  const Clip noisy = damaged_by(walk_at(120), "gaussian", {{"std_deg", 2.0}});
-  EXPECT_EQ(clean_clip(noisy, cleaner()).clip.rotations,
-            clean_clip(noisy, *make_recurrent()).clip.rotations);
+  const Take noisy = damaged_by(walk_at(120), "gaussian", {{"std_deg", 2.0}});
+  EXPECT_EQ(clean_take(noisy, cleaner()).take.rotations,
+            clean_take(noisy, *make_recurrent()).take.rotations);
 }
 
 // A network of the paper whose Gaussians are all three frames wide.
-std::shared_ptr<const Model> constant_filter(const Clip& clip, FilterHead head,
+std::shared_ptr<const Model> constant_filter(const Take& clip, FilterHead head,
                                              FilterInputs inputs = {}) {
   BodyLayoutBuilder builder;
   builder.add(clip);
@@ -108,21 +108,21 @@ std::shared_ptr<const Model> constant_filter(const Clip& clip, FilterHead head,
 }
 
 TEST(Recurrent, CleansJointsWithTheFiltersThatANetworkOfThePaperPredicts) {
-  const Clip truth = walk_at(120, 3);
-  const Clip noisy = damaged_by(truth, "gaussian", {{"std_deg", 4.0}});
+  const Take truth = walk_at(120, 3);
+  const Take noisy = damaged_by(truth, "gaussian", {{"std_deg", 4.0}});
   const auto cleaner = make_recurrent({}, constant_filter(truth, FilterHead::gaussian));
-  const Clip cleaned = clean_clip(noisy, *cleaner).clip;
-  const Clip gaussian = clean_clip(noisy, *make_cleaner("gaussian", {{"width_s", 0.025}})).clip;
+  const Take cleaned = clean_take(noisy, *cleaner).take;
+  const Take gaussian = clean_take(noisy, *make_cleaner("gaussian", {{"width_s", 0.025}})).take;
   EXPECT_NEAR(rms_deg(truth, cleaned) / rms_deg(truth, gaussian), 1, 0.1);
   // Alike, but for joints that the model does not know and samples that are spikes to `auto`.
   EXPECT_LT(rms_deg(cleaned, gaussian), 0.6 * rms_deg(truth, gaussian));
-  const Clip automatic = clean_clip(noisy, *make_auto()).clip;
+  const Take automatic = clean_take(noisy, *make_auto()).take;
   for (std::size_t f = 0; f < truth.frame_count(); ++f)
     EXPECT_LT(angle_between(cleaned.rotation(f, 0), automatic.rotation(f, 0)), 1e-6);
 }
 
 TEST(Recurrent, RefusesANetworkThatFillsGaps) {
-  const Clip clip = walk_at(120);
+  const Take clip = walk_at(120);
   EXPECT_THROW(make_recurrent({}, constant_filter(clip, FilterHead::residual, {false, true})),
                Error);
 }

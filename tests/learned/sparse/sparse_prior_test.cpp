@@ -22,7 +22,7 @@
 namespace kinemend {
 namespace {
 
-Clip walk(std::uint64_t seed, double duration_s = 3) {
+Take walk(std::uint64_t seed, double duration_s = 3) {
   SynthOptions options;
   options.duration_s = duration_s;
   options.frame_rate_hz = 60;
@@ -30,8 +30,7 @@ Clip walk(std::uint64_t seed, double duration_s = 3) {
   return synthesize(options);
 }
 
-template <class AnyClip>
-Model trained(const std::vector<AnyClip>& clips, OptionValues options = {}) {
+Model trained(const std::vector<Take>& clips, OptionValues options = {}) {
   options.try_emplace("atoms", std::int64_t{60});
   options.try_emplace("window_frames", std::int64_t{9});
   options.try_emplace("iterations", std::int64_t{4});
@@ -40,11 +39,11 @@ Model trained(const std::vector<AnyClip>& clips, OptionValues options = {}) {
 }
 
 const Model& joint_model() {
-  static const Model model = trained(std::vector<Clip>{walk(1), walk(2)});
+  static const Model model = trained(std::vector<Take>{walk(1), walk(2)});
   return model;
 }
 
-BodyChannels channels_of_clip(const Model& model, const Clip& clip) {
+BodyChannels channels_of_clip(const Model& model, const Take& clip) {
   return encode_body(clip, model.layout, match_body(model.layout, clip));
 }
 
@@ -103,7 +102,7 @@ TEST(LocalCoordinates, AreUndoneExactlyAndSurviveDegeneratePoses) {
 }
 
 TEST(SparsePoints, AreTheJointsOfTheTakeInBodyHeights) {
-  const Clip clip = walk(3);
+  const Take clip = walk(3);
   const Model& model = joint_model();
   const SparsePrior prior = sparse_prior_of(model);
   const BodyMatch match = match_body(model.layout, clip);
@@ -156,7 +155,7 @@ TEST(Poselets, AreTorsoArmsAndLegsWithSharedJoints) {
 TEST(SparseTraining, KnowsThePapersLocalCoordinatesWhereAskedFor) {
   EXPECT_LT(sparse_prior_of(joint_model()).local.root, 0);
   const LocalPoints local =
-      sparse_prior_of(trained(std::vector<Clip>{walk(1, 1)}, {{"local", true}})).local;
+      sparse_prior_of(trained(std::vector<Take>{walk(1, 1)}, {{"local", true}})).local;
   EXPECT_EQ(local.root, 0);
   EXPECT_GE(std::min({local.left_hip, local.right_hip, local.neck}), 1);
 }
@@ -225,7 +224,7 @@ TEST(PoseletFile, IsRefusedWithTheLineAndWhatIsWrongWithIt) {
 TEST(SparseTraining, LearnsThePoseletsOfAFileAndKeepsThemInTheModel) {
   const std::string path = testing::TempDir() + "poselets.txt";
   std::ofstream(path) << "left: *Left*, Hips\nothers: *\n";
-  const Model model = trained(std::vector<Clip>{walk(1, 1)}, {{"poselets", path}});
+  const Model model = trained(std::vector<Take>{walk(1, 1)}, {{"poselets", path}});
   const SparsePrior prior = sparse_prior_of(parse_model(write_model(model), "own"));
   ASSERT_EQ(prior.poselets.size(), 2u);
   EXPECT_EQ(prior.poselets[1].points.size(), prior.points.count());
@@ -238,8 +237,8 @@ TEST(SparseTraining, LearnsThePoseletsOfAFileAndKeepsThemInTheModel) {
     EXPECT_TRUE(name == "Hips" || name.find("Left") != name.npos) << name;
   }
   std::remove(path.c_str());
-  EXPECT_THROW(trained(std::vector<Clip>{walk(1, 1)}, {{"poselets", path}}), Error);
-  EXPECT_THROW(trained(std::vector<Clip>{walk(1, 1)}, {{"poselets", path}, {"whole", true}}),
+  EXPECT_THROW(trained(std::vector<Take>{walk(1, 1)}, {{"poselets", path}}), Error);
+  EXPECT_THROW(trained(std::vector<Take>{walk(1, 1)}, {{"poselets", path}, {"whole", true}}),
                Error);
 }
 
@@ -300,10 +299,10 @@ struct NoisyTake {
 };
 NoisyTake noisy_take(double noise, double outliers, double duration_s = 1.5) {
   static const Model model =
-      trained(std::vector<MarkerClip>{joint_markers(walk(1)), joint_markers(walk(2))});
+      trained(std::vector<Take>{joint_markers(walk(1)), joint_markers(walk(2))});
   NoisyTake take;
   take.prior = sparse_prior_of(model);
-  const MarkerClip clip = joint_markers(walk(6, duration_s));
+  const Take clip = joint_markers(walk(6, duration_s));
   take.clean = points_of(take.prior.points, model.layout,
                          encode_body(clip, model.layout, match_body(model.layout, clip)).poses);
   take.noisy = take.clean;

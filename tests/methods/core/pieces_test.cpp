@@ -11,8 +11,8 @@ namespace kinemend::test {
 namespace {
 
 // One marker at a steady speed, seen where `seen` says so.
-MarkerClip straight_marker(const std::vector<std::uint8_t>& seen) {
-  MarkerClip clip = make_marker_clip({"LASI"}, seen.size(), 100);
+Take straight_marker(const std::vector<std::uint8_t>& seen) {
+  Take clip = make_marker_take({"LASI"}, seen.size(), 100);
   clip.observed = seen;
   for (std::size_t f = 0; f < seen.size(); ++f) {
     if (seen[f] != 0) clip.position(f, 0) = {2 * static_cast<double>(f), 1, 0};
@@ -25,7 +25,7 @@ TEST(Pieces, OfMarkersEndAtLongGapsAndBridgeShortOnes) {
   std::fill(seen.begin(), seen.begin() + 5, 0);
   std::fill(seen.begin() + 20, seen.begin() + 45, 0);  // 0.25 s
   std::fill(seen.begin() + 70, seen.begin() + 96, 0);
-  const MarkerClip clip = straight_marker(seen);
+  const Take clip = straight_marker(seen);
   const auto pieces = position_pieces(view_of(clip), 0);
   ASSERT_EQ(pieces.size(), 2U);
   EXPECT_EQ(pieces[0].first_frame, 5U);
@@ -40,7 +40,7 @@ TEST(Pieces, OfMarkersEndAtLongGapsAndBridgeShortOnes) {
 TEST(Pieces, OfMarkersGoBackWhereTheyWereObserved) {
   std::vector<std::uint8_t> seen(60, 1);
   for (std::size_t f = 10; f < 20; ++f) seen[f] = 0;
-  const MarkerClip clip = straight_marker(seen);
+  const Take clip = straight_marker(seen);
   const TakeView take = view_of(clip);
   auto pieces = position_pieces(take, 0);
   for (Vec3& position : pieces[0].samples) position += Vec3{0, 0, 5};
@@ -50,7 +50,7 @@ TEST(Pieces, OfMarkersGoBackWhereTheyWereObserved) {
 }
 
 TEST(Pieces, OfJointsBridgeGapsOfAnyLengthAndSayWhatTheyFilled) {
-  Clip clip = moving_take(100, 100);
+  Take clip = moving_take(100, 100);
   clip.observed.assign(clip.rotations.size(), 1);
   for (std::size_t f = 0; f < 100; ++f) {
     if (f < 20 || (f > 40 && f < 90)) clip.observed[f * clip.joint_count() + 2] = 0;
@@ -65,7 +65,7 @@ TEST(Pieces, OfJointsBridgeGapsOfAnyLengthAndSayWhatTheyFilled) {
 }
 
 TEST(Pieces, OfPositionsOfJointsBridgeByStraightLines) {
-  Clip clip = moving_take(50, 100);
+  Take clip = moving_take(50, 100);
   const std::size_t width = 1 + clip.translated_joints.size();
   clip.observed_positions.assign(50 * width, 1);
   for (std::size_t f = 10; f < 20; ++f) {
@@ -84,7 +84,7 @@ TEST(Pieces, OfPositionsOfJointsBridgeByStraightLines) {
 TEST(Pieces, OfAWholeMarkerRestWhereItWasNotSeenForLong) {
   std::vector<std::uint8_t> seen(300, 1);
   for (std::size_t f = 100; f < 200; ++f) seen[f] = 0;
-  const MarkerClip clip = straight_marker(seen);
+  const Take clip = straight_marker(seen);
   const std::vector<Vec3> whole = whole_positions(view_of(clip), 0);
   ASSERT_EQ(whole.size(), 300U);
   EXPECT_EQ(whole[250], clip.position(250, 0));

@@ -44,14 +44,13 @@ std::unique_ptr<LiveFilter> live_two_before(const TakeView& like) {
       TwoBefore{});
 }
 
-template <class AnyClip>
-AnyClip offline_two_before(AnyClip clip) {
-  const AnyClip source = clip;
+Take offline_two_before(Take clip) {
+  const Take source = clip;
   const TakeView take = view_of(source);
   filter_pieces(
       take,
       [&](std::size_t n, const CleanedTrack& cleaned) {
-        if constexpr (std::is_same_v<AnyClip, Clip>) set_track(clip, n, cleaned.rotations);
+        if constexpr (std::is_same_v<Take, Take>) set_track(clip, n, cleaned.rotations);
         set_track(clip, n, cleaned.positions);
       },
       {}, TwoBefore{});
@@ -72,7 +71,7 @@ std::vector<Frame> streamed_frames(LiveFilter& filter, const TakeView& take) {
 
 TEST(Windowed, GivesWhatPiecesGiveForTheWholeTake) {
   for (const std::size_t frames : {0, 1, 2, 3, 4, 5, 6, 40}) {
-    const Clip clip = moving_take(frames, 100), expected = offline_two_before(clip);
+    const Take clip = moving_take(frames, 100), expected = offline_two_before(clip);
     const auto filter = live_two_before(view_of(clip));
     EXPECT_EQ(filter->lookahead(), 2U);
     const std::vector<Frame> live = streamed_frames(*filter, view_of(clip));
@@ -85,13 +84,13 @@ TEST(Windowed, GivesWhatPiecesGiveForTheWholeTake) {
 }
 
 TEST(Windowed, BridgesShortGapsOfMarkersAndEndsAtLongOnes) {
-  MarkerClip clip = marker_take("walk", 2);
+  Take clip = marker_take("walk", 2);
   lose(clip, 0, 50, 60);
   lose(clip, 1, 0, 9);
   lose(clip, 2, 100, 160);
   lose(clip, 3, 150, clip.frame_count() - 1);
   for (std::size_t f = 0; f < 40; f += 2) lose(clip, 5, f, f);
-  const MarkerClip expected = offline_two_before(clip);
+  const Take expected = offline_two_before(clip);
   const TakeView take = view_of(clip);
   const auto filter = live_two_before(take);
   EXPECT_EQ(filter->lookahead(),
@@ -107,7 +106,7 @@ TEST(Windowed, BridgesShortGapsOfMarkersAndEndsAtLongOnes) {
 
 TEST(Windowed, LeavesAloneWhatIsNotSelected) {
   Selection selection;
-  const Clip clip = moving_take(20, 100);
+  const Take clip = moving_take(20, 100);
   selection.owners.assign(clip.joint_count(), 1);
   selection.owners[1] = 0;
   selection.root_position = false;

@@ -86,8 +86,8 @@ BilateralOptions options_with(double sigma_g_deg, std::int64_t passes, std::stri
 
 TEST(Bilateral, IsCourtysAlgorithmWithItsSlipsMended) {
   for (const std::size_t frames : {2, 3, 4, 50, 300}) {
-    const Clip input = noisy_take(frames);
-    const Clip output = cleaned(input, *make_bilateral(options_with(5, 2, "mirror")));
+    const Take input = noisy_take(frames);
+    const Take output = cleaned(input, *make_bilateral(options_with(5, 2, "mirror")));
     const std::vector<double> ones(frames, 1.0);
     for (std::size_t j = 0; j < input.joint_count(); ++j) {
       std::vector<Quat> expected = track_of(input, j);
@@ -102,8 +102,8 @@ TEST(Bilateral, IsCourtysAlgorithmWithItsSlipsMended) {
 }
 
 TEST(Bilateral, FiltersPositionsOnTheScaleOfTheBody) {
-  const Clip input = noisy_take(80);
-  const Clip output = cleaned(input, *make_bilateral(options_with(5, 1, "mirror")));
+  const Take input = noisy_take(80);
+  const Take output = cleaned(input, *make_bilateral(options_with(5, 1, "mirror")));
   const double sigma = 5 * radians_per_degree * body_height(input.skeleton);
   const std::vector<Vec3> expected = bilateral_pass(point_track(input, 0), 5, 1.5, sigma);
   for (std::size_t f = 0; f < 80; ++f) {
@@ -112,12 +112,12 @@ TEST(Bilateral, FiltersPositionsOnTheScaleOfTheBody) {
 }
 
 TEST(Bilateral, GivesUnobservedSamplesNoWeight) {
-  Clip input = noisy_take(60);
+  Take input = noisy_take(60);
   input.observed.assign(input.rotations.size(), 1);
   for (const std::size_t f : {0, 20, 21, 22, 40, 59}) {
     input.observed[f * input.joint_count() + 2] = 0;
   }
-  const Clip output = cleaned(input, *make_bilateral(options_with(5, 1, "mirror")));
+  const Take output = cleaned(input, *make_bilateral(options_with(5, 1, "mirror")));
   // Gaps are bridged on geodesics beforehand.
   std::vector<Quat> track = track_of(input, 2);
   std::vector<double> weights;
@@ -138,7 +138,7 @@ TEST(Bilateral, GivesUnobservedSamplesNoWeight) {
 
 // Proposition 1: BOF(a q b) = a BOF(q) b.
 TEST(Bilateral, IsTheSameInAnyCoordinateFrame) {
-  const Clip input = noisy_take(60);
+  const Take input = noisy_take(60);
   for (const char* ends : {"mirror", "reflect"}) {
     const auto cleaner = make_bilateral(options_with(5, 5, ends));
     EXPECT_LT(largest_difference(in_other_frames(cleaned(input, *cleaner), 8),
@@ -150,9 +150,9 @@ TEST(Bilateral, IsTheSameInAnyCoordinateFrame) {
 // The proposition is of turns that are the same in all frames. A parent that turns is none:
 // filtered against it and against the world a joint comes out otherwise.
 TEST(Bilateral, IsNotTheSameInTheFrameOfAParentThatTurns) {
-  const Clip input = noisy_take(120);
+  const Take input = noisy_take(120);
   const auto cleaner = make_bilateral(options_with(5, 5, "reflect"));
-  const auto from_parent = [](Clip clip, double turn_deg, double swing_deg) {
+  const auto from_parent = [](Take clip, double turn_deg, double swing_deg) {
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
       const double t = static_cast<double>(f) / clip.frame_rate_hz;
       const double angle = radians_per_degree * (turn_deg + swing_deg * std::sin(6 * t));
@@ -172,11 +172,11 @@ TEST(Bilateral, IsNotTheSameInTheFrameOfAParentThatTurns) {
 
 // Proposition 2. The blocks of frames that are worked on at once are no part of the result.
 TEST(Bilateral, IsTheSameAtAnyTime) {
-  const Clip input = noisy_take(700);
+  const Take input = noisy_take(700);
   const auto cleaner = make_bilateral(options_with(5, 2, "reflect"));
-  const Clip output = cleaned(input, *cleaner);
+  const Take output = cleaned(input, *cleaner);
   for (const std::size_t shift : {1, 3, 8, 250}) {
-    const Clip later = cleaned(slice(input, shift, 700), *cleaner);
+    const Take later = cleaned(slice(input, shift, 700), *cleaner);
     for (std::size_t f = shift + 10; f < 700; ++f) {
       for (std::size_t j = 0; j < input.joint_count(); ++j) {
         ASSERT_EQ(later.rotation(f - shift, j), output.rotation(f, j)) << f;
@@ -187,7 +187,7 @@ TEST(Bilateral, IsTheSameAtAnyTime) {
 }
 
 TEST(Bilateral, IsTheSameBackwardsInTime) {
-  const Clip input = noisy_take(60);
+  const Take input = noisy_take(60);
   for (const char* ends : {"mirror", "reflect"}) {
     const auto cleaner = make_bilateral(options_with(5, 5, ends));
     EXPECT_LT(
@@ -197,8 +197,8 @@ TEST(Bilateral, IsTheSameBackwardsInTime) {
 }
 
 TEST(Bilateral, OfManyPassesIsOnePassManyTimes) {
-  const Clip input = noisy_take(60);
-  Clip expected = input;
+  const Take input = noisy_take(60);
+  Take expected = input;
   for (int pass = 0; pass < 4; ++pass) {
     expected = cleaned(expected, *make_bilateral(options_with(5, 1, "reflect")));
   }
@@ -208,8 +208,8 @@ TEST(Bilateral, OfManyPassesIsOnePassManyTimes) {
 }
 
 // A turn of 40 degrees from one frame to the next, under noise of 1 degree.
-Clip stepping_take(double noise_deg, std::uint64_t seed) {
-  Clip clip = held_take(80, noise_deg, seed);
+Take stepping_take(double noise_deg, std::uint64_t seed) {
+  Take clip = held_take(80, noise_deg, seed);
   for (std::size_t f = 40; f < 80; ++f) {
     clip.rotation(f, 0) = exp({40 * radians_per_degree, 0, 0}) * clip.rotation(f, 0);
   }
@@ -217,10 +217,10 @@ Clip stepping_take(double noise_deg, std::uint64_t seed) {
 }
 
 TEST(Bilateral, KeepsAnEdgeThatAGaussianMelts) {
-  const Clip truth = stepping_take(0, 3), input = stepping_take(1, 3);
-  const Clip output = cleaned(input, *make_bilateral({0.02, 8, 5, "reflect"}));
-  const Clip melted = cleaned(input, *make_gaussian({0.02 * std::sqrt(5.0)}));
-  const auto step_deg = [](const Clip& clip) {
+  const Take truth = stepping_take(0, 3), input = stepping_take(1, 3);
+  const Take output = cleaned(input, *make_bilateral({0.02, 8, 5, "reflect"}));
+  const Take melted = cleaned(input, *make_gaussian({0.02 * std::sqrt(5.0)}));
+  const auto step_deg = [](const Take& clip) {
     return degrees_per_radian * angle_between(clip.rotation(39, 0), clip.rotation(40, 0));
   };
   EXPECT_NEAR(step_deg(output), 40, 1.5);
@@ -229,15 +229,15 @@ TEST(Bilateral, KeepsAnEdgeThatAGaussianMelts) {
 }
 
 TEST(Bilateral, KeepsALoneSpike) {
-  Clip input = held_take(60, 0.5, 4);
+  Take input = held_take(60, 0.5, 4);
   input.rotation(30, 0) = input.rotation(30, 0) * exp({0, 0.6, 0});
-  const Clip output = cleaned(input, *make_bilateral({0.02, 5, 5, "reflect"}));
+  const Take output = cleaned(input, *make_bilateral({0.02, 5, 5, "reflect"}));
   EXPECT_GT(angle_between(output.rotation(30, 0), output.rotation(28, 0)), 0.55);
 }
 
 TEST(Bilateral, IsAGaussianWhenNoTurnIsLarge) {
-  const Clip input = noisy_take(60);
-  const Clip output = cleaned(input, *make_bilateral(options_with(1000, 1, "mirror")));
+  const Take input = noisy_take(60);
+  const Take output = cleaned(input, *make_bilateral(options_with(1000, 1, "mirror")));
   // Over a mask of 5 frames on either side.
   double sum = 0;
   std::vector<double> mask;
@@ -253,14 +253,14 @@ TEST(Bilateral, IsAGaussianWhenNoTurnIsLarge) {
 }
 
 TEST(Bilateral, ReflectedKeepsASteadyTurnUpToTheEndsAndMirroredBendsIt) {
-  Clip input = held_take(60, 0, 1);
+  Take input = held_take(60, 0, 1);
   for (std::size_t f = 0; f < 60; ++f) {
     input.rotation(f, 0) = exp({0.02 * static_cast<double>(f), 0, 0}) * input.rotation(f, 0);
     input.root_position(f) = {0.3 * static_cast<double>(f), 0, 1};
   }
   EXPECT_LT(largest_difference(input, cleaned(input, *make_bilateral({0.02, 8, 5, "reflect"}))),
             1e-12);
-  const Clip bent = cleaned(input, *make_bilateral({0.02, 8, 5, "mirror"}));
+  const Take bent = cleaned(input, *make_bilateral({0.02, 8, 5, "mirror"}));
   EXPECT_GT(angle_between(input.rotation(0, 0), bent.rotation(0, 0)), 0.02);
 }
 
@@ -268,7 +268,7 @@ TEST(Bilateral, ReflectedKeepsASteadyTurnUpToTheEndsAndMirroredBendsIt) {
 TEST(Bilateral, StaysFiniteWhereNothingIsNear) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     Random random(seed);
-    Clip input = held_take(12, 0, 1);
+    Take input = held_take(12, 0, 1);
     for (Quat& q : input.rotations) q = random_rotation(random);
     for (std::size_t f = 0; f < input.frame_count(); ++f)
       input.root_position(f) = random_vector(random, 3);
@@ -281,18 +281,18 @@ TEST(Bilateral, StaysFiniteWhereNothingIsNear) {
 }
 
 TEST(Bilateral, BeatsItsNoisyInput) {
-  const Clip truth = moving_take(400, 120);
-  Clip input = truth;
+  const Take truth = moving_take(400, 120);
+  Take input = truth;
   add_noise(input, 2, 0.5, 9);
-  const Clip output = cleaned(input, *make_bilateral());
+  const Take output = cleaned(input, *make_bilateral());
   EXPECT_LT(rms_angle_deg(truth, output), 0.5 * rms_angle_deg(truth, input));
 }
 
 TEST(Bilateral, DependsOnItsWindowOnly) {
   const auto cleaner = make_bilateral(options_with(5, 3, "reflect"));
   ASSERT_EQ(cleaner->live(view_of(noisy_take(1)))->lookahead(), 15U);
-  const Clip input = noisy_take(80);
-  const Clip output = cleaned(input, *cleaner), other = cleaned(changed_at(input, 40), *cleaner);
+  const Take input = noisy_take(80);
+  const Take output = cleaned(input, *cleaner), other = cleaned(changed_at(input, 40), *cleaner);
   EXPECT_EQ(output.rotation(24, 1), other.rotation(24, 1));
   EXPECT_EQ(output.rotation(56, 1), other.rotation(56, 1));
   EXPECT_NE(output.rotation(36, 1), other.rotation(36, 1));

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "kinemend/cleaner.hpp"
-#include "kinemend/clip.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/rotation.hpp"
+#include "kinemend/take.hpp"
 #include "registry/takes.hpp"
 #include "rotation/random_rotations.hpp"
 
@@ -16,7 +16,7 @@
 namespace kinemend::test {
 
 /// The rotations of a joint, frame by frame.
-inline std::vector<Quat> track_of(const Clip& clip, std::size_t joint) {
+inline std::vector<Quat> track_of(const Take& clip, std::size_t joint) {
   std::vector<Quat> track;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) track.push_back(clip.rotation(f, joint));
   return track;
@@ -26,7 +26,7 @@ inline std::vector<Quat> track_of(const Clip& clip, std::size_t joint) {
 /// does not.
 inline double difference(Quat a, Quat b) { return std::min(norm(a + -b), norm(a + b)); }
 
-inline double largest_difference(const Clip& a, const Clip& b) {
+inline double largest_difference(const Take& a, const Take& b) {
   double largest = 0;
   for (std::size_t i = 0; i < a.rotations.size(); ++i) {
     largest = std::max(largest, difference(a.rotations[i], b.rotations[i]));
@@ -37,21 +37,21 @@ inline double largest_difference(const Clip& a, const Clip& b) {
   return largest;
 }
 
-inline Clip cleaned(Clip clip, const Cleaner& cleaner) {
+inline Take cleaned(Take clip, const Cleaner& cleaner) {
   clean_in_place(cleaner, clip);
   return clip;
 }
 
 /// The moving take with noise.
-inline Clip noisy_take(std::size_t frames, double rate_hz = 100, double noise_deg = 2,
+inline Take noisy_take(std::size_t frames, double rate_hz = 100, double noise_deg = 2,
                        std::uint64_t seed = 1) {
-  Clip clip = moving_take(frames, rate_hz);
+  Take clip = moving_take(frames, rate_hz);
   add_noise(clip, noise_deg, 0.5, seed);
   return clip;
 }
 
 /// Every rotation q as a q b, with an a and b of its own for each joint.
-inline Clip in_other_frames(Clip clip, std::uint64_t seed) {
+inline Take in_other_frames(Take clip, std::uint64_t seed) {
   Random random(seed);
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
     const Quat a = random_rotation(random), b = random_rotation(random);
@@ -62,8 +62,8 @@ inline Clip in_other_frames(Clip clip, std::uint64_t seed) {
   return clip;
 }
 
-inline Clip reversed(const Clip& clip) {
-  Clip result = clip;
+inline Take reversed(const Take& clip) {
+  Take result = clip;
   const std::size_t frames = clip.frame_count();
   for (std::size_t f = 0; f < frames; ++f) {
     for (std::size_t j = 0; j < clip.joint_count(); ++j) {
@@ -77,7 +77,7 @@ inline Clip reversed(const Clip& clip) {
 }
 
 /// The take with something else in frame f.
-inline Clip changed_at(Clip clip, std::size_t f) {
+inline Take changed_at(Take clip, std::size_t f) {
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
     clip.rotation(f, j) = clip.rotation(f, j) * exp({0.3, -0.2, 0.1});
   }
@@ -86,8 +86,8 @@ inline Clip changed_at(Clip clip, std::size_t f) {
 }
 
 /// A take of one joint, held at a rotation of its own but for white noise.
-inline Clip held_take(std::size_t frames, double noise_deg, std::uint64_t seed) {
-  Clip clip;
+inline Take held_take(std::size_t frames, double noise_deg, std::uint64_t seed) {
+  Take clip;
   clip.skeleton.add_joint("joint", -1, {0, 1, 0}, make_channels(true, parse_rotation_order("ZXY")));
   clip.frame_rate_hz = 100;
   clip.positions.assign(frames, {});

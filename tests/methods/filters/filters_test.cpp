@@ -133,7 +133,7 @@ TEST(Kalman, OfTurnsAboutOneAxisIsTheKalmanSmootherOfTheAngle) {
 }
 
 TEST(Kalman, IsTheSameInAnyCoordinateFrame) {
-  Clip clip = moving_take(120, 120), turned = clip;
+  Take clip = moving_take(120, 120), turned = clip;
   add_noise(clip, 1.5, 0, 3);
   const Quat left = exp({1, 0.4, -2}), right = exp({0.3, -1, 1});
   for (std::size_t f = 0; f < 120; ++f) turned.rotation(f, 1) = left * clip.rotation(f, 1) * right;
@@ -147,22 +147,22 @@ TEST(Kalman, IsTheSameInAnyCoordinateFrame) {
 
 TEST(Kalman, EstimatesTheNoiseAndSmoothsByIt) {
   for (const double noise_deg : {0.2, 1.0, 3.0}) {
-    const Clip truth = moving_take(400, 120);
-    Clip clip = truth;
+    const Take truth = moving_take(400, 120);
+    Take clip = truth;
     add_noise(clip, noise_deg, 0, 4);
-    const CleanResult result = clean_clip(clip, *make_kalman());
+    const CleanResult result = clean_take(clip, *make_kalman());
     EXPECT_NEAR(result.report.tracks[1].noise, noise_deg, 0.2 * noise_deg);
-    EXPECT_LT(rms_angle_deg(result.clip, truth), 0.7 * rms_angle_deg(clip, truth)) << noise_deg;
+    EXPECT_LT(rms_angle_deg(result.take, truth), 0.7 * rms_angle_deg(clip, truth)) << noise_deg;
   }
 }
 
 TEST(Kalman, RunningLiveLearnsTheNoiseOnTheWay) {
-  const Clip truth = moving_take(1200, 120);
-  Clip clip = truth;
+  const Take truth = moving_take(1200, 120);
+  Take clip = truth;
   add_noise(clip, 1.0, 0, 5);
-  const Clip live = clean_clip(clip, *make_kalman({.smoother = false})).clip;
-  const Clip given = clean_clip(clip, *make_kalman({.smoother = false, .noise_deg = 1.0})).clip;
-  const Clip late = slice(truth, 300, 1200);
+  const Take live = clean_take(clip, *make_kalman({.smoother = false})).take;
+  const Take given = clean_take(clip, *make_kalman({.smoother = false, .noise_deg = 1.0})).take;
+  const Take late = slice(truth, 300, 1200);
   EXPECT_NEAR(rms_angle_deg(slice(live, 300, 1200), late),
               rms_angle_deg(slice(given, 300, 1200), late), 0.1);
   EXPECT_LT(rms_angle_deg(slice(live, 300, 1200), late),
@@ -171,7 +171,7 @@ TEST(Kalman, RunningLiveLearnsTheNoiseOnTheWay) {
 
 // A small swing of joint 1 at a frequency; its amplitude after cleaning over that before.
 double gain_at(const Cleaner& cleaner, double frequency_hz) {
-  Clip clip = empty_take(1200, 120);
+  Take clip = empty_take(1200, 120);
   for (std::size_t f = 0; f < 1200; ++f) {
     const double phase = 2 * pi * frequency_hz * static_cast<double>(f) / 120;
     clip.rotation(f, 1) = exp({0.02 * std::sin(phase), 0, 0});
@@ -198,16 +198,16 @@ TEST(Butterworth, LetsHalfTheAmplitudePassAtItsCutoffBothWaysAndSevenTenthsOneWa
 }
 
 TEST(Butterworth, SaysThatThereIsNothingToDoAboveHalfTheRate) {
-  const Clip clip = moving_take(60, 12);
-  const CleanResult result = clean_clip(clip, *make_butterworth({.cutoff_hz = 6}));
-  EXPECT_EQ(result.clip.rotations, clip.rotations);
+  const Take clip = moving_take(60, 12);
+  const CleanResult result = clean_take(clip, *make_butterworth({.cutoff_hz = 6}));
+  EXPECT_EQ(result.take.rotations, clip.rotations);
   ASSERT_EQ(result.report.warnings.size(), 1U);
   EXPECT_NE(result.report.warnings[0].find("6.00 Hz is not below the Nyquist frequency of 6.00 Hz"),
             std::string::npos);
 }
 
 TEST(Butterworth, IsTheSameInAnyCoordinateFrameAndThroughEveryTurn) {
-  Clip clip = empty_take(240, 120), still = clip;
+  Take clip = empty_take(240, 120), still = clip;
   Random random(6);
   for (std::size_t f = 0; f < 240; ++f) {
     const Vec3 v{random.normal(), random.normal(), random.normal()};
@@ -225,7 +225,7 @@ TEST(Butterworth, IsTheSameInAnyCoordinateFrameAndThroughEveryTurn) {
 
 TEST(WeightedMean, OfSmallTurnsIsThatOfTheAngles) {
   Random random(7);
-  Clip clip = empty_take(80, 30);
+  Take clip = empty_take(80, 30);
   PoseMatrix angles(80, 1);
   for (std::size_t f = 0; f < 80; ++f) {
     angles(f, 0) = 1e-3 * random.normal();
@@ -238,7 +238,7 @@ TEST(WeightedMean, OfSmallTurnsIsThatOfTheAngles) {
 
 TEST(Wavelet, ThresholdsEveryChannelOfTheTangentSpace) {
   Random random(8);
-  Clip clip = empty_take(256, 120);
+  Take clip = empty_take(256, 120);
   PoseMatrix angles(256, 1);
   for (std::size_t f = 0; f < 256; ++f) {
     angles(f, 0) = 0.3 * std::sin(0.05 * static_cast<double>(f)) + 0.02 * random.normal();
@@ -277,7 +277,7 @@ std::vector<double> one_euro(const std::vector<double>& x, double rate, double m
 
 TEST(OneEuro, OfTurnsAboutOneAxisIsTheFilterOfThePaper) {
   Random random(9);
-  Clip clip = empty_take(200, 60);
+  Take clip = empty_take(200, 60);
   std::vector<double> angles;
   for (std::size_t f = 0; f < 200; ++f) {
     angles.push_back(5 * std::sin(0.03 * static_cast<double>(f)) + 0.02 * random.normal());
@@ -293,14 +293,14 @@ TEST(OneEuro, OfTurnsAboutOneAxisIsTheFilterOfThePaper) {
 
 TEST(OneEuro, SteadiesAPoseThatIsHeldAndFollowsAFastOne) {
   Random random(10);
-  Clip clip = empty_take(400, 120), truth = clip;
+  Take clip = empty_take(400, 120), truth = clip;
   for (std::size_t f = 0; f < 400; ++f) {
     const double angle = f < 200 ? 0 : 0.05 * static_cast<double>(f - 200);
     truth.rotation(f, 1) = exp({angle, 0, 0});
     clip.rotation(f, 1) =
         truth.rotation(f, 1) * exp({0.01 * random.normal(), 0.01 * random.normal(), 0});
   }
-  const Clip input = clip;
+  const Take input = clip;
   clean_in_place(*make_one_euro(), clip);
   EXPECT_LT(rms_angle_deg(slice(clip, 20, 200), slice(truth, 20, 200)),
             0.6 * rms_angle_deg(slice(input, 20, 200), slice(truth, 20, 200)));
@@ -308,7 +308,7 @@ TEST(OneEuro, SteadiesAPoseThatIsHeldAndFollowsAFastOne) {
 }
 
 TEST(Chains, TurningThroughHalfTurnsAndGimbalLockComeOutUnderHalfADegree) {
-  Clip truth = empty_take(480, 120);
+  Take truth = empty_take(480, 120);
   for (std::size_t f = 0; f < 480; ++f) {
     const double t = static_cast<double>(f) / 120;
     for (const std::size_t j : {0, 1, 2}) {
@@ -317,14 +317,14 @@ TEST(Chains, TurningThroughHalfTurnsAndGimbalLockComeOutUnderHalfADegree) {
       truth.rotation(f, j) = from_euler({yaw, pitch, 0.2 * t}, parse_rotation_order("YXZ"));
     }
   }
-  Clip noisy = truth;
+  Take noisy = truth;
   add_noise(noisy, 1, 0, 11);
   for (const char* method : {"butterworth", "weighted-mean", "kalman", "wavelet"}) {
     OptionValues options;
     if (std::string(method) == "butterworth") options["cutoff_hz"] = 5.0;
     if (std::string(method) == "weighted-mean") options["passes"] = std::int64_t{10};
     if (std::string(method) == "kalman") options["agility"] = 0.2;
-    const Clip clip = clean_clip(noisy, *make_cleaner(method, options)).clip;
+    const Take clip = clean_take(noisy, *make_cleaner(method, options)).take;
     double sum = 0;
     for (std::size_t f = 0; f < 480; ++f) {
       for (const std::size_t j : {0, 1, 2})

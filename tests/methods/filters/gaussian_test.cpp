@@ -70,19 +70,19 @@ TEST(OrientationFilter, TurnsAsTheMathLibraryDoes) {
 }
 
 TEST(OrientationFilter, GivesTheSameBitsOnEveryProcessor) {
-  const Clip input = noisy_take(100);
+  const Take input = noisy_take(100);
   std::vector<std::unique_ptr<Cleaner>> cleaners;
   cleaners.push_back(make_gaussian());
   cleaners.push_back(make_bilateral());
   cleaners.push_back(make_nonlocal());
   for (const auto& cleaner : cleaners) {
-    const Clip expected = cleaned(input, *cleaner);
+    const Take expected = cleaned(input, *cleaner);
     const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
     ASSERT_FALSE(targets.empty());
     for (const std::int64_t target : targets) {
       hwy::SetSupportedTargetsForTest(target);
       hwy::GetChosenTarget().Update(target);
-      const Clip output = cleaned(input, *cleaner);
+      const Take output = cleaned(input, *cleaner);
       EXPECT_EQ(output.rotations, expected.rotations) << hwy::TargetName(target);
       EXPECT_EQ(output.positions, expected.positions) << hwy::TargetName(target);
       hwy::SetSupportedTargetsForTest(0);
@@ -118,8 +118,8 @@ std::vector<double> gaussian_mask(double sigma) {
 }
 
 TEST(Gaussian, IsLeeAndShinsFilterWithAGaussianMask) {
-  const Clip input = noisy_take(60);
-  const Clip output = cleaned(input, *make_gaussian({0.03}));
+  const Take input = noisy_take(60);
+  const Take output = cleaned(input, *make_gaussian({0.03}));
   const std::vector<double> mask = gaussian_mask(3);
   ASSERT_EQ(mask.size(), 25U);
   for (std::size_t j = 0; j < input.joint_count(); ++j) {
@@ -154,8 +154,8 @@ double line_at_zero(const std::vector<double>& t, const std::vector<double>& x,
 }
 
 TEST(Gaussian, FitsALineWhereItsWindowIsCut) {
-  const Clip input = noisy_take(40);
-  const Clip output = cleaned(input, *make_gaussian({0.03}));
+  const Take input = noisy_take(40);
+  const Take output = cleaned(input, *make_gaussian({0.03}));
   for (const std::size_t f : {0, 1, 5, 11, 28, 34, 39}) {
     std::vector<double> t, x, weights;
     for (int i = std::max(0, static_cast<int>(f) - 12); i <= std::min(39, static_cast<int>(f) + 12);
@@ -169,9 +169,9 @@ TEST(Gaussian, FitsALineWhereItsWindowIsCut) {
 }
 
 TEST(Gaussian, TakesOffAsMuchNoiseAsItsMaskSays) {
-  const Clip input = held_take(4000, 1, 5);
-  const Clip output = cleaned(input, *make_gaussian({0.03}));
-  const Clip truth = held_take(4000, 0, 5);
+  const Take input = held_take(4000, 1, 5);
+  const Take output = cleaned(input, *make_gaussian({0.03}));
+  const Take truth = held_take(4000, 0, 5);
   double expected = 0;
   for (const double m : gaussian_mask(3)) expected += m * m;
   const double before = rms_angle_deg(truth, input), after = rms_angle_deg(truth, output);
@@ -181,8 +181,8 @@ TEST(Gaussian, TakesOffAsMuchNoiseAsItsMaskSays) {
 TEST(Gaussian, LessensTheNoiseOfTheFirstAndTheLastFrame) {
   double before = 0, after = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    const Clip truth = held_take(60, 0, seed), input = held_take(60, 1, seed);
-    const Clip output = cleaned(input, *make_gaussian({0.03}));
+    const Take truth = held_take(60, 0, seed), input = held_take(60, 1, seed);
+    const Take output = cleaned(input, *make_gaussian({0.03}));
     for (const std::size_t f : {0, 59}) {
       before += std::pow(angle_between(truth.rotation(f, 0), input.rotation(f, 0)), 2);
       after += std::pow(angle_between(truth.rotation(f, 0), output.rotation(f, 0)), 2);
@@ -192,7 +192,7 @@ TEST(Gaussian, LessensTheNoiseOfTheFirstAndTheLastFrame) {
 }
 
 TEST(Gaussian, IsTheSameInAnyCoordinateFrame) {
-  const Clip input = noisy_take(60);
+  const Take input = noisy_take(60);
   const auto cleaner = make_gaussian({0.03});
   EXPECT_LT(largest_difference(in_other_frames(cleaned(input, *cleaner), 8),
                                cleaned(in_other_frames(input, 8), *cleaner)),
@@ -200,7 +200,7 @@ TEST(Gaussian, IsTheSameInAnyCoordinateFrame) {
 }
 
 TEST(Gaussian, IsTheSameBackwardsInTime) {
-  const Clip input = noisy_take(60);
+  const Take input = noisy_take(60);
   const auto cleaner = make_gaussian({0.03});
   EXPECT_LT(
       largest_difference(reversed(cleaned(input, *cleaner)), cleaned(reversed(input), *cleaner)),
@@ -208,10 +208,10 @@ TEST(Gaussian, IsTheSameBackwardsInTime) {
 }
 
 TEST(Gaussian, InterpolatesGapsBetweenWhatItCleaned) {
-  Clip input = noisy_take(60);
+  Take input = noisy_take(60);
   input.observed.assign(input.rotations.size(), 1);
   for (std::size_t f = 20; f < 24; ++f) input.observed[f * input.joint_count() + 2] = 0;
-  Clip output = input;
+  Take output = input;
   const InPlaceTrace trace = clean_in_place(*make_gaussian({0.03}), output);
   const Quat before = output.rotation(19, 2), behind = output.rotation(24, 2);
   for (std::size_t f = 20; f < 24; ++f) {
@@ -220,7 +220,7 @@ TEST(Gaussian, InterpolatesGapsBetweenWhatItCleaned) {
     EXPECT_EQ(trace.actions[2][f], Action::filled);
   }
   // Far from the gap it is as if there were none, and near it the gap weighs nothing.
-  Clip whole = input;
+  Take whole = input;
   whole.observed.clear();
   whole = cleaned(whole, *make_gaussian({0.03}));
   EXPECT_EQ(output.rotation(7, 2), whole.rotation(7, 2));
@@ -230,8 +230,8 @@ TEST(Gaussian, InterpolatesGapsBetweenWhatItCleaned) {
 TEST(Gaussian, DependsOnItsWindowOnly) {
   const auto cleaner = make_gaussian({0.03});
   ASSERT_EQ(cleaner->live(view_of(noisy_take(1)))->lookahead(), 12U);
-  const Clip input = noisy_take(60);
-  const Clip output = cleaned(input, *cleaner), other = cleaned(changed_at(input, 30), *cleaner);
+  const Take input = noisy_take(60);
+  const Take output = cleaned(input, *cleaner), other = cleaned(changed_at(input, 30), *cleaner);
   EXPECT_EQ(output.rotation(17, 1), other.rotation(17, 1));
   EXPECT_EQ(output.rotation(43, 1), other.rotation(43, 1));
   EXPECT_NE(output.rotation(18, 1), other.rotation(18, 1));
@@ -239,7 +239,7 @@ TEST(Gaussian, DependsOnItsWindowOnly) {
 }
 
 TEST(Gaussian, ChangesNothingWhenItsMaskIsOneFrame) {
-  const Clip input = noisy_take(30);
+  const Take input = noisy_take(30);
   EXPECT_EQ(cleaned(input, *make_gaussian({0})).rotations, input.rotations);
   EXPECT_EQ(cleaned(input, *make_gaussian({0.001})).rotations, input.rotations);
 }

@@ -11,12 +11,12 @@ namespace kinemend::test {
 namespace {
 
 TEST(Median, RemovesASpikeAndKeepsAStep) {
-  Clip clip = empty_take(60, 100);
+  Take clip = empty_take(60, 100);
   for (std::size_t f = 0; f < 60; ++f) {
     clip.rotation(f, 1) = f < 30 ? exp({0.2, 0, 0}) : exp({0, 0.9, 0});
     clip.root_position(f) = f < 30 ? Vec3{1, 2, 3} : Vec3{5, 2, 3};
   }
-  const Clip truth = clip;
+  const Take truth = clip;
   for (const std::size_t f : {0, 12, 45, 59}) {
     clip.rotation(f, 1) = clip.rotation(f, 1) * exp({0, 0, 1});
     clip.root_position(f) += {0, 9, 0};
@@ -28,43 +28,43 @@ TEST(Median, RemovesASpikeAndKeepsAStep) {
 }
 
 TEST(Hampel, ReplacesTheSpikesAndLeavesEveryOtherSampleByteForByte) {
-  const Clip truth = moving_take(240, 120);
-  Clip clip = truth;
+  const Take truth = moving_take(240, 120);
+  Take clip = truth;
   const std::vector<std::size_t> spikes{0, 17, 80, 81, 160, 239};
   for (const std::size_t f : spikes) {
     clip.rotation(f, 1) = clip.rotation(f, 1) * exp({0.5, -0.3, 0.2});
     clip.root_position(f) += {20, 0, 0};
   }
-  const CleanResult result = clean_clip(clip, *make_hampel());
+  const CleanResult result = clean_take(clip, *make_hampel());
   std::vector<std::size_t> changed, moved;
   for (std::size_t f = 0; f < 240; ++f) {
-    if (result.clip.rotation(f, 1) != clip.rotation(f, 1)) changed.push_back(f);
-    if (result.clip.root_position(f) != clip.root_position(f)) moved.push_back(f);
+    if (result.take.rotation(f, 1) != clip.rotation(f, 1)) changed.push_back(f);
+    if (result.take.root_position(f) != clip.root_position(f)) moved.push_back(f);
     for (const std::size_t j : {0, 2, 3, 4, 5, 6})
-      ASSERT_EQ(result.clip.rotation(f, j), clip.rotation(f, j));
+      ASSERT_EQ(result.take.rotation(f, j), clip.rotation(f, j));
   }
   EXPECT_EQ(changed, spikes);
   EXPECT_EQ(moved, spikes);
-  EXPECT_LT(max_angle_deg(result.clip, truth), 4);
+  EXPECT_LT(max_angle_deg(result.take, truth), 4);
   EXPECT_EQ(result.report.tracks[1].frames_repaired, spikes.size());
 }
 
 TEST(Hampel, DoesNotTakeAFastMotionForASpike) {
-  Clip clip = empty_take(120, 120);
+  Take clip = empty_take(120, 120);
   for (std::size_t f = 0; f < 120; ++f) {
     const double t = static_cast<double>(f) / 120;
     clip.rotation(f, 1) = exp({1.2 * std::sin(2 * pi * 4 * t), 0, 0});  // 1,700 degrees a second
     clip.rotation(f, 2) = exp({0, t < 0.5 ? 0 : 12 * (t - 0.5), 0});    // a start without warning
   }
-  const Clip output = clean_clip(clip, *make_hampel()).clip;
+  const Take output = clean_take(clip, *make_hampel()).take;
   EXPECT_EQ(output.rotations, clip.rotations);
 }
 
 TEST(Hampel, LeavesSmallDeviationsAlone) {
-  Clip clip = empty_take(60, 120);
+  Take clip = empty_take(60, 120);
   clip.rotation(30, 1) = exp({0.9 * radians_per_degree, 0, 0});
-  EXPECT_EQ(clean_clip(clip, *make_hampel()).clip.rotation(30, 1), clip.rotation(30, 1));
-  EXPECT_EQ(clean_clip(clip, *make_hampel({.minimum_deg = 0.8})).clip.rotation(30, 1), Quat{});
+  EXPECT_EQ(clean_take(clip, *make_hampel()).take.rotation(30, 1), clip.rotation(30, 1));
+  EXPECT_EQ(clean_take(clip, *make_hampel({.minimum_deg = 0.8})).take.rotation(30, 1), Quat{});
 }
 
 TEST(TrackNoise, IsTheStandardDeviationPerAxisWhateverTheMotionAndTheSpikes) {

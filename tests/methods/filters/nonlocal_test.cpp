@@ -19,7 +19,7 @@ namespace {
 
 // Dean's filter written out, frame by frame, joint by joint, with no sum kept.
 struct Direct {
-  Clip clip;  // gaps bridged
+  Take clip;  // gaps bridged
   int window = 4, patch = 2, neighbours = 0;
   double bandwidth = 0.1;
   std::string boundary = "neumann";
@@ -110,8 +110,8 @@ struct Direct {
     return list;
   }
 
-  Clip run() const {
-    Clip result = clip;
+  Take run() const {
+    Take result = clip;
     for (int t = 0; t < frames(); ++t) {
       const auto f = static_cast<std::size_t>(t);
       const std::vector<Weighted> weights = weights_of(t);
@@ -152,8 +152,8 @@ NonlocalOptions small_options(std::string boundary = "neumann") {
   return options;
 }
 
-void expect_direct(const Direct& direct, const Clip& output) {
-  const Clip expected = direct.run();
+void expect_direct(const Direct& direct, const Take& output) {
+  const Take expected = direct.run();
   for (std::size_t f = 0; f < output.frame_count(); ++f) {
     for (std::size_t j = 0; j < output.joint_count(); ++j) {
       ASSERT_LT(difference(output.rotation(f, j), expected.rotation(f, j)), 1e-11)
@@ -207,7 +207,7 @@ TEST(Nonlocal, GivesAWeightWhereNoPatchIsNear) {
 }
 
 TEST(Nonlocal, LeavesUnobservedSamplesOutOfPatchesAndMeans) {
-  Clip input = noisy_take(50);
+  Take input = noisy_take(50);
   input.observed.assign(input.rotations.size(), 1);
   for (std::size_t f = 20; f < 23; ++f) input.observed[f * input.joint_count() + 2] = 0;
   input.observed[30 * input.joint_count() + 4] = 0;
@@ -221,10 +221,10 @@ TEST(Nonlocal, LeavesUnobservedSamplesOutOfPatchesAndMeans) {
 }
 
 TEST(Nonlocal, ComparesWholePosesWhateverIsSelected) {
-  const Clip input = noisy_take(50);
+  const Take input = noisy_take(50);
   const auto cleaner = make_nonlocal(small_options());
-  const Clip all = cleaned(input, *cleaner);
-  Clip one = input;
+  const Take all = cleaned(input, *cleaner);
+  Take one = input;
   Selection selection;
   selection.owners.assign(one.joint_count(), 0);
   selection.owners[2] = 1;
@@ -239,7 +239,7 @@ TEST(Nonlocal, ComparesWholePosesWhateverIsSelected) {
 
 // No angle is special, pi included: there is no reference rotation that a joint could be far from.
 TEST(Nonlocal, IsTheSameInAnyCoordinateFrame) {
-  const Clip input = noisy_take(60);
+  const Take input = noisy_take(60);
   for (const double bandwidth_deg : {0.0, 5.0}) {
     NonlocalOptions options = small_options();
     options.bandwidth_deg = bandwidth_deg;
@@ -251,7 +251,7 @@ TEST(Nonlocal, IsTheSameInAnyCoordinateFrame) {
 }
 
 TEST(Nonlocal, IsTheSameBackwardsInTime) {
-  const Clip input = noisy_take(60);
+  const Take input = noisy_take(60);
   for (const char* boundary : {"mirror", "neumann", "dirichlet"}) {
     const auto cleaner = make_nonlocal(small_options(boundary));
     EXPECT_LT(
@@ -260,7 +260,7 @@ TEST(Nonlocal, IsTheSameBackwardsInTime) {
   }
 }
 
-double error_deg(const Clip& truth, const Clip& noisy, NonlocalOptions options) {
+double error_deg(const Take& truth, const Take& noisy, NonlocalOptions options) {
   return rms_angle_deg(truth, cleaned(noisy, *make_nonlocal(options)));
 }
 
@@ -269,9 +269,9 @@ TEST(Nonlocal, ChoosesABandwidthNearTheBest) {
     SynthOptions synth;
     synth.motion = motion;
     synth.duration_s = 2;
-    const Clip truth = synthesize(synth);
+    const Take truth = synthesize(synth);
     for (const double noise_deg : {0.3, 1.0, 3.0}) {
-      Clip noisy = truth;
+      Take noisy = truth;
       Random random(3);
       apply_damage(noisy, "gaussian", {{"std_deg", noise_deg}}, random);
       double best = std::numeric_limits<double>::infinity();
@@ -290,7 +290,7 @@ TEST(Nonlocal, ChoosesABandwidthNearTheBest) {
 TEST(Nonlocal, LeavesACleanTakeNearlyAlone) {
   SynthOptions synth;
   synth.duration_s = 2;
-  const Clip truth = synthesize(synth);
+  const Take truth = synthesize(synth);
   EXPECT_LT(error_deg(truth, truth, {}), 0.05);
   // The paper's weights have no measure of how near the nearest patch is.
   NonlocalOptions options;
@@ -300,7 +300,7 @@ TEST(Nonlocal, LeavesACleanTakeNearlyAlone) {
 
 TEST(Nonlocal, LearnsFromRepetitionsInTheWholeTake) {
   // Ten times the same second, exactly, under noise.
-  Clip truth = moving_take(1000, 100);
+  Take truth = moving_take(1000, 100);
   for (std::size_t f = 0; f < 1000; ++f) {
     for (std::size_t j = 0; j < truth.joint_count(); ++j) {
       truth.rotation(f, j) =
@@ -308,7 +308,7 @@ TEST(Nonlocal, LearnsFromRepetitionsInTheWholeTake) {
                0.5 * std::cos(4 * pi * static_cast<double>(f % 100) / 100), 0.2});
     }
   }
-  Clip noisy = truth;
+  Take noisy = truth;
   Random random(5);
   for (Quat& q : noisy.rotations) q = q * exp(random_vector(random, radians_per_degree));
   NonlocalOptions options;
@@ -320,8 +320,8 @@ TEST(Nonlocal, LearnsFromRepetitionsInTheWholeTake) {
 TEST(Nonlocal, DependsOnItsWindowOnly) {
   const auto cleaner = make_nonlocal(small_options());
   ASSERT_EQ(cleaner->live(view_of(noisy_take(1)))->lookahead(), 6U);
-  const Clip input = noisy_take(60);
-  const Clip output = cleaned(input, *cleaner), other = cleaned(changed_at(input, 30), *cleaner);
+  const Take input = noisy_take(60);
+  const Take output = cleaned(input, *cleaner), other = cleaned(changed_at(input, 30), *cleaner);
   EXPECT_EQ(output.rotation(23, 1), other.rotation(23, 1));
   EXPECT_EQ(output.rotation(37, 1), other.rotation(37, 1));
   EXPECT_NE(output.rotation(24, 1), other.rotation(24, 1));
@@ -344,8 +344,8 @@ NonlocalOptions causal_options(double bandwidth_deg) {
 }
 
 TEST(NonlocalCausal, AveragesPastPosesByTheirPatches) {
-  const Clip input = noisy_take(40);
-  const Clip output = cleaned(input, *make_nonlocal(causal_options(0.1 * degrees_per_radian)));
+  const Take input = noisy_take(40);
+  const Take output = cleaned(input, *make_nonlocal(causal_options(0.1 * degrees_per_radian)));
   for (int t = 0; t < 40; ++t) {
     std::vector<double> weights;
     double largest = 0;
@@ -385,20 +385,20 @@ TEST(NonlocalCausal, DoesNotKnowTheFuture) {
   for (const double bandwidth_deg : {0.0, 5.0}) {
     const auto cleaner = make_nonlocal(causal_options(bandwidth_deg));
     EXPECT_EQ(cleaner->live(view_of(noisy_take(1)))->lookahead(), 0U);
-    const Clip input = noisy_take(60);
-    const Clip output = cleaned(input, *cleaner), other = cleaned(changed_at(input, 30), *cleaner);
+    const Take input = noisy_take(60);
+    const Take output = cleaned(input, *cleaner), other = cleaned(changed_at(input, 30), *cleaner);
     for (std::size_t f = 0; f < 30; ++f) EXPECT_EQ(output.rotation(f, 1), other.rotation(f, 1));
     EXPECT_NE(output.rotation(30, 1), other.rotation(30, 1));
   }
 }
 
 TEST(NonlocalCausal, MeasuresTheNoiseAsItGoes) {
-  const Clip truth = held_take(400, 0, 2), input = held_take(400, 1.5, 2);
+  const Take truth = held_take(400, 0, 2), input = held_take(400, 1.5, 2);
   NonlocalOptions options;
   options.causal = true;
   EXPECT_LT(error_deg(truth, input, options), 0.5 * rms_angle_deg(truth, input));
   // Of one joint held still the noise is not known before the eighth second difference.
-  const Clip output = cleaned(input, *make_nonlocal(options));
+  const Take output = cleaned(input, *make_nonlocal(options));
   for (std::size_t f = 0; f < 9; ++f) EXPECT_EQ(output.rotation(f, 0), input.rotation(f, 0));
   EXPECT_NE(output.rotation(9, 0), input.rotation(9, 0));
 }

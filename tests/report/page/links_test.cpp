@@ -15,8 +15,8 @@ using Links = std::vector<std::array<std::size_t, 2>>;
 
 // Two rods of three markers each, 100 apart along a rod. The second swings about the end of the
 // first: marker 3 stays 20 from marker 2.
-MarkerClip two_rods(std::size_t frames = 200) {
-  MarkerClip clip = make_marker_clip({"A1", "A2", "A3", "B1", "B2", "B3"}, frames, 100);
+Take two_rods(std::size_t frames = 200) {
+  Take clip = make_marker_take({"A1", "A2", "A3", "B1", "B2", "B3"}, frames, 100);
   clip.observed.assign(frames * 6, 1);
   for (std::size_t f = 0; f < frames; ++f) {
     const double angle = 0.8 * std::sin(0.1 * static_cast<double>(f));
@@ -43,7 +43,7 @@ TEST(MarkerLinks, JoinNeighboursOnABoneAndAcrossAJoint) {
 }
 
 TEST(MarkerLinks, StayTheSameUnderNoiseGapsAndASwap) {
-  MarkerClip clip = two_rods();
+  Take clip = two_rods();
   Random random(5);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     for (std::size_t m = 0; m < 6; ++m)
@@ -56,7 +56,7 @@ TEST(MarkerLinks, StayTheSameUnderNoiseGapsAndASwap) {
 }
 
 TEST(MarkerLinks, LeaveOutWhatIsFarDriftsOrHasNoName) {
-  MarkerClip clip = two_rods();
+  Take clip = two_rods();
   clip.names[5] = "*52";
   Links expected = rods;
   expected.pop_back();
@@ -72,15 +72,15 @@ TEST(MarkerLinks, LeaveOutWhatIsFarDriftsOrHasNoName) {
 }
 
 TEST(MarkerLinks, OfMarkersThatAreNeverSeenTogetherAreNone) {
-  MarkerClip clip = make_marker_clip({"A", "B"}, 100, 100);
+  Take clip = make_marker_take({"A", "B"}, 100, 100);
   clip.observed.assign(200, 1);
   for (std::size_t f = 0; f < 100; ++f) {
     clip.position(f, 1) = {10, 0, 0};
     clip.observed[f * 2 + (f < 50 ? 0 : 1)] = 0;
   }
   EXPECT_TRUE(marker_links(clip, 100).empty());
-  EXPECT_TRUE(marker_links(make_marker_clip({}, 0, 100), 100).empty());
-  EXPECT_TRUE(marker_links(make_marker_clip({"A", "B"}, 0, 100), 100).empty());
+  EXPECT_TRUE(marker_links(make_marker_take({}, 0, 100), 100).empty());
+  EXPECT_TRUE(marker_links(make_marker_take({"A", "B"}, 0, 100), 100).empty());
 }
 
 }  // namespace

@@ -18,26 +18,24 @@ using testing::Not;
 
 constexpr double bound_deg = 0.02;
 
-Clip walk(double duration_s = 2, double rate = 60) {
+Take walk(double duration_s = 2, double rate = 60) {
   return synthesize({.duration_s = duration_s, .frame_rate_hz = rate});
 }
 
-Clip damaged(Clip clip) {
+Take damaged(Take clip) {
   Random random(3);
   apply_damage(clip, "gaussian", {{"std_deg", 1.5}}, random);
   apply_damage(clip, "outliers", {{"share", 0.004}, {"std_deg", 25.0}}, random);
   return clip;
 }
 
-template <class AnyTake>
-Report report_of(const AnyTake& take) {
+Report report_of(const Take& take) {
   Report report{take_facts(take), CheckReport()};
   report.take.input = "walk.bvh";
   return report;
 }
 
-template <class AnyTake>
-std::string page_of(const AnyTake& before, const AnyTake* after) {
+std::string page_of(const Take& before, const Take* after) {
   return report_page(report_of(before), before, after,
                      {.command = "clean", .command_line = "kinemend clean walk.bvh"});
 }
@@ -47,7 +45,7 @@ double body_height_of(const std::string& page) {
 }
 
 // Channels as `channels_of` orders them, for a clip with all joints of three axes.
-void expect_motion(const Clip& clip, const std::vector<std::vector<double>>& channels,
+void expect_motion(const Take& clip, const std::vector<std::vector<double>>& channels,
                    double position_bound) {
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     EXPECT_NEAR(channels[0][f], clip.root_position(f).x, position_bound);
@@ -70,7 +68,7 @@ class Page : public testing::Test {
     // A build without the page has one thing to show: that it says so.
     if (has_report_page()) return;
     try {
-      page_of(walk(), static_cast<const Clip*>(nullptr));
+      page_of(walk(), static_cast<const Take*>(nullptr));
       ADD_FAILURE() << "a page without its program";
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::usage);
@@ -81,7 +79,7 @@ class Page : public testing::Test {
 };
 
 TEST_F(Page, HoldsTheMotionBeforeAndAfterWithinItsBounds) {
-  const Clip after = walk(), before = damaged(after);
+  const Take after = walk(), before = damaged(after);
   const std::string page = page_of(before, &after);
   const PageChannels channels = channels_in(page);
   ASSERT_EQ(channels.before.size(), 3 + 3 * after.joint_count());
@@ -91,7 +89,7 @@ TEST_F(Page, HoldsTheMotionBeforeAndAfterWithinItsBounds) {
 }
 
 TEST_F(Page, OfAMinuteOfThirtyOneNoisyJointsIsBelowTwoMegabytes) {
-  const Clip after = walk(60, 120), before = damaged(after);
+  const Take after = walk(60, 120), before = damaged(after);
   ASSERT_EQ(after.joint_count(), 31u);
   EXPECT_LT(page_of(before, &after).size(), 1'950'000u);
   // Whichever of the two is the noisy one.
@@ -99,7 +97,7 @@ TEST_F(Page, OfAMinuteOfThirtyOneNoisyJointsIsBelowTwoMegabytes) {
 }
 
 TEST_F(Page, HoldsMarkersWithTheirGaps) {
-  MarkerClip clip = make_marker_clip({"A", "B", "Angle"}, 50, 100);
+  Take clip = make_marker_take({"A", "B", "Angle"}, 50, 100);
   clip.unit = "mm";
   clip.first_frame = 101;
   clip.is_position = {1, 1, 0};
@@ -109,7 +107,7 @@ TEST_F(Page, HoldsMarkersWithTheirGaps) {
       clip.observed[f * 3 + m] = m != 1 || f < 20 || f > 29 ? 1 : 0;
     }
   }
-  const std::string page = page_of(clip, static_cast<const MarkerClip*>(nullptr));
+  const std::string page = page_of(clip, static_cast<const Take*>(nullptr));
   const PageJson take = json_part(page, "take");
   EXPECT_EQ(take["kind"], "markers");
   EXPECT_EQ(take["first_frame"], 101);
@@ -129,13 +127,13 @@ TEST_F(Page, HoldsMarkersWithTheirGaps) {
 }
 
 TEST_F(Page, OfALongTakeComesInTwoParts) {
-  MarkerClip clip = make_marker_clip({"A"}, 840'001, 1000);
+  Take clip = make_marker_take({"A"}, 840'001, 1000);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     clip.position(f, 0) = {static_cast<double>(f % 1000), 0, 0};
     clip.observed[f] = 1;
   }
   clip.unit = "mm";
-  const std::string page = page_of(clip, static_cast<const MarkerClip*>(nullptr));
+  const std::string page = page_of(clip, static_cast<const Take*>(nullptr));
   ASSERT_EQ(json_part(page, "take")["stride"], 8);
   const auto channels = channels_in(page).before;
   ASSERT_EQ(channels[0].size(), clip.frame_count());
@@ -144,7 +142,7 @@ TEST_F(Page, OfALongTakeComesInTwoParts) {
 }
 
 TEST_F(Page, CarriesTheReportAndTheCommand) {
-  const Clip clip = walk();
+  const Take clip = walk();
   Report report = report_of(clip);
   std::get<CheckReport>(report.result)
       .findings.push_back(
@@ -160,7 +158,7 @@ TEST_F(Page, CarriesTheReportAndTheCommand) {
 }
 
 TEST_F(Page, HasNoMarkupOfNamesInIt) {
-  Clip clip = walk();
+  Take clip = walk();
   const std::string nasty = "</script><script>alert(1)</script>\"'&\xff\xc3\xa9";
   clip.skeleton.names[3] = nasty;
   Report report = report_of(clip);
@@ -173,39 +171,39 @@ TEST_F(Page, HasNoMarkupOfNamesInIt) {
 }
 
 TEST_F(Page, FetchesNothing) {
-  const std::string page = page_of(walk(), static_cast<const Clip*>(nullptr));
+  const std::string page = page_of(walk(), static_cast<const Take*>(nullptr));
   EXPECT_THAT(page, HasSubstr("default-src 'none'"));
   EXPECT_THAT(page, Not(HasSubstr("<link")));
   EXPECT_THAT(page, Not(HasSubstr(" src=\"http")));
 }
 
 TEST_F(Page, TellsTheLicencesOfWhatItIsMadeOf) {
-  const std::string page = page_of(walk(), static_cast<const Clip*>(nullptr));
+  const std::string page = page_of(walk(), static_cast<const Take*>(nullptr));
   EXPECT_THAT(page, HasSubstr("three.js authors"));
   EXPECT_THAT(page, HasSubstr("Leon Sorokin"));
 }
 
 TEST_F(Page, IsMadeOfTakesWithNothingInThem) {
-  const Clip empty = slice(walk(), 0, 0);
+  const Take empty = slice(walk(), 0, 0);
   EXPECT_EQ(json_part(page_of(empty, &empty), "take")["told"], 0);
-  const Clip one = slice(walk(), 3, 4);
+  const Take one = slice(walk(), 3, 4);
   EXPECT_EQ(json_part(page_of(one, &one), "take")["told"], 1);
-  const MarkerClip none = make_marker_clip({}, 0, 100);
+  const Take none = make_marker_take({}, 0, 100);
   EXPECT_EQ(json_part(page_of(none, &none), "take")["names"].size(), 0u);
-  const MarkerClip unseen = make_marker_clip({"A", "B"}, 10, 100);
+  const Take unseen = make_marker_take({"A", "B"}, 10, 100);
   EXPECT_EQ(json_part(page_of(unseen, &unseen), "take")["gaps"]["after"]["own"].size(), 2u);
 }
 
 TEST_F(Page, IsOfTwoTakesOfOneLengthOnly) {
-  const Clip before = walk(), shorter = slice(before, 0, 10);
+  const Take before = walk(), shorter = slice(before, 0, 10);
   EXPECT_THROW(page_of(before, &shorter), Error);
-  const MarkerClip a = make_marker_clip({"A"}, 5, 100), b = make_marker_clip({"A", "B"}, 5, 100);
+  const Take a = make_marker_take({"A"}, 5, 100), b = make_marker_take({"A", "B"}, 5, 100);
   EXPECT_THROW(page_of(a, &b), Error);
 }
 
 TEST_F(Page, KnowsWhereTheFloorIsAndWhenFeetStand) {
   const PageJson stage =
-      json_part(page_of(walk(4, 120), static_cast<const Clip*>(nullptr)), "take")["stage"];
+      json_part(page_of(walk(4, 120), static_cast<const Take*>(nullptr)), "take")["stage"];
   EXPECT_EQ(stage["up"], "y");
   EXPECT_EQ(stage["sign"], 1.0);
   EXPECT_NEAR(stage["floor"].get<double>(), 0, 3);

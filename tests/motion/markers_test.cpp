@@ -1,4 +1,4 @@
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,16 +10,16 @@
 namespace kinemend {
 namespace {
 
-TEST(MarkerClip, FindsAMarkerWithAndWithoutItsSubject) {
-  const MarkerClip clip = make_marker_clip({"Ann:LASI", "LASI", "Ann:RASI"}, 1, 100);
+TEST(Take, FindsAMarkerWithAndWithoutItsSubject) {
+  const Take clip = make_marker_take({"Ann:LASI", "LASI", "Ann:RASI"}, 1, 100);
   EXPECT_EQ(clip.find("LASI"), 1);
   EXPECT_EQ(clip.find("Ann:LASI"), 0);
   EXPECT_EQ(clip.find("RASI"), 2);
   EXPECT_EQ(clip.find("SACR"), -1);
 }
 
-TEST(MarkerClip, CountsOnlyThePointsThatArePositions) {
-  MarkerClip clip = make_marker_clip({"LASI", "LKneeAngles", "RASI", "LHipMoment"}, 3, 100);
+TEST(Take, CountsOnlyThePointsThatArePositions) {
+  Take clip = make_marker_take({"LASI", "LKneeAngles", "RASI", "LHipMoment"}, 3, 100);
   EXPECT_EQ(clip.position_count(), 4u);
   clip.is_position = {1, 0, 1, 0};
   EXPECT_EQ(clip.position_count(), 2u);
@@ -28,16 +28,16 @@ TEST(MarkerClip, CountsOnlyThePointsThatArePositions) {
   EXPECT_EQ(clip.position_count(), 4u);
 }
 
-TEST(MarkerClip, StartsWithEverySampleMissing) {
-  const MarkerClip clip = make_marker_clip({"A", "B"}, 3, 100);
+TEST(Take, StartsWithEverySampleMissing) {
+  const Take clip = make_marker_take({"A", "B"}, 3, 100);
   EXPECT_EQ(clip.frame_count(), 3u);
   for (std::size_t f = 0; f < 3; ++f)
     EXPECT_FALSE(clip.is_observed(f, 0) || clip.is_observed(f, 1));
   EXPECT_NO_THROW(clip.validate());
 }
 
-TEST(MarkerClip, RefusesAPositionThatIsNotFiniteOnlyWhereItIsObserved) {
-  MarkerClip clip = make_marker_clip({"A", "B"}, 2, 100);
+TEST(Take, RefusesAPositionThatIsNotFiniteOnlyWhereItIsObserved) {
+  Take clip = make_marker_take({"A", "B"}, 2, 100);
   clip.position(1, 1).y = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NO_THROW(clip.validate());
   clip.observed[3] = 1;
@@ -49,18 +49,18 @@ TEST(MarkerClip, RefusesAPositionThatIsNotFiniteOnlyWhereItIsObserved) {
   }
 }
 
-TEST(MarkerClip, RefusesArraysOfTheWrongLength) {
-  MarkerClip clip = make_marker_clip({"A", "B"}, 2, 100);
+TEST(Take, RefusesArraysOfTheWrongLength) {
+  Take clip = make_marker_take({"A", "B"}, 2, 100);
   clip.observed.pop_back();
   EXPECT_THROW(clip.validate(), Error);
 }
 
-TEST(MarkerClip, SlicesKeepTheNumberOfTheirFirstFrame) {
-  MarkerClip clip = make_marker_clip({"A"}, 5, 100);
+TEST(Take, SlicesKeepTheNumberOfTheirFirstFrame) {
+  Take clip = make_marker_take({"A"}, 5, 100);
   clip.first_frame = 10;
   clip.position(3, 0) = {1, 2, 3};
   clip.observed[3] = 1;
-  const MarkerClip part = slice(clip, 2, 5);
+  const Take part = slice(clip, 2, 5);
   EXPECT_EQ(part.frame_count(), 3u);
   EXPECT_EQ(part.first_frame, 12);
   EXPECT_TRUE(part.is_observed(1, 0));

@@ -1,4 +1,4 @@
-#include "kinemend/clip.hpp"
+#include "kinemend/take.hpp"
 
 #include <gmock/gmock.h>
 
@@ -28,8 +28,8 @@ auto usage(const char* message) {
                ThrowsMessage<Error>(message));
 }
 
-Clip full_clip() {
-  Clip clip = moving_chain(3, 5);
+Take full_clip() {
+  Take clip = moving_chain(3, 5);
   test::add_translations(clip, {1}, [](std::size_t f, std::size_t) {
     return Vec3{static_cast<double>(f), 1, 2};
   });
@@ -41,7 +41,7 @@ Clip full_clip() {
 
 template <class Change>
 auto validating(Change change) {
-  Clip clip = full_clip();
+  Take clip = full_clip();
   change(clip);
   return [clip] { clip.validate(); };
 }
@@ -54,38 +54,38 @@ TEST(ClipRules, AcceptGoodClips) {
 TEST(ClipRules, NameTheFirstFrameAndJointThatBreaksOne) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
-  EXPECT_THAT(validating([](Clip& c) { c.skeleton.parents[0] = 1; }),
+  EXPECT_THAT(validating([](Take& c) { c.skeleton.parents[0] = 1; }),
               usage("joint 0 is not a root"));
-  EXPECT_THAT(validating([](Clip& c) { c.frame_rate_hz = 0; }),
+  EXPECT_THAT(validating([](Take& c) { c.frame_rate_hz = 0; }),
               usage("a frame rate of 0 Hz is outside 0.1 to 100000 Hz"));
-  EXPECT_THAT(validating([&](Clip& c) { c.frame_rate_hz = infinity; }),
+  EXPECT_THAT(validating([&](Take& c) { c.frame_rate_hz = infinity; }),
               usage("a frame rate of inf Hz is outside 0.1 to 100000 Hz"));
-  EXPECT_THAT(validating([](Clip& c) { c.rotations.pop_back(); }),
+  EXPECT_THAT(validating([](Take& c) { c.rotations.pop_back(); }),
               usage("rotations: 14 values, expected 15"));
-  EXPECT_THAT(validating([](Clip& c) { c.positions.pop_back(); }),
+  EXPECT_THAT(validating([](Take& c) { c.positions.pop_back(); }),
               usage("positions: 9 values, expected 8"));
-  EXPECT_THAT(validating([](Clip& c) { c.observed.pop_back(); }),
+  EXPECT_THAT(validating([](Take& c) { c.observed.pop_back(); }),
               usage("observed mask: 14 values, expected 15"));
   const auto bad_joints = usage("translated joints are not ascending joint numbers above 0");
-  EXPECT_THAT(validating([](Clip& c) { c.translated_joints = {0}; }), bad_joints);
-  EXPECT_THAT(validating([](Clip& c) { c.translated_joints = {3}; }), bad_joints);
-  EXPECT_THAT(validating([](Clip& c) {
+  EXPECT_THAT(validating([](Take& c) { c.translated_joints = {0}; }), bad_joints);
+  EXPECT_THAT(validating([](Take& c) { c.translated_joints = {3}; }), bad_joints);
+  EXPECT_THAT(validating([](Take& c) {
                 c.translated_joints = {2, 1};
                 c.positions.resize(15);
               }),
               bad_joints);
-  EXPECT_THAT(validating([&](Clip& c) { c.root_position(2).z = nan; }),
+  EXPECT_THAT(validating([&](Take& c) { c.root_position(2).z = nan; }),
               usage("frame 2: root position is not finite"));
-  EXPECT_THAT(validating([](Clip& c) { c.rotation(3, 1).w += 0.01; }),
+  EXPECT_THAT(validating([](Take& c) { c.rotation(3, 1).w += 0.01; }),
               usage("frame 3, joint \"joint1\": rotation is not a unit quaternion"));
-  EXPECT_THAT(validating([&](Clip& c) { c.rotation(4, 2).x = nan; }),
+  EXPECT_THAT(validating([&](Take& c) { c.rotation(4, 2).x = nan; }),
               usage("frame 4, joint \"joint2\": rotation is not a unit quaternion"));
-  EXPECT_THAT(validating([&](Clip& c) { c.position(1, 1).x = infinity; }),
+  EXPECT_THAT(validating([&](Take& c) { c.position(1, 1).x = infinity; }),
               usage("a joint translation is not finite"));
 }
 
-TEST(Clip, KnowsItsSizesAndWhatWasObserved) {
-  const Clip clip = full_clip();
+TEST(Take, KnowsItsSizesAndWhatWasObserved) {
+  const Take clip = full_clip();
   EXPECT_EQ(clip.frame_count(), 5u);
   EXPECT_EQ(clip.joint_count(), 3u);
   EXPECT_NEAR(clip.duration_s(), 0.05, 1e-15);
@@ -95,8 +95,8 @@ TEST(Clip, KnowsItsSizesAndWhatWasObserved) {
 }
 
 TEST(Slice, HoldsTheFramesAskedForAndNoSourceDocument) {
-  const Clip clip = full_clip();
-  const Clip part = slice(clip, 1, 4);
+  const Take clip = full_clip();
+  const Take part = slice(clip, 1, 4);
   part.validate();
   EXPECT_EQ(part.frame_count(), 3u);
   EXPECT_EQ(part.frame_rate_hz, clip.frame_rate_hz);
@@ -116,9 +116,9 @@ TEST(Slice, HoldsTheFramesAskedForAndNoSourceDocument) {
 
 // A chain that moves about a pose far from rest, as a person's take does; `pose_frames` frames of
 // T-pose before it.
-Clip take_with_pose(std::size_t pose_frames, std::size_t frames) {
-  const Clip motion = moving_chain(8, frames, 120);
-  Clip clip = test::resting_clip(motion.skeleton, pose_frames + frames, 120);
+Take take_with_pose(std::size_t pose_frames, std::size_t frames) {
+  const Take motion = moving_chain(8, frames, 120);
+  Take clip = test::resting_clip(motion.skeleton, pose_frames + frames, 120);
   for (std::size_t f = 0; f < frames; ++f) {
     for (std::size_t j = 0; j < 8; ++j)
       clip.rotation(pose_frames + f, j) = about_z(0.7) * motion.rotation(f, j);
@@ -132,7 +132,7 @@ TEST(LeadingCalibrationFrames, FindsATPoseFirst) {
 }
 
 TEST(LeadingCalibrationFrames, FindsATPoseWithATurnedRootAndHips) {
-  Clip clip = take_with_pose(1, 300);
+  Take clip = take_with_pose(1, 300);
   clip.rotation(0, 0) = test::about_y(2);
   clip.rotation(0, 1) = about_z(21 * degree);
   clip.rotation(0, 2) = about_z(-21 * degree);
@@ -144,7 +144,7 @@ TEST(LeadingCalibrationFrames, FindsATPoseOfSomeFrames) {
 }
 
 TEST(LeadingCalibrationFrames, FindsItInANoisyTakeWithSpikes) {
-  Clip clip = take_with_pose(1, 300);
+  Take clip = take_with_pose(1, 300);
   Random random(1);
   for (std::size_t i = 8; i < clip.rotations.size(); ++i) {
     Quat& q = clip.rotations[i];
@@ -163,7 +163,7 @@ TEST(LeadingCalibrationFrames, FindsNoneInACleanTake) {
 TEST(LeadingCalibrationFrames, FindsNoneWhereMotionStartsFromTheRestPose) {
   // From rest with constant acceleration, fast: 40 degrees a frame at the end.
   for (const double speed : {0.5, 2.0, 5.0}) {
-    Clip clip = chain_clip(6, 20, 30);
+    Take clip = chain_clip(6, 20, 30);
     for (std::size_t f = 0; f < 20; ++f) {
       const double t = static_cast<double>(f);
       for (std::size_t j = 1; j < 6; ++j) clip.rotation(f, j) = about_x(speed * t * t / 2 * degree);
@@ -171,7 +171,7 @@ TEST(LeadingCalibrationFrames, FindsNoneWhereMotionStartsFromTheRestPose) {
     EXPECT_EQ(leading_calibration_frames(clip), 0u) << speed;
   }
   // At constant speed from the first frame on, as hand-keyed takes do.
-  Clip clip = chain_clip(6, 20, 30);
+  Take clip = chain_clip(6, 20, 30);
   for (std::size_t f = 0; f < 20; ++f) {
     for (std::size_t j = 1; j < 6; ++j)
       clip.rotation(f, j) = about_x(30.0 * degree * static_cast<double>(f));
@@ -180,7 +180,7 @@ TEST(LeadingCalibrationFrames, FindsNoneWhereMotionStartsFromTheRestPose) {
 }
 
 TEST(LeadingCalibrationFrames, FindsNoneInAFrozenFirstFrame) {
-  Clip clip = take_with_pose(0, 300);
+  Take clip = take_with_pose(0, 300);
   for (std::size_t f = 1; f < 4; ++f) {
     for (std::size_t j = 0; j < 8; ++j) clip.rotation(f, j) = clip.rotation(0, j);
   }

@@ -1,5 +1,5 @@
 // Makes takes of markers, selects the points that are positions, and knows units by name.
-#include "kinemend/marker_clip.hpp"
+#include "kinemend/take.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
-#include "motion/clip_checks.hpp"
+#include "motion/take_checks.hpp"
 
 namespace kinemend {
 
@@ -21,7 +21,7 @@ std::string_view without_subject(std::string_view name) {
   return colon == std::string_view::npos ? name : name.substr(colon + 1);
 }
 
-Take make_marker_clip(std::vector<std::string> names, std::size_t frames, double frame_rate_hz) {
+Take make_marker_take(std::vector<std::string> names, std::size_t frames, double frame_rate_hz) {
   Take clip;
   clip.names = std::move(names);
   clip.frame_rate_hz = frame_rate_hz;

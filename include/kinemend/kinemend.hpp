@@ -1,0 +1,15 @@
+// The stable surface in one header: read, clean, fill, check, compare, report, stream and write takes.
+#pragma once
+
+#include "kinemend/check.hpp"
+#include "kinemend/clean.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/feet.hpp"
+#include "kinemend/fill.hpp"
+#include "kinemend/gaps.hpp"
+#include "kinemend/io.hpp"
+#include "kinemend/methods.hpp"
+#include "kinemend/metrics.hpp"
+#include "kinemend/report.hpp"
+#include "kinemend/stream.hpp"
+#include "kinemend/take.hpp"
