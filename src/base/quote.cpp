@@ -1,8 +1,6 @@
 // Shortens quoted text, and replaces characters that must not reach a terminal.
 #include "base/quote.hpp"
 
-#include "base/utf8.hpp"
-
 namespace kinemend {
 
 std::string quote(std::string_view found) {

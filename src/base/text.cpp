@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/utf8.hpp"
+#include "base/quote.hpp"
 
 namespace kinemend {
 

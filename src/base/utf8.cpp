@@ -1,5 +1,5 @@
 // Decodes characters, and knows those that command a terminal.
-#include "base/utf8.hpp"
+#include "base/quote.hpp"
 
 namespace kinemend {
 

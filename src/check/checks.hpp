@@ -1,15 +1,20 @@
-// One function per check. Each adds to a report whose `tracks` are named already; frames count from
-// the first frame of the clip it is given.
+// One function for each check, and what they share. Each adds to a report whose `tracks` are named
+// already; frames count from the first frame of the take it is given.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
-#include "check/findings.hpp"
+#include "base/frame_span.hpp"
+#include "base/quantiles.hpp"
 #include "kinemend/check.hpp"
 #include "kinemend/experimental/subjects.hpp"
 
 namespace kinemend::check {
+
+/// Serious ones first, then by kind, figure, frame and track.
+void sort_worst_first(std::vector<Finding>& findings);
 
 /// `gap_list` is of all tracks; `track_of[n]` is the row of joint or marker n in the report, -1 for
 /// none.

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "check/findings.hpp"
+#include "check/checks.hpp"
 #include "feet/body_points.hpp"
 #include "kinemend/check.hpp"
 

@@ -1,5 +1,5 @@
 // Names kinds of findings and sorts findings by how much they matter.
-#include "check/findings.hpp"
+#include "check/checks.hpp"
 
 #include <algorithm>
 #include <array>

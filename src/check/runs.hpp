@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "check/findings.hpp"
+#include "check/checks.hpp"
 
 namespace kinemend::check {
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "check/findings.hpp"
+#include "check/checks.hpp"
 
 namespace kinemend::check {
 

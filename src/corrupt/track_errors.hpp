@@ -1,3 +1,4 @@
+// The errors of one track of a capture system: noise, drift, and events such as losses and jumps.
 #pragma once
 
 #include <cstddef>
@@ -5,12 +6,30 @@
 #include <span>
 #include <vector>
 
-#include "corrupt/noise_events.hpp"
 #include "corrupt/system_noise.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/rotation.hpp"
 
 namespace kinemend::corrupt {
+
+/// Something that begins at `start_s` (seconds from frame 0; may be before it) and lasts for
+/// `duration_s`.
+struct NoiseEvent {
+  double start_s = 0;
+  double duration_s = 0;
+};
+
+/// A Poisson process of events, those that reach into [0, seconds) from before it too; durations
+/// uniform in [shortest_s, longest_s).
+std::vector<NoiseEvent> uniform_events(double per_minute, double shortest_s, double longest_s,
+                                       double seconds, const Random& random);
+/// The same with exponential durations, cut at ten times their mean.
+std::vector<NoiseEvent> exponential_events(double per_minute, double mean_s, double seconds,
+                                           const Random& random);
+
+/// How far an event is on at a time, 0 to 1: a raised cosine that rises and falls over `edge_s`
+/// each, or over half of the duration where that is shorter, and is 1 between.
+double event_window(NoiseEvent event, double edge_s, double time_s);
 
 /// What the error of a track depends on.
 struct NoisyTrack {

@@ -10,13 +10,10 @@
 #include <utility>
 
 #include "feet/blocks.hpp"
-#include "feet/figures.hpp"
-#include "feet/judge.hpp"
-#include "feet/knees.hpp"
 #include "feet/leg_solver.hpp"
 #include "feet/placement.hpp"
 #include "feet/pose_update.hpp"
-#include "feet/root.hpp"
+#include "feet/steps.hpp"
 #include "kinemend/error.hpp"
 #include "motion/calibration.hpp"
 

@@ -1,5 +1,5 @@
 // Measures slides, depths and knee pops of a motion.
-#include "feet/figures.hpp"
+#include "feet/steps.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Judges each stand by its travel, its path, the other feet and the motion of the body.
-#include "feet/judge.hpp"
+#include "feet/steps.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // Minimises the curvature of knee angles by Gauss-Newton steps over time.
-#include "feet/knees.hpp"
+#include "feet/steps.hpp"
 
 #include <algorithm>
 #include <array>

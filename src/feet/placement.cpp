@@ -7,8 +7,8 @@
 
 #include "feet/clean_legs.hpp"
 #include "feet/floor.hpp"
-#include "feet/judge.hpp"
 #include "feet/leg_solver.hpp"
+#include "feet/steps.hpp"
 
 namespace kinemend::feet {
 

@@ -1,5 +1,5 @@
 // Finds the least way down in each frame and smooths it over time.
-#include "feet/root.hpp"
+#include "feet/steps.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,13 +6,20 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "fill/driver.hpp"
-#include "fill/gap_keys.hpp"
 #include "kinemend/experimental/gap_plan.hpp"
+#include "kinemend/gaps.hpp"
 
 namespace kinemend::fill {
+
+/// What tells a gap of a take from its others.
+using GapKey = std::tuple<std::size_t, bool, std::size_t, std::size_t>;
+inline GapKey key_of(const Gap& gap, bool is_position) {
+  return {gap.track, is_position, gap.first_frame, gap.last_frame};
+}
 
 /// The gaps of a take, and what rows of a plan ask for them.
 class PlanRows {

@@ -7,8 +7,8 @@
 #include <map>
 #include <utility>
 
-#include "fill/gap_keys.hpp"
 #include "fill/methods.hpp"
+#include "fill/plan_rows.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/gap_plan.hpp"
 

@@ -12,9 +12,7 @@
 #include "methods/core/pieces.hpp"
 #include "motion/calibration.hpp"
 #include "pipeline/changes.hpp"
-#include "pipeline/feet_step.hpp"
-#include "pipeline/gap_step.hpp"
-#include "pipeline/selection.hpp"
+#include "pipeline/steps.hpp"
 
 namespace kinemend {
 

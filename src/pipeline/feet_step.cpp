@@ -1,5 +1,5 @@
 // Lets the room `feet` hold feet within the selection and states which samples changed.
-#include "pipeline/feet_step.hpp"
+#include "pipeline/steps.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -1,5 +1,5 @@
 // Fills gaps from the cleaned take, or from one without spikes where the cleaner left some.
-#include "pipeline/gap_step.hpp"
+#include "pipeline/steps.hpp"
 
 #include <algorithm>
 #include <memory>

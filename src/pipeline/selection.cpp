@@ -1,5 +1,5 @@
 // Matches the patterns of the settings with the names of a take.
-#include "pipeline/selection.hpp"
+#include "pipeline/steps.hpp"
 
 #include <fmt/format.h>
 

@@ -10,7 +10,6 @@
 #include "kinemend/experimental/text.hpp"
 #include "report/clean_counts.hpp"
 #include "report/texts.hpp"
-#include "report/words.hpp"
 
 namespace kinemend {
 

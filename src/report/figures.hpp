@@ -1,14 +1,20 @@
-// The figures of `check` and `compare`, each defined once for text, JSON and limits.
+// Figures, findings and rules of results, for the text, the limits and the JSON.
 #pragma once
 
 #include <array>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "kinemend/report.hpp"
 
 namespace kinemend {
+
+/// "rotation" or "position".
+std::string_view quantity_of(const TakeFacts& take, const GapOutcome& gap);
+/// Of the expected error; empty where it is not known.
+std::string unit_of(const TakeFacts& take, const GapOutcome& gap);
 
 struct CheckFigure {
   FigureRule rule;

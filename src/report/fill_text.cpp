@@ -7,9 +7,8 @@
 #include "base/measure.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/text.hpp"
-#include "report/findings.hpp"
+#include "report/figures.hpp"
 #include "report/texts.hpp"
-#include "report/words.hpp"
 
 namespace kinemend {
 

@@ -1,5 +1,5 @@
 // Lists the findings of any command in one form.
-#include "report/findings.hpp"
+#include "report/figures.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,6 @@
 
 #include "report/figures.hpp"
 #include "report/texts.hpp"
-#include "report/words.hpp"
 
 namespace kinemend {
 

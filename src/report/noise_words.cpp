@@ -3,7 +3,7 @@
 
 #include "base/measure.hpp"
 #include "kinemend/experimental/text.hpp"
-#include "report/words.hpp"
+#include "report/texts.hpp"
 
 namespace kinemend {
 

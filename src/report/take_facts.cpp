@@ -10,7 +10,7 @@
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/report.hpp"
 #include "motion/unit_name.hpp"
-#include "report/words.hpp"
+#include "report/texts.hpp"
 
 namespace kinemend {
 

@@ -11,7 +11,6 @@
 #include "report/clean_counts.hpp"
 #include "report/figures.hpp"
 #include "report/texts.hpp"
-#include "report/words.hpp"
 
 namespace kinemend {
 

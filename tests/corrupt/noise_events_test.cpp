@@ -1,4 +1,4 @@
-#include "corrupt/noise_events.hpp"
+#include "corrupt/track_errors.hpp"
 
 #include <gmock/gmock.h>
 

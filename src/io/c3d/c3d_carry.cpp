@@ -7,9 +7,8 @@
 #include <cmath>
 #include <string>
 
-#include "io/c3d/c3d_events.hpp"
 #include "io/c3d/c3d_facts.hpp"
-#include "io/c3d/c3d_rewrite.hpp"
+#include "io/c3d/c3d_writing.hpp"
 #include "io/text/text.hpp"
 
 namespace kinemend {

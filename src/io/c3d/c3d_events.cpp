@@ -1,5 +1,5 @@
 // Reads events from the parameters, or else from the header.
-#include "io/c3d/c3d_events.hpp"
+#include "io/c3d/c3d_facts.hpp"
 
 #include <algorithm>
 #include <cmath>

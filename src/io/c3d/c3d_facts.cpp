@@ -6,8 +6,6 @@
 
 #include <bit>
 
-#include "io/c3d/c3d_events.hpp"
-
 namespace kinemend {
 
 namespace {

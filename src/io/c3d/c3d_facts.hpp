@@ -1,10 +1,11 @@
-// Describes the content of a C3D file in words.
+// What a C3D file holds beside its points: facts for people, and events.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "io/c3d/c3d_document.hpp"
+#include "io/c3d/c3d_layout.hpp"
 #include "io/c3d/c3d_points.hpp"
 #include "kinemend/take.hpp"
 
@@ -15,5 +16,23 @@ std::string c3d_encoding(const C3dDocument& document);
 
 /// The content of a C3D file beside its points, in words.
 std::vector<SourceFact> c3d_facts(const C3dDocument& document, const C3dPointCounts& counts);
+
+/// Words of the header that hold its events, from 1.
+constexpr std::size_t c3d_event_key_word = 150, c3d_event_count_word = 151,
+                      c3d_event_times_word = 153, c3d_event_flags_word = 189,
+                      c3d_event_labels_word = 199;
+constexpr std::size_t c3d_event_key = 12345, c3d_most_header_events = 18;
+
+/// The events of the group EVENT (or EVENTS, as some write), else those of the header, in the order
+/// of the file.
+std::vector<MarkerEvent> read_c3d_events(const C3dSource& source, const C3dHeader& header,
+                                         const C3dParameters& parameters);
+
+/// Whether every event time in the file, also of the header, is a finite number.
+bool c3d_event_times_are_finite(const C3dSource& source, const C3dHeader& header,
+                                const C3dParameters& parameters);
+
+/// `text` if it is UTF-8, else the UTF-8 of the text read as Latin 1.
+std::string as_utf8(const std::string& text);
 
 }  // namespace kinemend

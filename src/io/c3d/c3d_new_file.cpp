@@ -1,5 +1,5 @@
 // Writes header, parameters, points and analog samples as Intel floats.
-#include "io/c3d/c3d_new_file.hpp"
+#include "io/c3d/c3d_writing.hpp"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,7 @@
 
 #include "io/c3d/c3d_analog.hpp"
 #include "io/c3d/c3d_carry.hpp"
-#include "io/c3d/c3d_events.hpp"
-#include "io/c3d/c3d_new_parameters.hpp"
+#include "io/c3d/c3d_facts.hpp"
 #include "io/c3d/c3d_parameter_writer.hpp"
 #include "io/c3d/c3d_source_frames.hpp"
 

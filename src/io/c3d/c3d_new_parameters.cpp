@@ -1,5 +1,5 @@
 // Fills the parameter groups from the take and from the file that it comes from.
-#include "io/c3d/c3d_new_parameters.hpp"
+#include "io/c3d/c3d_writing.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,6 @@
 #include <set>
 
 #include "io/c3d/c3d_parameter_writer.hpp"
-#include "io/c3d/c3d_rewrite.hpp"
 
 namespace kinemend {
 

@@ -10,7 +10,6 @@
 
 #include "io/c3d/c3d.hpp"
 #include "io/c3d/c3d_document.hpp"
-#include "io/c3d/c3d_events.hpp"
 #include "io/c3d/c3d_facts.hpp"
 #include "io/c3d/c3d_not_finite.hpp"
 #include "io/c3d/c3d_points.hpp"

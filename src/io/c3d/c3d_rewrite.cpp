@@ -1,5 +1,5 @@
 // Replaces the samples that changed, and the rate, and leaves every other byte.
-#include "io/c3d/c3d_rewrite.hpp"
+#include "io/c3d/c3d_writing.hpp"
 
 #include <algorithm>
 #include <cmath>

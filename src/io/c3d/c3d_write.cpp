@@ -4,8 +4,7 @@
 
 #include "io/c3d/c3d.hpp"
 #include "io/c3d/c3d_carry.hpp"
-#include "io/c3d/c3d_new_file.hpp"
-#include "io/c3d/c3d_rewrite.hpp"
+#include "io/c3d/c3d_writing.hpp"
 
 namespace kinemend {
 

@@ -6,11 +6,10 @@
 #include <limits>
 #include <utility>
 
-#include "io/table/csv.hpp"
 #include "io/table/csv_document.hpp"
 #include "io/table/csv_joints.hpp"
 #include "io/table/read_table.hpp"
-#include "io/table/table_rate.hpp"
+#include "io/table/tables.hpp"
 #include "motion/frame_numbers.hpp"
 
 namespace kinemend {

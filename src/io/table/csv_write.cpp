@@ -4,10 +4,10 @@
 #include <string>
 
 #include "io/motion/motion_write.hpp"
-#include "io/table/csv.hpp"
 #include "io/table/csv_document.hpp"
 #include "io/table/csv_joints.hpp"
 #include "io/table/csv_skeleton.hpp"
+#include "io/table/tables.hpp"
 #include "io/text/cell_patch.hpp"
 #include "kinemend/error.hpp"
 

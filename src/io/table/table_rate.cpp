@@ -1,5 +1,5 @@
 // Compares the stated rate with the times of the rows, and notes what had to be assumed.
-#include "io/table/table_rate.hpp"
+#include "io/table/read_table.hpp"
 
 #include <fmt/format.h>
 

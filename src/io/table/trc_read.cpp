@@ -6,8 +6,7 @@
 #include <utility>
 
 #include "io/table/read_table.hpp"
-#include "io/table/table_rate.hpp"
-#include "io/table/trc.hpp"
+#include "io/table/tables.hpp"
 #include "io/table/trc_document.hpp"
 
 namespace kinemend {

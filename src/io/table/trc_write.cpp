@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "io/table/trc.hpp"
+#include "io/table/tables.hpp"
 #include "io/table/trc_document.hpp"
 #include "io/text/cell_patch.hpp"
 #include "io/text/cell_rows.hpp"

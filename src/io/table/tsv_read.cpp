@@ -7,8 +7,7 @@
 
 #include "io/table/csv_head.hpp"
 #include "io/table/read_table.hpp"
-#include "io/table/table_rate.hpp"
-#include "io/table/tsv.hpp"
+#include "io/table/tables.hpp"
 #include "io/table/tsv_document.hpp"
 
 namespace kinemend {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "io/table/tsv.hpp"
+#include "io/table/tables.hpp"
 #include "io/table/tsv_document.hpp"
 #include "io/text/cell_patch.hpp"
 #include "io/text/cell_rows.hpp"

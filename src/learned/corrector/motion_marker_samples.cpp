@@ -1,5 +1,5 @@
 // Places markers at random and damages them as cameras and optical systems do.
-#include "learned/corrector/motion_marker_samples.hpp"
+#include "learned/corrector/motion_samples.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,6 @@
 #include "learned/core/sequence_damage.hpp"
 #include "learned/core/warped_sequence.hpp"
 #include "learned/corrector/motion_noise.hpp"
-#include "learned/corrector/motion_sample_tracks.hpp"
 
 namespace kinemend {
 

@@ -1,5 +1,5 @@
 // Empties channels, loses whole tracks, and finds the length of a sample.
-#include "learned/corrector/motion_sample_tracks.hpp"
+#include "learned/corrector/motion_samples.hpp"
 
 #include <cmath>
 

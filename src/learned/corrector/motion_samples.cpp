@@ -10,9 +10,7 @@
 #include "learned/core/sequence_damage.hpp"
 #include "learned/core/warped_sequence.hpp"
 #include "learned/corrector/measured_smoothing.hpp"
-#include "learned/corrector/motion_marker_samples.hpp"
 #include "learned/corrector/motion_noise.hpp"
-#include "learned/corrector/motion_sample_tracks.hpp"
 
 namespace kinemend {
 

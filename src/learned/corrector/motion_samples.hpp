@@ -1,5 +1,4 @@
-// What the learned cleaner learns from: clean motion, damaged in every way that systems and
-// pipelines damage it, and motions that two systems recorded.
+// Samples that the network of motion learns from: of joints, and of their joints as markers.
 #pragma once
 
 #include <cstddef>
@@ -64,5 +63,21 @@ struct MotionSampling {
 /// The same `random` gives the same sample. Its channels are those of the body of the sequences.
 MotionSample random_motion_sample(const MotionSources& sources, const MotionSampling& sampling,
                                   Random random);
+
+/// The channel is 0 throughout, which is to the network as if it were not there.
+void stand_still(MotionSample& sample, std::size_t channel);
+
+/// Each track but one with this chance.
+void lose_whole_tracks(MotionSample& sample, double share, Random& random);
+
+/// Of a sample at this rate.
+std::size_t sample_frames(const MotionSampling& sampling, double rate_hz);
+
+/// A stretch of the markers of a body that travels, or of what is left of its motion when it is
+/// held where its root is; damaged as optical systems, video and depth cameras damage markers, and
+/// as pipelines filter them. As many channels as asked for, the last of them 0. The same `random`
+/// gives the same sample.
+MotionSample random_marker_sample(std::span<const MarkerMotion> markers, std::size_t channels,
+                                  const MotionSampling& sampling, Random random);
 
 }  // namespace kinemend

@@ -12,9 +12,8 @@
 #include "learned/core/prior_cleaning.hpp"
 #include "learned/core/prior_hold.hpp"
 #include "learned/wiener/entries.hpp"
-#include "learned/wiener/wiener_guard.hpp"
-#include "learned/wiener/wiener_outliers.hpp"
 #include "learned/wiener/wiener_prior.hpp"
+#include "learned/wiener/wiener_steps.hpp"
 #include "methods/auto/whitening.hpp"
 #include "signal/fourth_difference.hpp"
 

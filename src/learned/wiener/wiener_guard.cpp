@@ -1,5 +1,5 @@
 // Estimates the risk of the filter with a probe and mixes it with smoothers for each track.
-#include "learned/wiener/wiener_guard.hpp"
+#include "learned/wiener/wiener_steps.hpp"
 
 #include "learned/wiener/channel_smoothing.hpp"
 

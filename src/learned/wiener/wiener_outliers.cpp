@@ -1,5 +1,5 @@
 // Filters the take repeatedly and bridges the samples that lie far from the result.
-#include "learned/wiener/wiener_outliers.hpp"
+#include "learned/wiener/wiener_steps.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,6 @@
 #include "kinemend/experimental/svg.hpp"
 #include "kinemend/experimental/version.hpp"
 #include "report/page/codec.hpp"
-#include "report/page/parts.hpp"
 
 namespace kinemend {
 

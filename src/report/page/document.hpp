@@ -1,12 +1,16 @@
-// The page as HTML.
+// The document of a page: its program, and the parts of data that it reads.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 namespace kinemend::page {
+
+extern const std::string_view script;
+extern const std::string_view style;
 
 /// Data of the page: the name of an element and what it holds, before it is deflated.
 using Parts = std::vector<std::pair<std::string_view, std::string>>;

@@ -11,7 +11,7 @@
 
 #include "io/c3d/c3d_analog.hpp"
 #include "io/c3d/c3d_document.hpp"
-#include "io/c3d/c3d_events.hpp"
+#include "io/c3d/c3d_facts.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
 

@@ -13,9 +13,8 @@
 #include "learned/wiener/mixture_fit.hpp"
 #include "learned/wiener/wiener_filter.hpp"
 #include "learned/wiener/wiener_fit.hpp"
-#include "learned/wiener/wiener_guard.hpp"
-#include "learned/wiener/wiener_outliers.hpp"
 #include "learned/wiener/wiener_posterior.hpp"
+#include "learned/wiener/wiener_steps.hpp"
 #include "learned/wiener/wiener_windows.hpp"
 
 namespace kinemend::test {
