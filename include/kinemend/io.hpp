@@ -29,6 +29,10 @@ struct ReadOptions {
   /// Called with the share of the file that is read (0 to 1). Readers of small formats never call
   /// it.
   std::function<void(double done)> progress;
+  /// The take of a file that holds several (FBX, glTF), by its name; one without a name is called
+  /// `#2`, by its place. Empty: the active one, else the first that moves a joint. Errors: `usage`
+  /// for a name that the file does not have.
+  std::string animation;
 };
 
 struct TakeResult {

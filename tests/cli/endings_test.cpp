@@ -1,6 +1,6 @@
+// The ending of an output names the format that is written.
 #include "cli/program.hpp"
 
-// The ending of an output names the format that is written.
 namespace kinemend::test {
 namespace {
 

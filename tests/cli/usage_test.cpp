@@ -1,7 +1,6 @@
+// A command line that makes no sense gives one line on standard error, exit code 2, and no output.
 #include "cli/program.hpp"
 
-// What a user gets for a command line that makes no sense: one line on standard error, exit code 2,
-// and nothing written.
 namespace kinemend::test {
 namespace {
 

@@ -1,3 +1,5 @@
+// Tests of files that are written whole or not at all, and of formats that are recognised by
+// content.
 #include <sys/stat.h>
 #include <unistd.h>
 
