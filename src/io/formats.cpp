@@ -138,12 +138,19 @@ std::span<const Format> formats() {
        &write_csv,
        &write_csv_markers},
       {"glb",
-       "Binary glTF 2.0, an animated skeleton or markers",
-       {".glb"},
+       "Binary glTF 2.0, a scene with an animated skeleton or markers",
+       {".glb", ".vrm"},
        &sniff_glb,
-       nullptr,
+       &read_glb,
        &write_glb,
        &write_glb_markers},
+      {"gltf",
+       "glTF 2.0 as text, a scene with an animated skeleton or markers",
+       {".gltf"},
+       &sniff_gltf,
+       &read_gltf,
+       &write_gltf,
+       &write_gltf_markers},
   };
   return list;
 }
@@ -237,6 +244,15 @@ std::string write_take(const AnyTake& take, std::string_view format) {
 
 Diagnostics lost_in_writing(const AnyTake& take, std::string_view format) {
   const Format& found = format_called(format);
+  if (found.name == "glb" || found.name == "gltf") {
+    const auto parts = std::visit([](const Take& any) { return lost_beside_gltf(any); }, take);
+    Diagnostics losses;
+    if (!parts.empty()) {
+      losses.add("not_kept", fmt::format("a new file is written: {} are left out",
+                                         fmt::join(parts, ", ")));
+    }
+    if (!parts.empty() || std::holds_alternative<Clip>(take)) return losses;
+  }
   const auto* const clip = std::get_if<MarkerClip>(&take);
   if (clip == nullptr) return {};
   Diagnostics losses =
@@ -250,6 +266,18 @@ std::optional<SideFile> side_file(const AnyTake& take, std::string_view bytes,
                                   std::string_view format, const std::filesystem::path& output) {
   if (format != "amc") return std::nullopt;
   return amc_side_file(take, bytes, output);
+}
+
+TakeFiles files_of_take(const AnyTake& take, std::string_view format,
+                        const std::filesystem::path& output) {
+  if (format == "glb" || format == "gltf") {
+    const Take& any = std::visit([](const Take& one) -> const Take& { return one; }, take);
+    return gltf_files_of_take(any, format == "glb", output);
+  }
+  TakeFiles files{write_take(take, format), {}};
+  if (auto beside = side_file(take, files.bytes, format, output))
+    files.beside.push_back(std::move(*beside));
+  return files;
 }
 
 }  // namespace kinemend
