@@ -89,8 +89,23 @@ void GltfAdditions::set_sampler(std::size_t channel, std::size_t sampler) {
 }
 
 void GltfAdditions::add_channel(std::size_t node, GltfPath path, std::size_t sampler) {
+  if (document_.model.nodes[node].has_matrix) split_matrix(node);
   channels_.add(fmt::format("{{\"sampler\":{},\"target\":{{\"node\":{},\"path\":\"{}\"}}}}", sampler,
                             node, name_of(path)));
+}
+
+void GltfAdditions::split_matrix(std::size_t node) {
+  if (!split_.insert(node).second) return;
+  const std::string_view text = document_.file.json_text();
+  const auto object = json_element(text, "nodes", node);
+  const auto matrix = object ? json_named_member(text, *object, "matrix") : std::nullopt;
+  if (!matrix) return;
+  const GltfNode& n = document_.model.nodes[node];
+  changes_.edits.push_back(
+      {matrix->whole(),
+       fmt::format("\"translation\":[{},{},{}],\"rotation\":[{},{},{},{}],\"scale\":[{},{},{}]",
+                   n.translation.x, n.translation.y, n.translation.z, n.rotation.x, n.rotation.y,
+                   n.rotation.z, n.rotation.w, n.scale.x, n.scale.y, n.scale.z)});
 }
 
 void GltfAdditions::append(std::optional<ByteSpan> array, const Additions& additions) {

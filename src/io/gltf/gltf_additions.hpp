@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/gltf/gltf_rewrite.hpp"
@@ -21,6 +24,7 @@ class GltfAdditions {
   /// Appends a sampler and returns its number.
   std::size_t add_sampler(std::size_t input, std::size_t output, bool in_steps);
   void set_sampler(std::size_t channel, std::size_t sampler);
+  /// A node that is placed by a matrix is placed by its parts from now on, as animated nodes must be.
   void add_channel(std::size_t node, GltfPath path, std::size_t sampler);
   void finish();
 
@@ -35,6 +39,7 @@ class GltfAdditions {
     }
   };
   void append(std::optional<ByteSpan> array, const Additions& additions);
+  void split_matrix(std::size_t node);
   std::string& buffer();
 
   const GltfDocument& document_;
@@ -42,6 +47,7 @@ class GltfAdditions {
   std::size_t home_ = 0;  // the buffer that grows
   Additions views_, accessors_, samplers_, channels_;
   std::vector<std::pair<std::size_t, std::size_t>> set_samplers_;
+  std::set<std::size_t> split_;
 };
 
 /// A number as JSON that reads back as the same float.

@@ -349,9 +349,11 @@ class GltfJointDecoder {
     }
   }
 
-  // The ends of chains: nodes below a joint that carry nothing.
+  // The ends of chains: nodes below a joint that carry nothing. An end has one place in its joint:
+  // not below a scale that changes.
   void add_end_sites() {
     for (std::size_t j = 0; j < joints_.size(); ++j) {
+      if (scales_[j].size() > 1) continue;
       for (const std::uint32_t child : model_.nodes[joints_[j]].children) {
         const GltfNode& node = model_.nodes[child];
         if (joint_of_node_[child] >= 0 || !node.children.empty() || node.holds_more) continue;

@@ -60,22 +60,30 @@ ByteSpan json_root(std::string_view text) {
   return {begin, after_json_value(text, begin) - begin};
 }
 
-std::optional<ByteSpan> json_member(std::string_view text, ByteSpan object, std::string_view key) {
-  std::optional<ByteSpan> found;
+std::optional<JsonMember> json_named_member(std::string_view text, ByteSpan object,
+                                            std::string_view key) {
+  std::optional<JsonMember> found;
   const std::size_t end = std::min(object.begin + object.size, text.size());
   if (object.size < 2 || text[object.begin] != '{') return found;
   std::size_t at = after_json_blanks(text, object.begin + 1);
   while (at < end && text[at] == '"') {
     const std::size_t key_end = after_json_string(text, at);
-    const bool wanted = is_json_key(text.substr(at, key_end - at), key);
+    const ByteSpan name{at, key_end - at};
     at = after_json_blanks(text, key_end);
     const std::size_t value = after_json_blanks(text, std::min(at + 1, end));
     const std::size_t value_end = after_json_value(text, value);
-    if (wanted) found = ByteSpan{value, value_end - value};
+    if (is_json_key(text.substr(name.begin, name.size), key))
+      found = JsonMember{name, {value, value_end - value}};
     at = after_json_blanks(text, value_end);
     if (at < end && text[at] == ',') at = after_json_blanks(text, at + 1);
   }
   return found;
+}
+
+std::optional<ByteSpan> json_member(std::string_view text, ByteSpan object, std::string_view key) {
+  const auto found = json_named_member(text, object, key);
+  if (!found) return std::nullopt;
+  return found->value;
 }
 
 std::optional<ByteSpan> json_member(std::string_view text,

@@ -16,8 +16,18 @@ namespace kinemend {
 
 /// The whole value of a text, without white space around it.
 ByteSpan json_root(std::string_view text);
-/// The value of a member of the object at `object`; of members of one name the last, as parsers
+/// A member of an object: its name with the quotes, and its value.
+struct JsonMember {
+  ByteSpan key, value;
+
+  /// From the name to the end of the value.
+  ByteSpan whole() const { return {key.begin, value.begin + value.size - key.begin}; }
+};
+/// The member of that name of the object at `object`; of members of one name the last, as parsers
 /// take it. None where there is no such member, or no object.
+std::optional<JsonMember> json_named_member(std::string_view text, ByteSpan object,
+                                            std::string_view key);
+/// Its value.
 std::optional<ByteSpan> json_member(std::string_view text, ByteSpan object, std::string_view key);
 /// The same from the root, along several keys.
 std::optional<ByteSpan> json_member(std::string_view text, std::initializer_list<const char*> keys);

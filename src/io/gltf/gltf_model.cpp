@@ -134,6 +134,7 @@ GltfNode node_of(const GltfJson& json, std::size_t nodes) {
     node.translation = placement.translation;
     node.rotation = placement.rotation;
     node.scale = placement.scale;
+    node.has_matrix = true;
     node.is_sheared = placement.is_sheared;
   }
   if (const auto t = gltf_numbers(json, "translation", 3))

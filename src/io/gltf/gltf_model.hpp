@@ -51,6 +51,7 @@ struct GltfNode {
   Vec3 translation;
   Quat rotation;
   Vec3 scale{1, 1, 1};
+  bool has_matrix = false;
   bool is_sheared = false;  ///< its matrix is no product of translation, rotation and scale
   bool holds_more = false;  ///< a mesh, a camera or a light
 };

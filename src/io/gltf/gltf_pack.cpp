@@ -172,24 +172,19 @@ class GltfPacker {
     }
   }
 
-  // Takes the member out with its comma; false where the text spells it in another way.
+  // Takes the member out with its comma.
   bool remove_uri(std::size_t buffer) {
     const std::string_view text = file_.json_text();
     const auto object = buffer_object(buffer);
-    const auto value = object ? json_member(text, *object, "uri") : std::nullopt;
-    if (!value) return false;
-    constexpr std::string_view key = "\"uri\"", blanks = " \t\r\n";
-    const std::size_t colon = text.find_last_not_of(blanks, value->begin - 1);
-    const std::size_t quote = text.find_last_not_of(blanks, colon - 1);
-    if (quote < object->begin + key.size() || text.substr(quote + 1 - key.size(), key.size()) != key)
-      return false;
-    std::size_t begin = quote + 1 - key.size();
-    std::size_t end = value->begin + value->size;
+    const auto member = object ? json_named_member(text, *object, "uri") : std::nullopt;
+    if (!member) return false;
+    constexpr std::string_view blanks = " \t\r\n";
+    std::size_t begin = member->whole().begin, end = begin + member->whole().size;
     const std::size_t next = text.find_first_not_of(blanks, end);
     const std::size_t before = text.find_last_not_of(blanks, begin - 1);
-    if (text[next] == ',') {
+    if (next != text.npos && text[next] == ',') {
       end = next + 1;
-    } else if (text[before] == ',') {
+    } else if (before != text.npos && text[before] == ',') {
       begin = before;
     }
     edits_.push_back({{begin, end - begin}, ""});

@@ -44,7 +44,7 @@ struct GltfStored {
 class GltfTrackValues {
  public:
   GltfTrackValues(const Take& take, const GltfMotion& source, bool same_frames)
-      : take_(take), source_(source.take), same_frames_(same_frames) {}
+      : take_(take), source_(source), same_frames_(same_frames) {}
 
   // `curve`: of the source; may be none.
   GltfValues of(const GltfTrack& track, const GltfCurve* curve, const std::string& name) const {
@@ -56,7 +56,7 @@ class GltfTrackValues {
     } else if (track.path == GltfPath::scale) {
       add_presence(track, curve, values);
     } else if (take_.has_joints()) {
-      add_positions(track, name, values);
+      add_positions(track, curve, name, values);
     } else {
       add_markers(track, curve, name, values);
     }
@@ -71,23 +71,34 @@ class GltfTrackValues {
       const Quat q = take_.rotation(f, track.owner);
       values.frames[f] = components(unit_rotation(track.rest * q));
       if (!same_frames_) continue;
-      const Quat was = source_.rotation(f, track.owner);
+      const Quat was = source_.take.rotation(f, track.owner);
       values.changed[f] = q == was || q == -was ? 0 : 1;
     }
   }
 
-  void add_positions(const GltfTrack& track, const std::string& name, GltfValues& values) const {
+  void add_positions(const GltfTrack& track, const GltfCurve* curve, const std::string& name,
+                     GltfValues& values) const {
+    const std::vector<Vec3> kept = source_translations(curve);
     for (std::size_t f = 0; f < values.frames.size(); ++f) {
       const Vec3 p = take_.position(f, track.owner);
-      if (same_frames_) values.changed[f] = p == source_.position(f, track.owner) ? 0 : 1;
+      if (same_frames_) values.changed[f] = p == source_.take.position(f, track.owner) ? 0 : 1;
+      const bool is_kept = values.changed[f] == 0 && !kept.empty();
       // A scale of 0 is an error only where something has to move under it.
-      if (values.changed[f] != 0) values.frames[f] = components(track.to_file(p, f, name));
+      values.frames[f] = components(is_kept ? kept[f]
+                                    : values.changed[f] != 0 ? track.to_file(p, f, name)
+                                                             : Vec3{});
     }
-    if (!values.any()) return;
+    if (!kept.empty() || !values.any()) return;
     for (std::size_t f = 0; f < values.frames.size(); ++f) {
       if (values.changed[f] == 0)
         values.frames[f] = components(track.to_file(take_.position(f, track.owner), f, name));
     }
+  }
+
+  // As the source has them in each frame, without the way through the take.
+  std::vector<Vec3> source_translations(const GltfCurve* curve) const {
+    if (curve == nullptr || !same_frames_) return {};
+    return vectors_at(*curve, source_.grid.times);
   }
 
   // A missing marker waits where it is in the source, or was last.
@@ -102,8 +113,8 @@ class GltfTrackValues {
       if (is_there) last = track.to_file(take_.position(f, track.owner), f, name);
       values.frames[f] = components(last);
       if (!same_frames_) continue;
-      const bool moved = !source_.is_observed(f, track.owner) ||
-                         !(take_.position(f, track.owner) == source_.position(f, track.owner));
+      const bool moved = !source_.take.is_observed(f, track.owner) ||
+                         !(take_.position(f, track.owner) == source_.take.position(f, track.owner));
       values.changed[f] = is_there && moved ? 1 : 0;
       if (!is_there && curve != nullptr && track.has_key_each_frame)
         values.frames[f] = components(curve->vector(f));
@@ -120,7 +131,7 @@ class GltfTrackValues {
       const bool is_there = take_.is_observed(f, track.owner);
       always = always && is_there;
       values.frames[f] = components(is_there ? size : Vec3{});
-      if (same_frames_) values.changed[f] = is_there == source_.is_observed(f, track.owner) ? 0 : 1;
+      if (same_frames_) values.changed[f] = is_there == source_.take.is_observed(f, track.owner) ? 0 : 1;
     }
     if (curve == nullptr && always) std::fill(values.changed.begin(), values.changed.end(), 0);
   }
@@ -136,7 +147,7 @@ class GltfTrackValues {
   }
 
   const Take& take_;
-  const Take& source_;
+  const GltfMotion& source_;
   bool same_frames_;
 };
 
