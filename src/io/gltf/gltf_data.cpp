@@ -208,7 +208,8 @@ std::size_t GltfNumbers::element_size() const {
 }
 
 std::size_t GltfNumbers::stride() const {
-  const std::size_t stated = model_.views[*accessor().view].stride;
+  const std::size_t view = *accessor().view;
+  const std::size_t stated = view < model_.views.size() ? model_.views[view].stride : 0;
   return stated > 0 ? stated : element_size();
 }
 

@@ -154,6 +154,7 @@ class GltfJointDecoder {
 
   static std::vector<std::size_t> bounded(const GltfFile& file, std::vector<std::size_t> joints) {
     constexpr std::size_t most_gltf_joints = 16384;  // as in BVH
+    if (joints.empty()) throw Error::at_byte(file.name, file.json.begin, "no node is a joint");
     if (joints.size() > most_gltf_joints)
       throw gltf_error(file, "nodes", joints[most_gltf_joints], "too many joints");
     return joints;
