@@ -248,8 +248,8 @@ Diagnostics lost_in_writing(const AnyTake& take, std::string_view format) {
     const auto parts = std::visit([](const Take& any) { return lost_beside_gltf(any); }, take);
     Diagnostics losses;
     if (!parts.empty()) {
-      losses.add("not_kept", fmt::format("a new file is written: {} are left out",
-                                         fmt::join(parts, ", ")));
+      losses.add("not_kept",
+                 fmt::format("a new file is written: {} are left out", fmt::join(parts, ", ")));
     }
     if (!parts.empty() || std::holds_alternative<Clip>(take)) return losses;
   }

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 
 #include "kinemend/error.hpp"
 
@@ -60,13 +60,13 @@ std::size_t GltfAdditions::add_floats(const std::vector<double>& values, std::si
   bytes.append((added_alignment - bytes.size() % added_alignment) % added_alignment, '\0');
   const std::size_t begin = bytes.size();
   for (const double value : values) {
-    const auto stored = component_bytes(value, added_component, false);
-    if (!stored) throw Error(ErrorKind::usage, "a number is too large for a glTF file");
-    bytes.append(*stored);
+    std::array<char, sizeof(float)> stored{};
+    if (!store_component(value, added_component, false, stored.data()))
+      throw Error(ErrorKind::usage, "a number is too large for a glTF file");
+    bytes.append(stored.data(), stored.size());
   }
-  const std::size_t view =
-      views_.add(fmt::format("{{\"buffer\":{},\"byteOffset\":{},\"byteLength\":{}}}", home_, begin,
-                             bytes.size() - begin));
+  const std::size_t view = views_.add(fmt::format(
+      "{{\"buffer\":{},\"byteOffset\":{},\"byteLength\":{}}}", home_, begin, bytes.size() - begin));
   std::string range;
   if (are_times && !values.empty()) {
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
@@ -90,8 +90,8 @@ void GltfAdditions::set_sampler(std::size_t channel, std::size_t sampler) {
 
 void GltfAdditions::add_channel(std::size_t node, GltfPath path, std::size_t sampler) {
   if (document_.model.nodes[node].has_matrix) split_matrix(node);
-  channels_.add(fmt::format("{{\"sampler\":{},\"target\":{{\"node\":{},\"path\":\"{}\"}}}}", sampler,
-                            node, name_of(path)));
+  channels_.add(fmt::format("{{\"sampler\":{},\"target\":{{\"node\":{},\"path\":\"{}\"}}}}",
+                            sampler, node, name_of(path)));
 }
 
 void GltfAdditions::split_matrix(std::size_t node) {
@@ -111,8 +111,8 @@ void GltfAdditions::split_matrix(std::size_t node) {
 void GltfAdditions::append(std::optional<ByteSpan> array, const Additions& additions) {
   if (additions.items.empty()) return;
   if (!array || array->size < 2) {
-    throw Error(ErrorKind::usage,
-                fmt::format("{}: an array that keys are added to is not there", document_.file.name));
+    throw Error(ErrorKind::usage, fmt::format("{}: an array that keys are added to is not there",
+                                              document_.file.name));
   }
   std::string text;
   for (const std::string& item : additions.items) text += (text.empty() ? "" : ",") + item;

@@ -24,7 +24,8 @@ class GltfAdditions {
   /// Appends a sampler and returns its number.
   std::size_t add_sampler(std::size_t input, std::size_t output, bool in_steps);
   void set_sampler(std::size_t channel, std::size_t sampler);
-  /// A node that is placed by a matrix is placed by its parts from now on, as animated nodes must be.
+  /// A node that is placed by a matrix is placed by its parts from now on, as animated nodes must
+  /// be.
   void add_channel(std::size_t node, GltfPath path, std::size_t sampler);
   void finish();
 

@@ -21,13 +21,21 @@ bool is_usable(const double* values, std::size_t count) {
                      [](double value) { return std::fabs(value) <= most_gltf_value; });
 }
 
-void check_gltf_times(const GltfFile& file, std::size_t accessor, const std::vector<double>& times) {
+std::vector<double> gltf_times(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
+                               std::size_t accessor) {
+  constexpr int float_component = 5126;
+  const GltfNumbers numbers(file, model, buffers, accessor, 1);
+  if (numbers.accessor().component != float_component)
+    throw gltf_error(file, "accessors", accessor, "times are floats");
+  if (numbers.count() == 0) throw gltf_error(file, "accessors", accessor, "no keys");
+  std::vector<double> times = numbers.values();
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (!std::isfinite(times[i]))
       throw gltf_error(file, "accessors", accessor, fmt::format("time {} is not finite", i));
     if (i > 0 && times[i] < times[i - 1])
       throw gltf_error(file, "accessors", accessor, fmt::format("time {} goes back", i));
   }
+  return times;
 }
 
 // Gives each key that is not finite the value of the key before, else of the next one.
@@ -58,10 +66,10 @@ void walk_curve(const GltfCurve& curve, const GltfTimes& times, Visit&& visit) {
   std::size_t key = 0;
   for (std::size_t frame = 0; frame < times.count; ++frame) {
     const double t = times.at(frame);
-    while (key < last && curve.times[key + 1] <= t + times.tolerance_s) ++key;
-    const bool between = key < last && t > curve.times[key] + times.tolerance_s;
-    const double length = key < last ? curve.times[key + 1] - curve.times[key] : 0;
-    visit(frame, key, between && length > 0 ? (t - curve.times[key]) / length : 0.0, length);
+    while (key < last && curve.times()[key + 1] <= t + times.tolerance_s) ++key;
+    const bool between = key < last && t > curve.times()[key] + times.tolerance_s;
+    const double length = key < last ? curve.times()[key + 1] - curve.times()[key] : 0;
+    visit(frame, key, between && length > 0 ? (t - curve.times()[key]) / length : 0.0, length);
   }
 }
 
@@ -84,24 +92,21 @@ Quat GltfCurve::rotation(std::size_t key) const {
 }
 
 GltfCurve read_gltf_curve(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
-                          const GltfSampler& sampler, GltfPath path) {
-  constexpr int float_component = 5126;
+                          const GltfSampler& sampler, GltfPath path, GltfClocks& clocks) {
   GltfCurve curve;
   curve.interpolation = sampler.interpolation;
   curve.width = path == GltfPath::rotation ? 4 : 3;
-  const GltfNumbers times(file, model, buffers, sampler.input, 1);
-  if (times.accessor().component != float_component)
-    throw gltf_error(file, "accessors", sampler.input, "times are floats");
+  auto& clock = clocks[sampler.input];
+  if (clock == nullptr)
+    clock = std::make_shared<std::vector<double>>(gltf_times(file, model, buffers, sampler.input));
+  curve.clock = clock;
   const GltfNumbers values(file, model, buffers, sampler.output, curve.width);
-  const std::size_t wanted = times.count() * (curve.parts() / curve.width);
-  if (times.count() == 0) throw gltf_error(file, "accessors", sampler.input, "no keys");
+  const std::size_t wanted = curve.keys() * (curve.parts() / curve.width);
   if (values.count() != wanted) {
     throw gltf_error(file, "accessors", sampler.output,
-                     fmt::format("expected {} elements for {} keys, found {}", wanted,
-                                 times.count(), values.count()));
+                     fmt::format("expected {} elements for {} keys, found {}", wanted, curve.keys(),
+                                 values.count()));
   }
-  curve.times = times.values();
-  check_gltf_times(file, sampler.input, curve.times);
   curve.values = values.values();
   hold_missing_keys(curve);
   return curve;
@@ -158,7 +163,7 @@ std::vector<Quat> rotations_at(const GltfCurve& curve, const GltfTimes& times) {
 bool has_key_each_frame(const GltfCurve& curve, const GltfTimes& times) {
   if (curve.keys() != times.count) return false;
   for (std::size_t k = 0; k < curve.keys(); ++k) {
-    if (std::fabs(curve.times[k] - times.at(k)) > times.tolerance_s) return false;
+    if (std::fabs(curve.times()[k] - times.at(k)) > times.tolerance_s) return false;
   }
   return true;
 }

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <vector>
 
 #include "io/gltf/gltf_data.hpp"
@@ -13,12 +15,14 @@ namespace kinemend {
 /// A channel of an animation, decoded. Keys that are not finite hold a neighbour.
 struct GltfCurve {
   GltfInterpolation interpolation = GltfInterpolation::linear;
-  std::size_t width = 0;           ///< 3, or 4 for a rotation (x, y, z, w)
-  std::vector<double> times;       ///< seconds, ascending
-  std::vector<double> values;      ///< keys x width; of splines keys x 3 x width, as the file has it
+  std::size_t width = 0;                             ///< 3, or 4 for a rotation (x, y, z, w)
+  std::shared_ptr<const std::vector<double>> clock;  ///< of the keys; curves may share one
+  std::vector<double> values;  ///< keys x width; of splines keys x 3 x width, as the file has it
   std::vector<std::uint8_t> held;  ///< 1 for a key whose value was not finite; empty: none was
 
-  std::size_t keys() const { return times.size(); }
+  std::size_t keys() const { return clock == nullptr ? 0 : clock->size(); }
+  /// Seconds, ascending. There are keys.
+  const std::vector<double>& times() const { return *clock; }
   std::size_t parts() const {
     return interpolation == GltfInterpolation::cubic_spline ? 3 * width : width;
   }
@@ -30,10 +34,13 @@ struct GltfCurve {
   Quat rotation(std::size_t key) const;
 };
 
+/// Times of keys that were read, by accessor.
+using GltfClocks = std::map<std::size_t, std::shared_ptr<const std::vector<double>>>;
+
 /// Errors: `unreadable_input` for times that are not finite or descend, and for another number of
 /// values than of keys.
 GltfCurve read_gltf_curve(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
-                          const GltfSampler& sampler, GltfPath path);
+                          const GltfSampler& sampler, GltfPath path, GltfClocks& clocks);
 
 /// Whether all keys have one value, bit by bit.
 bool is_constant(const GltfCurve& curve);

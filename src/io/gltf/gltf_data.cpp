@@ -77,14 +77,15 @@ double read_whole(const char* bytes, bool normalized) {
 }
 
 template <class T>
-std::optional<std::string> whole_bytes(double value, bool normalized) {
+bool store_whole(double value, bool normalized, char* bytes) {
   using Limits = std::numeric_limits<T>;
   const double least = normalized && Limits::is_signed ? -static_cast<double>(Limits::max())
                                                        : static_cast<double>(Limits::min());
   const double steps = std::round(normalized ? value * Limits::max() : value);
-  if (!(steps >= least && steps <= static_cast<double>(Limits::max()))) return std::nullopt;
+  if (!(steps >= least && steps <= static_cast<double>(Limits::max()))) return false;
   const T stored = static_cast<T>(steps);
-  return std::string(reinterpret_cast<const char*>(&stored), sizeof stored);
+  std::memcpy(bytes, &stored, sizeof stored);
+  return true;
 }
 
 // Bytes of a buffer that something stands in, in steps.
@@ -157,9 +158,9 @@ void GltfBuffers::load(const GltfFile& file, const GltfModel& model, std::size_t
     loaded.bytes = std::make_shared<const std::string>(load_gltf_buffer(file, model, buffer));
   const std::size_t found = loaded.in_file ? file.binary->size : loaded.bytes->size();
   if (found < model.buffers[buffer].size) {
-    throw gltf_error(file, "buffers", buffer,
-                     fmt::format("{} bytes are stated, but there are {}",
-                                 model.buffers[buffer].size, found));
+    throw gltf_error(
+        file, "buffers", buffer,
+        fmt::format("{} bytes are stated, but there are {}", model.buffers[buffer].size, found));
   }
   loaded.is_there = true;
 }
@@ -258,17 +259,24 @@ std::vector<double> GltfNumbers::values() const {
   const GltfAccessor& a = accessor();
   const std::size_t component = size_of_component(a.component);
   std::vector<double> values(a.count * width_);
-  const auto read = [&](std::size_t element, std::size_t view, std::size_t offset) {
-    const GltfView& v = model_.views[view];
-    const char* const bytes = buffers_.bytes(file_, v.buffer).data() + v.offset + offset;
+  const auto bytes_at = [&](std::size_t view, std::size_t offset) {
+    return buffers_.bytes(file_, model_.views[view].buffer).data() + model_.views[view].offset +
+           offset;
+  };
+  const auto read = [&](std::size_t element, const char* bytes) {
     for (std::size_t c = 0; c < width_; ++c) {
       values[element * width_ + c] =
           read_component(bytes + c * component, a.component, a.normalized);
     }
   };
-  for (std::size_t i = 0; a.view && i < a.count; ++i) read(i, *a.view, a.offset + i * stride());
+  if (a.view) {
+    const char* const begin = bytes_at(*a.view, a.offset);
+    const std::size_t step = stride();
+    for (std::size_t i = 0; i < a.count; ++i) read(i, begin + i * step);
+  }
   for (std::size_t i = 0; a.sparse && i < a.sparse->count; ++i)
-    read(sparse_index(i), a.sparse->value_view, a.sparse->value_offset + i * element_size());
+    read(sparse_index(i),
+         bytes_at(a.sparse->value_view, a.sparse->value_offset + i * element_size()));
   return values;
 }
 
@@ -307,6 +315,7 @@ std::size_t size_of_component(int component) {
 
 double read_component(const char* bytes, int component, bool normalized) {
   static_assert(std::endian::native == std::endian::little, "glTF holds little-endian numbers");
+  if (component == gltf_float) return read_as<float>(bytes);
   switch (component) {
     case gltf_byte:
       return read_whole<std::int8_t>(bytes, normalized);
@@ -323,22 +332,23 @@ double read_component(const char* bytes, int component, bool normalized) {
   }
 }
 
-std::optional<std::string> component_bytes(double value, int component, bool normalized) {
+bool store_component(double value, int component, bool normalized, char* bytes) {
   switch (component) {
     case gltf_byte:
-      return whole_bytes<std::int8_t>(value, normalized);
+      return store_whole<std::int8_t>(value, normalized, bytes);
     case gltf_ubyte:
-      return whole_bytes<std::uint8_t>(value, normalized);
+      return store_whole<std::uint8_t>(value, normalized, bytes);
     case gltf_short:
-      return whole_bytes<std::int16_t>(value, normalized);
+      return store_whole<std::int16_t>(value, normalized, bytes);
     case gltf_ushort:
-      return whole_bytes<std::uint16_t>(value, normalized);
+      return store_whole<std::uint16_t>(value, normalized, bytes);
     default:
       break;
   }
   const auto stored = static_cast<float>(value);
-  if (component != gltf_float || !std::isfinite(stored)) return std::nullopt;
-  return std::string(reinterpret_cast<const char*>(&stored), sizeof stored);
+  if (component != gltf_float || !std::isfinite(stored)) return false;
+  std::memcpy(bytes, &stored, sizeof stored);
+  return true;
 }
 
 bool is_stored_alone(const GltfModel& model, std::size_t accessor) {

@@ -74,9 +74,9 @@ class GltfNumbers {
 std::size_t size_of_component(int component);
 /// One component as a number.
 double read_component(const char* bytes, int component, bool normalized);
-/// The bytes of the nearest number that the component can hold; none for a value out of its range
-/// by more than half a step.
-std::optional<std::string> component_bytes(double value, int component, bool normalized);
+/// Stores the nearest number that the component can hold, in the bytes of one component; false for
+/// a value out of its range by more than half a step.
+bool store_component(double value, int component, bool normalized, char* bytes);
 
 /// Whether no other accessor, image or index of sparse values shares a byte with this one.
 bool is_stored_alone(const GltfModel& model, std::size_t accessor);

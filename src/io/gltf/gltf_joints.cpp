@@ -107,14 +107,14 @@ struct GltfPlaces {
   std::vector<Vec3> positions;  // none for a joint that never moves
 };
 
-bool is_uniform(Vec3 s) {
+bool is_uniform_scale(Vec3 s) {
   constexpr double tolerance = 1e-4;  // far above what single precision adds
   const double largest = std::max({std::fabs(s.x), std::fabs(s.y), std::fabs(s.z)});
   return std::fabs(s.x - s.y) <= tolerance * largest && std::fabs(s.y - s.z) <= tolerance * largest;
 }
 
 Vec3 mean_scale(Vec3 s) {
-  const double mean = std::cbrt(s.x * s.y * s.z);
+  const double mean = std::cbrt(s.x) * std::cbrt(s.y) * std::cbrt(s.z);
   return {mean, mean, mean};
 }
 
@@ -176,8 +176,7 @@ class GltfJointDecoder {
   void add_joint(std::size_t j) {
     const std::size_t node = joints_[j];
     const std::int64_t above = model_.nodes[node].parent;
-    const std::int32_t parent =
-        above < 0 ? -1 : joint_of_node_[static_cast<std::size_t>(above)];
+    const std::int32_t parent = above < 0 ? -1 : joint_of_node_[static_cast<std::size_t>(above)];
     GltfFrameOfNode outer;
     if (parent >= 0) {
       outer.scale = scales_[static_cast<std::size_t>(parent)];
@@ -223,13 +222,13 @@ class GltfJointDecoder {
     bool is_odd = false;
     for (std::size_t i = 0; i < below.size(); ++i) {
       Vec3 outer = above[above.size() == 1 ? 0 : i];
-      if (turns && !is_uniform(outer)) {
+      if (turns && !is_uniform_scale(outer)) {
         outer = mean_scale(outer);
         is_odd = true;
       }
       below[i] = scaled(outer, own[own.size() == 1 ? 0 : i]);
     }
-    if (is_odd && !model_.nodes[node].children.empty()) 
+    if (is_odd && !model_.nodes[node].children.empty())
       motion_.odd_scales.push_back(name_of_node(model_, node));
     return below;
   }
@@ -358,9 +357,8 @@ class GltfJointDecoder {
       for (const std::uint32_t child : model_.nodes[joints_[j]].children) {
         const GltfNode& node = model_.nodes[child];
         if (joint_of_node_[child] >= 0 || !node.children.empty() || node.holds_more) continue;
-        motion_.take.skeleton.end_sites.push_back({static_cast<std::int32_t>(j),
-                                                   scaled(scales_[j][0], node.translation),
-                                                   node.name});
+        motion_.take.skeleton.end_sites.push_back(
+            {static_cast<std::int32_t>(j), scaled(scales_[j][0], node.translation), node.name});
       }
     }
   }
@@ -375,7 +373,8 @@ class GltfJointDecoder {
     }
     const bool ends = std::all_of(skeleton.end_sites.begin(), skeleton.end_sites.end(),
                                   [&](const EndSite& site) { return is_finite(site.offset); });
-    if (!ends || !std::all_of(motion_.take.positions.begin(), motion_.take.positions.end(), is_finite))
+    if (!ends ||
+        !std::all_of(motion_.take.positions.begin(), motion_.take.positions.end(), is_finite))
       throw gltf_error(file_, "nodes", joints_[0], "a position below it is not finite");
   }
 
@@ -386,9 +385,9 @@ class GltfJointDecoder {
   GltfCurves curves_;
   GltfMotion motion_;
   std::unordered_map<std::size_t, GltfFrameOfNode> static_frames_;
-  std::vector<std::vector<Vec3>> scales_;     // by joint, of its children
-  std::vector<GltfPlaces> places_;            // by joint
-  std::vector<std::size_t> points_;           // joints that have positions
+  std::vector<std::vector<Vec3>> scales_;  // by joint, of its children
+  std::vector<GltfPlaces> places_;         // by joint
+  std::vector<std::size_t> points_;        // joints that have positions
   std::vector<std::uint8_t> held_rotations_;
 };
 

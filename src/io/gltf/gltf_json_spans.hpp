@@ -1,4 +1,5 @@
-// Finds where the values of a JSON text stand, so that they can be replaced without touching the rest.
+// Finds where the values of a JSON text stand, so that they can be replaced without touching the
+// rest.
 #pragma once
 
 #include <cstddef>

@@ -36,8 +36,8 @@ class GltfMarkerDecoder {
   GltfMotion decode() {
     std::vector<std::string> names;
     for (const std::size_t node : markers_) names.push_back(model_.nodes[node].name);
-    motion_.take = make_marker_clip(std::move(names), motion_.grid.times.count,
-                                    motion_.grid.times.rate_hz);
+    motion_.take =
+        make_marker_clip(std::move(names), motion_.grid.times.count, motion_.grid.times.rate_hz);
     motion_.take.unit = "m";
     for (std::size_t m = 0; m < markers_.size(); ++m) {
       add_places(m);

@@ -42,17 +42,15 @@ std::array<Vec3, 3> orthonormal(const std::array<Vec3, 3>& columns) {
 
 }  // namespace
 
-Quat unit_rotation(Quat q) {
-  const double largest =
-      std::max({std::fabs(q.w), std::fabs(q.x), std::fabs(q.y), std::fabs(q.z)});
+Quat unit_rotation_of_any(Quat q) {
+  const double largest = std::max({std::fabs(q.w), std::fabs(q.x), std::fabs(q.y), std::fabs(q.z)});
   if (!(largest > 0) || !std::isfinite(largest)) return {};
   return normalized((1 / largest) * q);
 }
 
 GltfPlacement placement_of_matrix(std::span<const double> m) {
   constexpr double least_shear = 1e-4;  // of the lengths of the axes
-  const std::array<Vec3, 3> columns{
-      {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}}};
+  const std::array<Vec3, 3> columns{{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}}};
   const bool mirrors = dot(cross(columns[0], columns[1]), columns[2]) < 0;
   const double sign = mirrors ? -1 : 1;
   const std::array<Vec3, 3> turned{{sign * columns[0], sign * columns[1], sign * columns[2]}};

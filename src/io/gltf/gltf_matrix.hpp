@@ -1,6 +1,7 @@
 // Takes the matrix of a node apart.
 #pragma once
 
+#include <cmath>
 #include <span>
 
 #include "kinemend/rotation.hpp"
@@ -18,7 +19,13 @@ struct GltfPlacement {
 GltfPlacement placement_of_matrix(std::span<const double> matrix);
 
 /// The nearest rotation of a quaternion as written; identity for a zero one.
-Quat unit_rotation(Quat q);
+Quat unit_rotation_of_any(Quat q);
+inline Quat unit_rotation(Quat q) {
+  const double square = dot(q, q);
+  // Within these the square neither overflows nor loses digits.
+  if (square > 1e-3 && square < 1e3) return (1 / std::sqrt(square)) * q;
+  return unit_rotation_of_any(q);
+}
 
 /// The product by components.
 inline Vec3 scaled(Vec3 scale, Vec3 v) { return {scale.x * v.x, scale.y * v.y, scale.z * v.z}; }

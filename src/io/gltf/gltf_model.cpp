@@ -87,9 +87,13 @@ GltfView view_of(const GltfJson& json) {
 }
 
 std::size_t width_of_type(const std::string& type) {
-  constexpr std::array<std::pair<std::string_view, std::size_t>, 7> widths{
-      {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9},
-       {"MAT4", 16}}};
+  constexpr std::array<std::pair<std::string_view, std::size_t>, 7> widths{{{"SCALAR", 1},
+                                                                            {"VEC2", 2},
+                                                                            {"VEC3", 3},
+                                                                            {"VEC4", 4},
+                                                                            {"MAT2", 4},
+                                                                            {"MAT3", 9},
+                                                                            {"MAT4", 16}}};
   for (const auto& [name, width] : widths) {
     if (type == name) return width;
   }
@@ -119,7 +123,8 @@ GltfAccessor accessor_of(const GltfJson& json) {
   accessor.width = width_of_type(gltf_text(json, "type"));
   accessor.normalized = gltf_flag(json, "normalized");
   accessor.has_range = json.contains("min") || json.contains("max");
-  if (const GltfJson* const sparse = gltf_field(json, "sparse")) accessor.sparse = sparse_of(*sparse);
+  if (const GltfJson* const sparse = gltf_field(json, "sparse"))
+    accessor.sparse = sparse_of(*sparse);
   return accessor;
 }
 

@@ -22,8 +22,8 @@ struct GltfBuffer {
 
 struct GltfView {
   std::size_t buffer = 0, offset = 0, size = 0;
-  std::size_t stride = 0;        ///< 0: elements follow each other
-  std::string coded;             ///< the extension that compresses it; mostly empty
+  std::size_t stride = 0;  ///< 0: elements follow each other
+  std::string coded;       ///< the extension that compresses it; mostly empty
 };
 
 /// Numbers of a sparse accessor that replace those of its view.

@@ -42,11 +42,11 @@ struct GltfMotion {
   GltfGrid grid;
   std::size_t animation = GltfTrack::none;  ///< none: the file has no motion
   std::vector<GltfTrack> tracks;
-  std::vector<std::string> odd_scales;      ///< nodes whose scale no take can hold
-  std::vector<std::string> sheared;         ///< nodes whose matrix was not a placement
-  std::vector<std::string> repeated;        ///< nodes with two channels of one kind
-  std::size_t interpolated = 0;  ///< moving channels without a key in each frame
-  std::size_t held_keys = 0;     ///< keys that are not finite
+  std::vector<std::string> odd_scales;  ///< nodes whose scale no take can hold
+  std::vector<std::string> sheared;     ///< nodes whose matrix was not a placement
+  std::vector<std::string> repeated;    ///< nodes with two channels of one kind
+  std::size_t interpolated = 0;         ///< moving channels without a key in each frame
+  std::size_t held_keys = 0;            ///< keys that are not finite
 };
 
 /// The nodes that are joints, in tree order: those of the skins, and what is animated above or

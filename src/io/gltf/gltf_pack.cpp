@@ -53,7 +53,8 @@ class GltfPacker {
     if (same_container) {
       files.bytes = reassembled_gltf(file_, std::move(json), changed(0));
     } else {
-      files.bytes = as_binary_ ? new_glb(std::move(json), binary_) : without_padding(std::move(json));
+      files.bytes =
+          as_binary_ ? new_glb(std::move(json), binary_) : without_padding(std::move(json));
     }
     return files;
   }
@@ -99,8 +100,8 @@ class GltfPacker {
     const auto element = json_element(text, "buffers", buffer);
     const auto uri = element ? json_member(text, *element, "uri") : std::nullopt;
     const std::string_view old = uri ? text.substr(uri->begin + 1, uri->size - 2) : "";
-    const std::string_view head =
-        is_data_uri(old) ? old.substr(0, old.find(',') + 1) : "data:application/octet-stream;base64,";
+    const std::string_view head = is_data_uri(old) ? old.substr(0, old.find(',') + 1)
+                                                   : "data:application/octet-stream;base64,";
     return std::string(head) + base64_of(content(buffer));
   }
 

@@ -59,10 +59,10 @@ std::size_t chosen_animation(const GltfFile& file, const GltfModel& model, std::
   }
   if (has_skin && !is_named) return GltfTrack::none;
   if (is_named || !model.animations.empty()) {
-    throw Error::at_byte(file.name, file.json.begin,
-                         fmt::format("no joint is turned or moved by {}; the animations are: {}",
-                                     is_named ? quote(name) : "any animation",
-                                     animation_list(model)));
+    throw Error::at_byte(
+        file.name, file.json.begin,
+        fmt::format("no joint is turned or moved by {}; the animations are: {}",
+                    is_named ? quote(name) : "any animation", animation_list(model)));
   }
   throw Error::at_byte(file.name, file.json.begin,
                        "the scene has neither an animation nor a skin: there is no motion in it");
@@ -134,12 +134,23 @@ std::vector<SourceFact> facts_of(const GltfDocument& document) {
   std::vector<SourceFact> facts;
   if (!model.generator.empty()) facts.push_back({"software", model.generator});
   if (document.animation != GltfTrack::none) {
-    facts.push_back({"animations", fmt::format("{}; read: {}", animation_list(model),
-                                               quote(name_of_animation(model, document.animation)))});
+    facts.push_back(
+        {"animations", fmt::format("{}; read: {}", animation_list(model),
+                                   quote(name_of_animation(model, document.animation)))});
   }
   if (!model.skins.empty()) facts.push_back({"skins", std::to_string(model.skins.size())});
   if (model.meshes > 0) facts.push_back({"meshes", std::to_string(model.meshes)});
   return facts;
+}
+
+void check_joint_depth(const GltfFile& file, const Skeleton& skeleton, std::size_t most) {
+  std::vector<std::size_t> depths;
+  for (const std::int32_t parent : skeleton.parents) {
+    depths.push_back(parent < 0 ? 1 : depths[static_cast<std::size_t>(parent)] + 1);
+    if (depths.back() <= most) continue;
+    throw Error::at_byte(file.name, file.json.begin,
+                         fmt::format("joints are nested more than {} deep", most));
+  }
 }
 
 TakeResult read_gltf_file(std::string bytes, std::string_view name, const ReadOptions& options,
@@ -154,6 +165,7 @@ TakeResult read_gltf_file(std::string bytes, std::string_view name, const ReadOp
   const auto decode = document->has_markers ? &decode_gltf_markers : &decode_gltf_joints;
   GltfMotion motion = decode(document->file, document->model, document->buffers,
                              document->animation, document->rate_hz);
+  check_joint_depth(document->file, motion.take.skeleton, options.max_depth);
   GltfNotes(*document, options.strict, result.diagnostics).about(motion);
   motion.take.source = {std::string(name), format, document, facts_of(*document)};
   // BOUNDARY

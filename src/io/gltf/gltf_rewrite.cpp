@@ -38,13 +38,27 @@ double dot4(const double* a, const double* b) {
 // A value that goes to the bytes of a buffer.
 struct GltfStored {
   GltfPlace place;
-  std::string bytes;
+  std::array<char, 16> bytes{};  // four components at most
+  std::size_t size = 0;
 };
 
 class GltfTrackValues {
  public:
   GltfTrackValues(const Take& take, const GltfMotion& source, bool same_frames)
       : take_(take), source_(source), same_frames_(same_frames) {}
+
+  // False where the source holds the track already: most tracks, which need not be decoded again.
+  bool may_change(const GltfTrack& track) const {
+    if (!same_frames_ || source_.held_keys > 0 || !take_.has_joints()) return true;
+    const std::size_t frames = take_.frame_count();
+    const bool turns = track.path == GltfPath::rotation;
+    for (std::size_t f = 0; f < frames; ++f) {
+      if (turns ? !is_same_turn(f, track.owner)
+                : !(take_.position(f, track.owner) == source_.take.position(f, track.owner)))
+        return true;
+    }
+    return false;
+  }
 
   // `curve`: of the source; may be none.
   GltfValues of(const GltfTrack& track, const GltfCurve* curve, const std::string& name) const {
@@ -65,14 +79,18 @@ class GltfTrackValues {
   }
 
  private:
+  bool is_same_turn(std::size_t frame, std::size_t joint) const {
+    const Quat now = take_.rotation(frame, joint), was = source_.take.rotation(frame, joint);
+    return now == was || now == -was;
+  }
+
   void add_rotations(const GltfTrack& track, GltfValues& values) const {
     values.width = 4;
     for (std::size_t f = 0; f < values.frames.size(); ++f) {
       const Quat q = take_.rotation(f, track.owner);
       values.frames[f] = components(unit_rotation(track.rest * q));
       if (!same_frames_) continue;
-      const Quat was = source_.take.rotation(f, track.owner);
-      values.changed[f] = q == was || q == -was ? 0 : 1;
+      values.changed[f] = is_same_turn(f, track.owner) ? 0 : 1;
     }
   }
 
@@ -84,7 +102,7 @@ class GltfTrackValues {
       if (same_frames_) values.changed[f] = p == source_.take.position(f, track.owner) ? 0 : 1;
       const bool is_kept = values.changed[f] == 0 && !kept.empty();
       // A scale of 0 is an error only where something has to move under it.
-      values.frames[f] = components(is_kept ? kept[f]
+      values.frames[f] = components(is_kept                  ? kept[f]
                                     : values.changed[f] != 0 ? track.to_file(p, f, name)
                                                              : Vec3{});
     }
@@ -131,7 +149,8 @@ class GltfTrackValues {
       const bool is_there = take_.is_observed(f, track.owner);
       always = always && is_there;
       values.frames[f] = components(is_there ? size : Vec3{});
-      if (same_frames_) values.changed[f] = is_there == source_.take.is_observed(f, track.owner) ? 0 : 1;
+      if (same_frames_)
+        values.changed[f] = is_there == source_.take.is_observed(f, track.owner) ? 0 : 1;
     }
     if (curve == nullptr && always) std::fill(values.changed.begin(), values.changed.end(), 0);
   }
@@ -227,12 +246,15 @@ class GltfRewriter {
   }
 
   void rewrite_track(const GltfTrack& track) {
+    const GltfTrackValues track_values(take_, motion_, same_frames_);
+    if (!track_values.may_change(track)) return;
     std::optional<GltfCurve> curve;
     if (track.channel != GltfTrack::none) {
-      curve = read_gltf_curve(document_.file, model_, loaded_, sampler_of(track), track.path);
+      curve =
+          read_gltf_curve(document_.file, model_, loaded_, sampler_of(track), track.path, clocks_);
     }
-    GltfValues values = GltfTrackValues(take_, motion_, same_frames_)
-                            .of(track, curve ? &*curve : nullptr, name_of_node(model_, track.node));
+    GltfValues values =
+        track_values.of(track, curve ? &*curve : nullptr, name_of_node(model_, track.node));
     if (!values.any()) return;
     const bool in_place = curve && track.has_key_each_frame && same_frames_;
     if (in_place && values.width == 4) follow_signs(values, *curve);
@@ -252,7 +274,8 @@ class GltfRewriter {
     const auto places = numbers.places();
     std::vector<GltfStored> stored;
     const auto store = [&](std::size_t element, const double* components) {
-      return places[element] && store_element(numbers.accessor(), *places[element], components, stored);
+      return places[element] &&
+             store_element(numbers.accessor(), *places[element], components, stored);
     };
     const bool is_spline = curve.interpolation == GltfInterpolation::cubic_spline;
     for (std::size_t f = 0; f < values.frames.size(); ++f) {
@@ -262,7 +285,8 @@ class GltfRewriter {
     }
     for (const GltfStored& value : stored) {
       std::string& bytes = changed_buffer(value.place.buffer);
-      bytes.replace(value.place.at, value.bytes.size(), value.bytes);
+      std::copy_n(value.bytes.data(), value.size,
+                  bytes.begin() + static_cast<std::ptrdiff_t>(value.place.at));
     }
     written_.push_back(accessor);
     return true;
@@ -271,11 +295,13 @@ class GltfRewriter {
   bool store_element(const GltfAccessor& accessor, GltfPlace place, const double* components,
                      std::vector<GltfStored>& stored) const {
     const std::size_t step = size_of_component(accessor.component);
+    GltfStored value{place, {}, accessor.width * step};
     for (std::size_t c = 0; c < accessor.width; ++c) {
-      auto bytes = component_bytes(components[c], accessor.component, accessor.normalized);
-      if (!bytes) return false;
-      stored.push_back({{place.buffer, place.at + c * step}, std::move(*bytes)});
+      if (!store_component(components[c], accessor.component, accessor.normalized,
+                           value.bytes.data() + c * step))
+        return false;
     }
+    stored.push_back(value);
     return true;
   }
 
@@ -287,7 +313,7 @@ class GltfRewriter {
     const std::size_t last = values.frames.size() - 1;
     const std::size_t before = f == 0 ? 0 : f - 1, after = std::min(f + 1, last);
     if ((values.changed[before] | values.changed[f] | values.changed[after]) == 0) return true;
-    const double length = curve.times[after] - curve.times[before];
+    const double length = curve.times()[after] - curve.times()[before];
     std::array<double, 4> slope{};
     for (std::size_t c = 0; c < values.width && length > 0; ++c)
       slope[c] = (value_at(curve, values, after, c) - value_at(curve, values, before, c)) / length;
@@ -375,6 +401,7 @@ class GltfRewriter {
   const GltfModel& model_;
   const GltfMotion& motion_;
   GltfBuffers loaded_;
+  GltfClocks clocks_;
   bool same_frames_;
   GltfChanges changes_;
   GltfAdditions additions_;
@@ -386,7 +413,7 @@ class GltfRewriter {
 }  // namespace
 
 bool belongs_to(const Take& take, const GltfDocument& document, const GltfMotion& motion) {
-  if (document.has_markers) 
+  if (document.has_markers)
     return !take.has_joints() && take.names == motion.take.names && take.unit == motion.take.unit;
   return take.has_joints() && same_skeleton(take.skeleton, motion.take.skeleton) &&
          take.translated_joints == motion.take.translated_joints &&

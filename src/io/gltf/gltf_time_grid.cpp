@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "kinemend/experimental/frame_rate.hpp"
 
@@ -14,8 +15,8 @@ namespace {
 
 constexpr double gltf_rate_when_unknown_hz = 30;
 // The rates that films, games and cameras have. Whole ones first: short takes fit both kinds.
-constexpr std::array<double, 16> usual_gltf_rates{24,  25,  30,     48,    50,    60,     90,    100,
-                                                  120, 144, 23.976, 29.97, 59.94, 119.88, 239.76, 240};
+constexpr std::array<double, 16> usual_gltf_rates{
+    24, 25, 30, 48, 50, 60, 90, 100, 120, 144, 23.976, 29.97, 59.94, 119.88, 239.76, 240};
 
 double float_error(double time_s) {
   return 4 * static_cast<double>(std::numeric_limits<float>::epsilon()) * std::fabs(time_s);
@@ -30,8 +31,11 @@ double key_tolerance_s(double rate_hz, double largest_time_s) {
 
 std::vector<double> all_times(const std::vector<const GltfCurve*>& curves) {
   std::vector<double> times;
-  for (const GltfCurve* curve : curves)
-    times.insert(times.end(), curve->times.begin(), curve->times.end());
+  std::set<const std::vector<double>*> clocks;
+  for (const GltfCurve* curve : curves) {
+    if (clocks.insert(curve->clock.get()).second)
+      times.insert(times.end(), curve->times().begin(), curve->times().end());
+  }
   std::sort(times.begin(), times.end());
   const auto same = [](double a, double b) { return b - a < least_step_s(b); };
   times.erase(std::unique(times.begin(), times.end(), same), times.end());

@@ -9,7 +9,7 @@ namespace kinemend {
 
 struct GltfGrid {
   GltfTimes times;
-  bool is_of_keys = true;  ///< every key of a moving channel lies on a frame
+  bool is_of_keys = true;   ///< every key of a moving channel lies on a frame
   bool is_assumed = false;  ///< the keys do not say a rate: there are fewer than two times
 };
 

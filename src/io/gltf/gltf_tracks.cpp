@@ -30,6 +30,7 @@ GltfCurves::GltfCurves(const GltfFile& file, const GltfModel& model, GltfBuffers
   if (animation == GltfTrack::none) return;
   const GltfAnimation& chosen = model.animations[animation];
   curves_.resize(chosen.channels.size());
+  GltfClocks clocks;
   std::size_t read = 0;
   for (std::size_t c = 0; c < chosen.channels.size(); ++c) {
     const GltfChannel& channel = chosen.channels[c];
@@ -44,8 +45,8 @@ GltfCurves::GltfCurves(const GltfFile& file, const GltfModel& model, GltfBuffers
       continue;
     }
     slot = c;
-    curves_[c] =
-        read_gltf_curve(file, model, buffers, chosen.samplers[channel.sampler], channel.path);
+    curves_[c] = read_gltf_curve(file, model, buffers, chosen.samplers[channel.sampler],
+                                 channel.path, clocks);
     // Many channels may share a sampler: each counts.
     read += curves_[c].keys() * (curves_[c].parts() + 1) * sizeof(double);
     check_gltf_memory(file, buffers, 1, read);
@@ -73,10 +74,9 @@ void check_gltf_memory(const GltfFile& file, const GltfBuffers& buffers, std::si
   const double needed = static_cast<double>(frames) * static_cast<double>(bytes_per_frame);
   const std::size_t bytes = file.bytes.size() + buffers.size_beside();
   if (needed <= static_cast<double>(memory_limit(bytes))) return;
-  throw Error::at_byte(
-      file.name, file.json.begin,
-      fmt::format("{} frames of {} bytes: too much memory for a file of {} bytes", frames,
-                  bytes_per_frame, bytes));
+  throw Error::at_byte(file.name, file.json.begin,
+                       fmt::format("{} frames of {} bytes: too much memory for a file of {} bytes",
+                                   frames, bytes_per_frame, bytes));
 }
 
 }  // namespace kinemend

@@ -23,9 +23,9 @@ void expect_sane_when_patched_at_some_bytes(const std::string& format, int count
   for (int i = 0; i < count; ++i) {
     std::string bytes = all[random.below(all.size())];
     for (std::size_t n = 1 + random.below(3); n > 0; --n) {
-      bytes[random.below(bytes.size())] = random.chance(0.7)
-                                              ? likely_in_scenes[random.below(likely_in_scenes.size())]
-                                              : static_cast<char>(random.below(256));
+      bytes[random.below(bytes.size())] =
+          random.chance(0.7) ? likely_in_scenes[random.below(likely_in_scenes.size())]
+                             : static_cast<char>(random.below(256));
     }
     ASSERT_NO_FATAL_FAILURE(expect_take_or_error(bytes, format)) << i;
   }
@@ -76,7 +76,9 @@ TEST(HostileGltf, DamagedScenesThatAreReadCanBeChanged) {
   EXPECT_GT(changed, 500u);
 }
 
-std::string scene_of(const std::string& rest) { return R"({"asset":{"version":"2.0"},)" + rest + "}"; }
+std::string scene_of(const std::string& rest) {
+  return R"({"asset":{"version":"2.0"},)" + rest + "}";
+}
 
 std::string many(const std::string& piece, std::size_t count) {
   std::string text = piece;
@@ -111,21 +113,21 @@ TEST(HostileGltf, LargeNonsenseIsRefusedQuicklyAndInLittleMemory) {
        {"many nodes", scene_of(R"("nodes":[)" + many("{}", 300000) + "]")},
        {"many roots with a skin",
         scene_of(R"("nodes":[)" + many("{}", 60000) + R"(],"skins":[{"joints":[0]}])")},
-       {"a long chain", scene_of(R"("nodes":[)" + chain_of_nodes(50000) +
-                                 R"(],"skins":[{"joints":[0,49999]}])")},
-       {"a long chain above a joint", scene_of(R"("nodes":[)" + chain_of_nodes(50000) +
-                                               R"(],"skins":[{"joints":[49999]}])")},
+       {"a long chain",
+        scene_of(R"("nodes":[)" + chain_of_nodes(50000) + R"(],"skins":[{"joints":[0,49999]}])")},
+       {"a long chain above a joint",
+        scene_of(R"("nodes":[)" + chain_of_nodes(50000) + R"(],"skins":[{"joints":[49999]}])")},
        {"a wide tree", scene_of(R"("nodes":[{"children":[)" + leaves + "]}," + many("{}", 29999) +
                                 R"(],"skins":[{"joints":[)" + joints + "]}]")},
-       {"many skins", scene_of(R"("nodes":[{}],"skins":[)" + many(R"({"joints":[0]})", 60000) + "]")},
+       {"many skins",
+        scene_of(R"("nodes":[{}],"skins":[)" + many(R"({"joints":[0]})", 60000) + "]")},
        {"many accessors",
         scene_of(R"("accessors":[)" +
                  many(R"({"componentType":5126,"count":1,"type":"VEC3"})", 20000) + "]")},
        {"zeros without bytes", zeros("60000")},
        {"too many zeros", zeros("1000000000000")},
-       {"many animations",
-        scene_of(R"("nodes":[)" + many("{}", 60000) + R"(],"animations":[)" +
-                 many(R"({"channels":[],"samplers":[]})", 20000) + "]")},
+       {"many animations", scene_of(R"("nodes":[)" + many("{}", 60000) + R"(],"animations":[)" +
+                                    many(R"({"channels":[],"samplers":[]})", 20000) + "]")},
        {"spaces", std::string(1 << 20, ' ')},
        {"a long string", scene_of(R"("extras":")" + std::string(1 << 20, 'a') + "\"")}});
 }

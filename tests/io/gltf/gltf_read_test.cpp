@@ -61,7 +61,8 @@ void expect_placed(const Clip& clip, const std::string& scene) {
   for (std::size_t f = 0; f < table.frames; ++f) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       const Vec3 expected = table.places.at({f, names[i]});
-      ASSERT_LT(norm(found[f * names.size() + i] - expected), 5e-6) << names[i] << " in frame " << f;
+      ASSERT_LT(norm(found[f * names.size() + i] - expected), 5e-6)
+          << names[i] << " in frame " << f;
     }
   }
 }
@@ -180,8 +181,9 @@ TEST(GltfReader, DamagedAndHostileScenesAreRefusedWithTheByteAndTheReason) {
             "byte 1352: accessors[3]: it reaches beyond its buffer view");
   EXPECT_EQ(refusal("no_base64.gltf"), "byte 4507: buffers[0]: its data are not base64");
   for (const char* const name : {"parent_folder.gltf", "absolute.gltf", "elsewhere.gltf"}) {
-    EXPECT_EQ(refusal(name),
-              "byte 4507: buffers[0]: its address is no path within the folder of the file: refused");
+    EXPECT_EQ(
+        refusal(name),
+        "byte 4507: buffers[0]: its address is no path within the folder of the file: refused");
   }
   EXPECT_NE(refusal("not_there.gltf").find("nowhere.bin is not there"), std::string::npos);
   EXPECT_EQ(refusal("no_motion.gltf"),
@@ -226,8 +228,8 @@ TEST(GltfReader, TheRateFollowsFromTheTimesOfTheKeys) {
     }
     return read_glb_bytes(with_times(times));
   };
-  for (const double rate_hz : {1.0, 12.0, 23.976, 24.0, 29.97, 30.0, 59.94, 60.0, 100.0, 119.88,
-                               120.0, 240.0, 1000.0}) {
+  for (const double rate_hz :
+       {1.0, 12.0, 23.976, 24.0, 29.97, 30.0, 59.94, 60.0, 100.0, 119.88, 120.0, 240.0, 1000.0}) {
     EXPECT_EQ(rate_of(rate_hz, 0, 0).frame_rate_hz, rate_hz);
     EXPECT_EQ(rate_of(rate_hz, 3, 0).frame_rate_hz, rate_hz) << "from 3 s";
     EXPECT_EQ(rate_of(rate_hz, 3, 0).frame_count(), 6u);
@@ -238,9 +240,11 @@ TEST(GltfReader, TheRateFollowsFromTheTimesOfTheKeys) {
 }
 
 TEST(GltfReader, TimesThatGoBackAreRefused) {
-  const std::string message =
-      message_of([] { read_glb_bytes(with_times({0, 1, 2, 1.5F, 3, 4})); },
-                 ErrorKind::unreadable_input);
+  const std::string message = message_of(
+      [] {
+        read_glb_bytes(with_times({0, 1, 2, 1.5F, 3, 4}));
+      },
+      ErrorKind::unreadable_input);
   EXPECT_NE(message.find("time 3 goes back"), std::string::npos) << message;
 }
 

@@ -43,8 +43,9 @@ TEST(GltfRewrite, OnlyTheKeysThatChangeGetOtherBytes) {
     const SceneParts before = parts_of_glb(bytes), after = parts_of_glb(written);
     const int spine = static_cast<int>(before.output("Spine", "rotation"));
     EXPECT_EQ(changed_elements(before, after), (Changed{{spine, 2}, {spine, 5}}));
-    const double tolerance =
-        scene == std::string("bytes.glb") ? 0.02 : scene == std::string("shorts.glb") ? 1e-4 : 1e-6;
+    const double tolerance = scene == std::string("bytes.glb")    ? 0.02
+                             : scene == std::string("shorts.glb") ? 1e-4
+                                                                  : 1e-6;
     expect_same_motion(clip, read_glb_bytes(written), tolerance);
   }
 }
@@ -84,7 +85,8 @@ TEST(GltfRewrite, ChangedKeysKeepTheSignOfTheirSource) {
     if (path.extension() != ".glb" || path.stem() != "plain") continue;
     Clip clip = read_clip(path).clip;
     for (std::size_t i = 0; i < clip.rotations.size(); ++i)
-      clip.rotations[i] = (i % 2 == 0 ? 1.0 : -1.0) * normalized(clip.rotations[i] * exp({0.1, 0, 0}));
+      clip.rotations[i] =
+          (i % 2 == 0 ? 1.0 : -1.0) * normalized(clip.rotations[i] * exp({0.1, 0, 0}));
     const SceneParts before = parts_of_glb(read_file(path)), after = parts_of_glb(write_clip(clip));
     for (const char* const joint : {"Hips", "Spine", "Head", "Leg"}) {
       const std::size_t output = before.output(joint, "rotation");
@@ -174,8 +176,9 @@ TEST(GltfRewrite, AChannelWithoutAKeyInEachFrameIsWrittenWithThem) {
     const SceneParts before = parts_of_glb(bytes), after = parts_of_glb(written);
     EXPECT_EQ(changed_elements(before, after), Changed{});
     EXPECT_EQ(after.accessor(after.output("Spine", "rotation"))["count"], clip.frame_count());
-    EXPECT_EQ(after.json["buffers"][0]["byteLength"].get<std::size_t>() + 3 - after.binary.size() < 4,
-              true);
+    EXPECT_EQ(
+        after.json["buffers"][0]["byteLength"].get<std::size_t>() + 3 - after.binary.size() < 4,
+        true);
     // The clips differ in the rate that single keys give; the frames are the same.
     expect_same_motion(clip, read_glb_bytes(written), 2e-6);
   }

@@ -36,16 +36,16 @@ struct SceneParts {
   const nlohmann::json& accessor(std::size_t index) const { return json["accessors"][index]; }
   /// The first byte of an accessor's element, and past its last.
   std::pair<std::size_t, std::size_t> element(std::size_t accessor_index, std::size_t i) const {
-    const std::map<int, std::size_t> sizes{{5120, 1}, {5121, 1}, {5122, 2}, {5123, 2},
-                                           {5125, 4}, {5126, 4}};
+    const std::map<int, std::size_t> sizes{{5120, 1}, {5121, 1}, {5122, 2},
+                                           {5123, 2}, {5125, 4}, {5126, 4}};
     const std::map<std::string, std::size_t> widths{
         {"SCALAR", 1}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
     const nlohmann::json& a = accessor(accessor_index);
     const nlohmann::json& view = json["bufferViews"][a["bufferView"].get<std::size_t>()];
     const std::size_t size = sizes.at(a["componentType"]) * widths.at(a["type"]);
     const std::size_t step = view.value("byteStride", size);
-    const std::size_t begin = view.value("byteOffset", std::size_t{0}) +
-                              a.value("byteOffset", std::size_t{0}) + i * step;
+    const std::size_t begin =
+        view.value("byteOffset", std::size_t{0}) + a.value("byteOffset", std::size_t{0}) + i * step;
     return {begin, begin + size};
   }
   std::vector<float> floats(std::size_t accessor_index, std::size_t i) const {
