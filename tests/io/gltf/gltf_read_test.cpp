@@ -125,31 +125,31 @@ TEST(GltfReader, ASkinWithoutMotionIsATakeWithoutFrames) {
   EXPECT_EQ(write_clip(clip), read_file(scene_path("static.glb")));
 }
 
-Diagnostics repairs_of(const std::string& scene, const ReadOptions& options = {}) {
+Diagnostics repairs_of_scene(const std::string& scene, const ReadOptions& options = {}) {
   return read_clip(scene_path(scene), options).diagnostics;
 }
 
 TEST(GltfReader, KeysThatLieOnNoFramesAreReadAtTheRateThatIsAskedFor) {
-  EXPECT_EQ(repairs_of("by_hand.glb").count("keys_resampled"), 1u);
+  EXPECT_EQ(repairs_of_scene("by_hand.glb").count("keys_resampled"), 1u);
   ReadOptions options;
   options.frame_rate_hz = 100;
   const Clip clip = read_scene("by_hand.glb", options);
   EXPECT_EQ(clip.frame_rate_hz, 100);
   EXPECT_EQ(clip.frame_count(), 34u) << "0 to 0.3217 s";
   options.strict = true;
-  EXPECT_NE(message_of([&] { repairs_of("by_hand.glb", options); }, ErrorKind::quality_limit)
+  EXPECT_NE(message_of([&] { repairs_of_scene("by_hand.glb", options); }, ErrorKind::quality_limit)
                 .find("the keys lie on no common frames"),
             std::string::npos);
 }
 
 TEST(GltfReader, ChannelsWithKeysInSomeFramesOnlyAreNamed) {
-  EXPECT_EQ(repairs_of("posed.glb").count("keys_interpolated"), 1u);
-  EXPECT_TRUE(repairs_of("plain.glb").empty());
-  EXPECT_TRUE(repairs_of("scaled.glb").empty());
+  EXPECT_EQ(repairs_of_scene("posed.glb").count("keys_interpolated"), 1u);
+  EXPECT_TRUE(repairs_of_scene("plain.glb").empty());
+  EXPECT_TRUE(repairs_of_scene("scaled.glb").empty());
 }
 
 TEST(GltfReader, TurnsBelowAxesOfDifferentScalesAreNamed) {
-  const Diagnostics repairs = repairs_of("stretched.glb");
+  const Diagnostics repairs = repairs_of_scene("stretched.glb");
   ASSERT_EQ(repairs.count("scale_not_uniform"), 1u);
   EXPECT_NE(repairs.entries()[0].message.find("\"Head\""), std::string::npos);
 }
@@ -159,10 +159,10 @@ TEST(GltfReader, AKeyThatIsNotFiniteHoldsTheOneBeforeAndIsNotObserved) {
   const std::size_t head = joint_called(clip, "Head");
   EXPECT_EQ(clip.rotation(2, head), clip.rotation(1, head));
   for (std::size_t f = 0; f < 6; ++f) EXPECT_EQ(clip.is_observed(f, head), f != 2);
-  EXPECT_EQ(repairs_of("not_finite.glb").count("value_not_finite"), 1u);
+  EXPECT_EQ(repairs_of_scene("not_finite.glb").count("value_not_finite"), 1u);
 }
 
-std::string refusal(const std::string& name) {
+std::string refusal_of_scene(const std::string& name) {
   const std::string folder = name.ends_with(".glb") ? "glb" : "gltf";
   const fs::path path = fs::path(KINEMEND_TEST_FIXTURES) / folder / "bad" / name;
   const std::string message = message_of([&] { read_take(path); }, ErrorKind::unreadable_input);
@@ -170,23 +170,23 @@ std::string refusal(const std::string& name) {
 }
 
 TEST(GltfReader, DamagedAndHostileScenesAreRefusedWithTheByteAndTheReason) {
-  EXPECT_EQ(refusal("version_1.glb"), "byte 4: glTF of version 1: only 2 is read");
-  EXPECT_EQ(refusal("longer_than_the_file.glb"),
+  EXPECT_EQ(refusal_of_scene("version_1.glb"), "byte 4: glTF of version 1: only 2 is read");
+  EXPECT_EQ(refusal_of_scene("longer_than_the_file.glb"),
             "byte 8: the header states 2712 bytes, the file has 2704");
-  EXPECT_EQ(refusal("meshopt.glb"),
+  EXPECT_EQ(refusal_of_scene("meshopt.glb"),
             "byte 752: bufferViews[1]: compressed by EXT_meshopt_compression: refused");
-  EXPECT_EQ(refusal("two_parents.gltf"), "byte 470: nodes[4]: a node with two parents");
-  EXPECT_EQ(refusal("cycle.gltf"), "byte 265: nodes[2]: a node that is its own ancestor");
-  EXPECT_EQ(refusal("beyond_the_view.gltf"),
+  EXPECT_EQ(refusal_of_scene("two_parents.gltf"), "byte 470: nodes[4]: a node with two parents");
+  EXPECT_EQ(refusal_of_scene("cycle.gltf"), "byte 265: nodes[2]: a node that is its own ancestor");
+  EXPECT_EQ(refusal_of_scene("beyond_the_view.gltf"),
             "byte 1352: accessors[3]: it reaches beyond its buffer view");
-  EXPECT_EQ(refusal("no_base64.gltf"), "byte 4507: buffers[0]: its data are not base64");
+  EXPECT_EQ(refusal_of_scene("no_base64.gltf"), "byte 4507: buffers[0]: its data are not base64");
   for (const char* const name : {"parent_folder.gltf", "absolute.gltf", "elsewhere.gltf"}) {
     EXPECT_EQ(
-        refusal(name),
+        refusal_of_scene(name),
         "byte 4507: buffers[0]: its address is no path within the folder of the file: refused");
   }
-  EXPECT_NE(refusal("not_there.gltf").find("nowhere.bin is not there"), std::string::npos);
-  EXPECT_EQ(refusal("no_motion.gltf"),
+  EXPECT_NE(refusal_of_scene("not_there.gltf").find("nowhere.bin is not there"), std::string::npos);
+  EXPECT_EQ(refusal_of_scene("no_motion.gltf"),
             "byte 0: the scene has neither an animation nor a skin: there is no motion in it");
 }
 

@@ -7,7 +7,7 @@ namespace {
 using namespace test;
 namespace fs = std::filesystem;
 
-const fs::path data = KINEMEND_DATA_FOLDER;
+const fs::path gltf_scenes = fs::path(KINEMEND_DATA_FOLDER) / "fbx";
 
 // What there is to read: joints, frames, rate; none: refused, with a part of the reason.
 struct KnownScene {
@@ -31,7 +31,7 @@ const std::vector<KnownScene> known_scenes{
 TEST(RealGltf, ScenesAreReadAsKnownAndComeBackToTheByte) {
   for (const KnownScene& scene : known_scenes) {
     SCOPED_TRACE(scene.path);
-    const fs::path path = data / "fbx" / scene.path;
+    const fs::path path = gltf_scenes / scene.path;
     if (scene.joints == 0) {
       const std::string message = message_of([&] { read_take(path); }, ErrorKind::unreadable_input);
       EXPECT_NE(message.find(scene.reason), std::string::npos) << message;
@@ -51,7 +51,7 @@ TEST(RealGltf, ChangedJointsReadBackAndTheOthersStay) {
   for (const KnownScene& scene : known_scenes) {
     if (scene.joints == 0) continue;
     SCOPED_TRACE(scene.path);
-    Clip clip = read_clip(data / "fbx" / scene.path).clip;
+    Clip clip = read_clip(gltf_scenes / scene.path).clip;
     const std::size_t joint = clip.joint_count() / 2;
     for (std::size_t f = 0; f < clip.frame_count(); f += 3)
       clip.rotation(f, joint) = normalized(clip.rotation(f, joint) * exp({0.02, 0.01, -0.03}));
@@ -69,7 +69,7 @@ TEST(RealGltf, ChangedJointsReadBackAndTheOthersStay) {
 
 // Where Blender 3.4.1 puts the dancer's joints, metres with Y up.
 TEST(RealGltf, ADancerInCentimetresBelowATurnedArmatureStandsWhereBlenderPutsIt) {
-  const Clip clip = read_clip(data / "fbx/app-mixamo-animation/dancing2.glb").clip;
+  const Clip clip = read_clip(gltf_scenes / "app-mixamo-animation/dancing2.glb").clip;
   const Pose pose = forward_kinematics(clip, 132);
   const std::map<std::string, Vec3> expected{
       {"mixamorig:HeadTop_End", {-0.027326, 1.736556, 1.14493}},

@@ -7,13 +7,13 @@ namespace {
 
 using namespace test;
 
-std::filesystem::path example(const char* name) {
+std::filesystem::path example_take(const char* name) {
   return std::filesystem::path(KINEMEND_TAKES) / name;
 }
 
 TEST(GltfRoundTrip, JointsComeBackFromTheirGlbInSinglePrecision) {
   for (const char* const format : {"glb", "gltf"}) {
-    const Clip clip = read_clip(example("walk.bvh")).clip;
+    const Clip clip = read_clip(example_take("walk.bvh")).clip;
     const std::string bytes = write_clip(clip, format);
     const Clip again = read_clip(bytes, std::string("walk.") + format).clip;
     EXPECT_EQ(again.skeleton.names, clip.skeleton.names);
@@ -32,7 +32,7 @@ TEST(GltfRoundTrip, JointsComeBackFromTheirGlbInSinglePrecision) {
 }
 
 TEST(GltfRoundTrip, AGlbOfATakeIsCleanedInPlace) {
-  const std::string bytes = write_clip(read_clip(example("walk.bvh")).clip, "glb");
+  const std::string bytes = write_clip(read_clip(example_take("walk.bvh")).clip, "glb");
   Clip clip = read_glb_bytes(bytes);
   const std::string joint = clip.skeleton.names[5];
   turn(clip, 100, joint, {0.1, 0, 0});
@@ -41,7 +41,7 @@ TEST(GltfRoundTrip, AGlbOfATakeIsCleanedInPlace) {
   EXPECT_EQ(changed_elements(before, after).size(), 1u);
 }
 
-MarkerClip moving_markers() {
+MarkerClip moving_scene_markers() {
   Random random(3);
   MarkerClip clip = make_marker_clip({"LASI", "RASI", "Ann:SACR"}, 40, 100);
   clip.unit = "mm";
@@ -56,14 +56,14 @@ MarkerClip moving_markers() {
   return clip;
 }
 
-MarkerClip read_markers(const std::string& bytes) {
+MarkerClip read_glb_markers(const std::string& bytes) {
   return std::get<MarkerClip>(read_take(bytes, "take.glb").take);
 }
 
 TEST(GltfRoundTrip, MarkersComeBackWithTheirGaps) {
-  const MarkerClip clip = moving_markers();
+  const MarkerClip clip = moving_scene_markers();
   const std::string bytes = write_markers(clip, "glb");
-  const MarkerClip again = read_markers(bytes);
+  const MarkerClip again = read_glb_markers(bytes);
   EXPECT_EQ(again.names, clip.names);
   EXPECT_EQ(again.observed, clip.observed);
   EXPECT_EQ(again.unit, "m");
@@ -74,8 +74,8 @@ TEST(GltfRoundTrip, MarkersComeBackWithTheirGaps) {
 }
 
 TEST(GltfRoundTrip, AFilledMarkerAppearsAndOneThatIsLostShrinks) {
-  const std::string bytes = write_markers(moving_markers(), "glb");
-  MarkerClip clip = read_markers(bytes);
+  const std::string bytes = write_markers(moving_scene_markers(), "glb");
+  MarkerClip clip = read_glb_markers(bytes);
   clip.position(7, 1) = {1, 2, 3};
   clip.observed[3 * 7 + 1] = 1;
   clip.position(20, 1) = {};
@@ -86,28 +86,28 @@ TEST(GltfRoundTrip, AFilledMarkerAppearsAndOneThatIsLostShrinks) {
   const int sizes = static_cast<int>(before.output("RASI", "scale"));
   EXPECT_EQ(changed_elements(before, after),
             (std::set<std::pair<int, std::size_t>>{{places, 7}, {sizes, 7}, {sizes, 20}}));
-  const MarkerClip again = read_markers(written);
+  const MarkerClip again = read_glb_markers(written);
   EXPECT_EQ(again.observed, clip.observed);
   EXPECT_LT(norm(again.position(7, 1) - Vec3{1, 2, 3}), 1e-6);
 }
 
 TEST(GltfRoundTrip, AMarkerThatWasAlwaysThereGetsAChannelForItsGaps) {
-  const std::string bytes = write_markers(moving_markers(), "glb");
-  MarkerClip clip = read_markers(bytes);
+  const std::string bytes = write_markers(moving_scene_markers(), "glb");
+  MarkerClip clip = read_glb_markers(bytes);
   clip.observed[3 * 5] = 0;
   clip.position(5, 0) = {};
-  const MarkerClip again = read_markers(write_markers(clip));
+  const MarkerClip again = read_glb_markers(write_markers(clip));
   EXPECT_EQ(again.observed, clip.observed);
   for (std::size_t f = 0; f < 40; ++f)
     EXPECT_LT(norm(again.position(f, 2) - clip.position(f, 2)), 1e-6);
 }
 
 TEST(GltfRoundTrip, MarkersWithOtherFramesKeepTheirScene) {
-  const std::string bytes = write_markers(moving_markers(), "glb");
-  MarkerClip clip = read_markers(bytes);
+  const std::string bytes = write_markers(moving_scene_markers(), "glb");
+  MarkerClip clip = read_glb_markers(bytes);
   clip.positions.resize(3 * 20);
   clip.observed.resize(3 * 20);
-  const MarkerClip again = read_markers(write_markers(clip));
+  const MarkerClip again = read_glb_markers(write_markers(clip));
   EXPECT_EQ(again.observed, clip.observed);
   EXPECT_EQ(again.frame_count(), 20u);
 }
