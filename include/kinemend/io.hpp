@@ -29,6 +29,9 @@ struct ReadOptions {
   /// Called with the share of the file that is read (0 to 1). Readers of small formats never call
   /// it.
   std::function<void(double done)> progress;
+  /// The animation of a glTF file, by name; one without a name is called `#2`, by its place. Empty:
+  /// the first that turns or moves a joint.
+  std::string animation;
 };
 
 struct TakeResult {
@@ -80,6 +83,18 @@ struct SideFile {
 /// already finds the same skeleton.
 std::optional<SideFile> side_file(const Take& take, std::string_view bytes, std::string_view format,
                                   const std::filesystem::path& output);
+
+/// A take as a file, with the files that it needs in the same folder or below.
+struct TakeFiles {
+  std::string bytes;
+  std::vector<SideFile> beside;
+};
+/// `write_take` and `side_file` at once, for an output whose place is known. A glTF text whose
+/// buffers stand beside it writes a changed buffer there as well, under the name of the output:
+/// `walk.gltf` and `walk.bin`. In another folder than the source's it brings the files along that
+/// it names.
+TakeFiles files_of_take(const Take& take, std::string_view format,
+                        const std::filesystem::path& output);
 
 /// Writes `bytes` to a temporary file beside `path`, flushes it to the disk and renames it, so that
 /// `path` always holds either its old content or all of the new. A replaced file keeps its
