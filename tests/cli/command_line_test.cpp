@@ -196,7 +196,7 @@ TEST_F(CommandLine, BashCompletesValuesBehindAnEqualsSignAndNamesOfHelp) {
   ASSERT_EQ(std::system(command.c_str()), 0);
   EXPECT_EQ(contents(folder / "said"),
             "butterworth\n--method=butterworth\nwalk sport dance hands live biomech\ntry.bash\n"
-            "butterworth\nframes\ncorrupt\nhelp\n\nglb\n");
+            "butterworth\nframes\ncorrupt\nhelp\nglb gltf\nglb gltf\n");
 }
 
 TEST_F(CommandLine, OtherShellsCompleteValuesBehindAnEqualsSignToo) {

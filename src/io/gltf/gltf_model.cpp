@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "io/gltf/gltf_fields.hpp"
@@ -128,6 +129,15 @@ GltfAccessor accessor_of(const GltfJson& json) {
   return accessor;
 }
 
+// Beyond this a number means nothing, and products of it overflow.
+void check_node_range(const GltfNode& node) {
+  constexpr double most = 1e100;
+  for (const Vec3 v : {node.translation, node.scale}) {
+    if (!(std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}) <= most))
+      throw GltfFault{"a translation or scale is beyond 1e100"};
+  }
+}
+
 GltfNode node_of(const GltfJson& json, std::size_t nodes) {
   GltfNode node;
   node.name = gltf_text(json, "name");
@@ -147,6 +157,7 @@ GltfNode node_of(const GltfJson& json, std::size_t nodes) {
   if (const auto s = gltf_numbers(json, "scale", 3)) node.scale = {(*s)[0], (*s)[1], (*s)[2]};
   if (const auto q = gltf_numbers(json, "rotation", 4))
     node.rotation = unit_rotation({(*q)[3], (*q)[0], (*q)[1], (*q)[2]});
+  check_node_range(node);
   return node;
 }
 
