@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "io/gltf/gltf_fields.hpp"
 #include "io/gltf/gltf_json_spans.hpp"
 #include "io/gltf/gltf_uri.hpp"
 #include "kinemend/error.hpp"
@@ -49,7 +50,13 @@ std::string gltf_data_in_text(const GltfFile& file, std::size_t buffer) {
   const auto element = json_element(text, "buffers", buffer);
   const auto uri = element ? json_member(text, *element, "uri") : std::nullopt;
   if (uri && uri->size >= 2) {
-    auto data = read_data_uri(text.substr(uri->begin + 1, uri->size - 2));
+    const std::string_view quoted = text.substr(uri->begin, uri->size);
+    // Some writers escape every slash.
+    const bool is_escaped = quoted.find('\\') != quoted.npos;
+    const std::string plain =
+        is_escaped ? GltfJson::parse(quoted, nullptr, false).get<std::string>() : std::string();
+    auto data =
+        read_data_uri(is_escaped ? std::string_view(plain) : quoted.substr(1, quoted.size() - 2));
     if (data) return std::move(data->bytes);
   }
   throw gltf_error(file, "buffers", buffer, "its data are not base64");

@@ -118,6 +118,23 @@ std::optional<ByteSpan> json_element(std::string_view text, const char* key, std
   return elements[index];
 }
 
+std::string without_inline_data(std::string_view text) {
+  constexpr std::string_view mark = "\"data:";
+  std::string out;
+  std::size_t copied = 0, at = text.find(mark);
+  while (at != text.npos) {
+    const std::size_t last = at == 0 ? text.npos : text.find_last_not_of('\\', at - 1);
+    const bool is_escaped = (at - 1 - last) % 2 == 1;  // the quote is part of another string
+    const std::size_t end = is_escaped ? at + mark.size() : after_json_string(text, at);
+    if (!is_escaped && text[end - 1] == '"') {
+      out.append(text.substr(copied, at + mark.size() - copied));
+      copied = end - 1;
+    }
+    at = text.find(mark, end);
+  }
+  return out.append(text.substr(copied));
+}
+
 std::string edited_json(std::string_view text, std::vector<JsonEdit> edits) {
   std::stable_sort(edits.begin(), edits.end(), [](const JsonEdit& a, const JsonEdit& b) {
     return a.place.begin < b.place.begin;

@@ -37,6 +37,10 @@ std::vector<ByteSpan> json_elements(std::string_view text, ByteSpan array);
 /// The element `index` of the array `key` of the root.
 std::optional<ByteSpan> json_element(std::string_view text, const char* key, std::size_t index);
 
+/// The text with inline data (strings that begin with `data:`) cut to that word: megabytes that no
+/// parser has to look at.
+std::string without_inline_data(std::string_view text);
+
 /// A piece of a text that is replaced; of size 0: inserted.
 struct JsonEdit {
   ByteSpan place;

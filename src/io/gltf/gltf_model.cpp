@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "io/gltf/gltf_fields.hpp"
+#include "io/gltf/gltf_json_spans.hpp"
 #include "io/gltf/gltf_matrix.hpp"
 #include "io/gltf/gltf_uri.hpp"
 #include "kinemend/error.hpp"
@@ -315,7 +316,9 @@ void read_sections(const GltfFile& file, const GltfJson& root, GltfModel& model)
 }
 
 GltfJson parsed_root(const GltfFile& file) {
-  GltfJson root;
+  GltfJson root = parse_json<GltfJson>(without_inline_data(file.json_text()), false);
+  if (root.is_object()) return root;
+  // Once more, for the place of the fault.
   try {
     root = parse_json<GltfJson>(file.json_text());
   } catch (const GltfJson::exception& error) {
@@ -324,8 +327,7 @@ GltfJson parsed_root(const GltfFile& file) {
     throw Error::at_byte(file.name, file.json.begin + at,
                          "not JSON, or nested too deeply: expected the text of a glTF scene");
   }
-  if (!root.is_object()) throw Error::at_byte(file.name, file.json.begin, "the JSON is no object");
-  return root;
+  throw Error::at_byte(file.name, file.json.begin, "the JSON is no object");
 }
 
 void read_asset(const GltfFile& file, const GltfJson& root, GltfModel& model) {

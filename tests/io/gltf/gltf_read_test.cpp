@@ -239,6 +239,24 @@ TEST(GltfReader, TheRateFollowsFromTheTimesOfTheKeys) {
   EXPECT_EQ(rounded.frame_count(), 6u);
 }
 
+TEST(GltfReader, EscapedSlashesAndOddSpellingsOfTheTextAreRead) {
+  const std::string text = read_file(scene_path("plain.gltf"));
+  const Take plain = read_joints(text, "take.gltf").take;
+  std::string escaped;
+  for (const char c : text) escaped += c == '/' ? std::string("\\/") : std::string(1, c);
+  std::string renamed = text;
+  renamed.replace(renamed.find("\"buffers\""), 9, "\"\\u0062uffers\"");
+  std::string quoting = text;
+  quoting.insert(1, "\"extras\":\"say \\\"data:no\\\" here\",");
+  for (const std::string& bytes : {escaped, renamed, quoting, "\xEF\xBB\xBF" + text}) {
+    Take take = read_joints(bytes, "take.gltf").take;
+    EXPECT_EQ(take.rotations, plain.rotations);
+    EXPECT_TRUE(write_take(take) == bytes);
+    turn(take, 1, "Leg", {0.1, 0, 0});
+    expect_same_motion(take, read_joints(write_take(take), "take.gltf").take, 1e-6);
+  }
+}
+
 TEST(GltfReader, TimesThatGoBackAreRefused) {
   const std::string message = message_of(
       [] {
