@@ -150,7 +150,10 @@ bool holds(const std::filesystem::path& path, std::string_view bytes) {
 }
 
 // Takes that are written at the same time may share a skeleton, which the second one finds there.
+// Pictures of a scene may stand in a folder below.
 void write_side_file(const SideFile& file, bool force) {
+  std::error_code ignored;
+  if (file.path.has_parent_path()) fs::create_directories(file.path.parent_path(), ignored);
   try {
     write_output(file.path.string(), file.bytes, force);
   } catch (const Error& error) {
@@ -162,12 +165,11 @@ void write_side_file(const SideFile& file, bool force) {
 
 void write_take_output(const std::string& output, const Take& take, const std::string& format,
                        bool force) {
-  const std::string bytes = write_take(take, format);
-  if (output != "-") {
-    check_free(output, force);
-    if (const auto beside = side_file(take, bytes, format, output)) write_side_file(*beside, force);
-  }
-  write_output(output, bytes, force);
+  if (output == "-") return write_output(output, write_take(take, format), force);
+  const TakeFiles files = files_of_take(take, format, output);
+  check_free(output, force);
+  for (const SideFile& file : files.beside) write_side_file(file, force);
+  write_output(output, files.bytes, force);
 }
 
 int for_each_input(const std::vector<std::string>& inputs,

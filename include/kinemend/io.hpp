@@ -44,8 +44,7 @@ struct TakeResult {
 /// another format gets the diagnostic `extension_mismatch`. A value that is not finite (nan, inf)
 /// is missing: a marker has no position there; a joint holds the value of the frame before, else of
 /// the next, and is not `observed`. A text file that ends in the middle of a line is read up to
-/// there
-/// (`file_cut`). The page of each format in docs/formats lists its repairs, each a named
+/// there (`file_cut`). The page of each format in docs/formats lists its repairs, each a named
 /// diagnostic. Errors: `ErrorKind::unreadable_input` with the name of the file and the line or
 /// byte, also for a file that would need far more memory than it has bytes; `usage` for an unknown
 /// format; `quality_limit` for a repair when `strict`.
@@ -84,6 +83,18 @@ struct SideFile {
 /// already finds the same skeleton.
 std::optional<SideFile> side_file(const Take& take, std::string_view bytes, std::string_view format,
                                   const std::filesystem::path& output);
+
+/// A take as a file, with the files that it needs in the same folder or below.
+struct TakeFiles {
+  std::string bytes;
+  std::vector<SideFile> beside;
+};
+/// `write_take` and `side_file` at once, for an output whose place is known. A glTF text whose
+/// buffers stand beside it writes a changed buffer there as well, under the name of the output:
+/// `walk.gltf` and `walk.bin`. In another folder than the source's it brings the files along that
+/// it names.
+TakeFiles files_of_take(const Take& take, std::string_view format,
+                        const std::filesystem::path& output);
 
 /// Writes `bytes` to a temporary file beside `path`, flushes it to the disk and renames it, so that
 /// `path` always holds either its old content or all of the new. A replaced file keeps its

@@ -149,12 +149,19 @@ std::span<const Format> formats() {
        &write_csv,
        &write_csv_markers},
       {"glb",
-       "Binary glTF 2.0, an animated skeleton or markers",
-       {".glb"},
+       "Binary glTF 2.0, a scene with an animated skeleton or markers",
+       {".glb", ".vrm"},
        &sniff_glb,
-       nullptr,
+       &read_glb,
        &write_glb,
        &write_glb_markers},
+      {"gltf",
+       "glTF 2.0 as text, a scene with an animated skeleton or markers",
+       {".gltf"},
+       &sniff_gltf,
+       &read_gltf,
+       &write_gltf,
+       &write_gltf_markers},
   };
   return list;
 }
@@ -220,6 +227,15 @@ std::string write_take(const Take& take, std::string_view format) {
 
 Diagnostics lost_in_writing(const Take& take, std::string_view format) {
   const Format& found = format_called(format);
+  if (found.name == "glb" || found.name == "gltf") {
+    const std::vector<std::string> parts = lost_beside_gltf(take);
+    Diagnostics losses;
+    if (!parts.empty()) {
+      losses.add("not_kept",
+                 fmt::format("a new file is written: {} are left out", fmt::join(parts, ", ")));
+    }
+    if (!parts.empty()) return losses;
+  }
   if (take.has_joints()) return {};
   Diagnostics losses =
       found.name == "c3d" ? lost_in_c3d(take) : lost_beside_points(take, found.name);
@@ -232,6 +248,15 @@ std::optional<SideFile> side_file(const Take& take, std::string_view bytes, std:
                                   const std::filesystem::path& output) {
   if (format != "amc") return std::nullopt;
   return amc_side_file(take, bytes, output);
+}
+
+TakeFiles files_of_take(const Take& take, std::string_view format,
+                        const std::filesystem::path& output) {
+  if (format == "glb" || format == "gltf") return gltf_files_of_take(take, format == "glb", output);
+  TakeFiles files{write_take(take, format), {}};
+  if (auto beside = side_file(take, files.bytes, format, output))
+    files.beside.push_back(std::move(*beside));
+  return files;
 }
 
 }  // namespace kinemend

@@ -268,11 +268,5 @@ TEST(GlbWriter, MarkersMoveAndVanishWhereTheyAreMissing) {
   EXPECT_EQ(scales, 1u);
 }
 
-TEST(GlbWriter, FilesAreWrittenNotRead) {
-  const std::string bytes = write_take(random_clip(), "glb");
-  EXPECT_EQ(message_of([&] { read_take(bytes, "a.glb", {}); }, ErrorKind::usage),
-            "a.glb: glb files are written, not read");
-}
-
 }  // namespace
 }  // namespace kinemend

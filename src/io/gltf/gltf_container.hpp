@@ -1,0 +1,49 @@
+// Takes a glTF file apart into its JSON text and its binary chunk, and puts it together again.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "io/motion/motion_document.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/io.hpp"
+
+namespace kinemend {
+
+/// A glTF file as it was read: `.glb`, or JSON text.
+struct GltfFile {
+  std::string name;  ///< for messages, and to find files beside it
+  std::string bytes;
+  bool is_binary = false;  ///< a `.glb`
+  ByteSpan json;
+  std::optional<ByteSpan> binary;  ///< the content of the chunk BIN
+
+  std::string_view json_text() const {
+    return std::string_view(bytes).substr(json.begin, json.size);
+  }
+};
+
+/// Finds the parts. Repair: `bytes_after_end`, for bytes after the end that the header states.
+/// Errors: `unreadable_input` with the byte for a container that is cut, of another version than 2,
+/// or without JSON.
+GltfFile open_gltf(std::string bytes, std::string_view name, bool strict, Diagnostics& diagnostics);
+
+/// Notes a repair; throws `ErrorKind::quality_limit` when the reading is strict.
+void note_gltf_repair(std::string_view file, bool strict, Diagnostics& diagnostics,
+                      std::string_view kind, std::string_view message);
+
+/// The error about an element of an array of the root: `accessors`, 3. Its byte is that of the
+/// element.
+Error gltf_error(const GltfFile& file, const char* section, std::size_t index,
+                 std::string_view message);
+
+/// The file with another JSON text and another binary chunk (none: the one that it has). Other
+/// chunks keep their bytes. Errors: `usage` for a file beyond 4 GiB.
+std::string reassembled_gltf(const GltfFile& file, std::string json,
+                             const std::string* binary = nullptr);
+/// A new binary file of JSON and one binary chunk, which is left out where empty.
+std::string new_glb(std::string json, std::string_view binary);
+
+}  // namespace kinemend

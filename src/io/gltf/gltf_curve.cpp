@@ -1,0 +1,171 @@
+// Decodes and evaluates channels: in steps, linear, and as cubic splines.
+#include "io/gltf/gltf_curve.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/gltf/gltf_matrix.hpp"
+#include "kinemend/error.hpp"
+
+namespace kinemend {
+
+namespace {
+
+// Beyond this a number is taken as missing, as in every format.
+constexpr double most_gltf_value = 1e100;
+
+bool is_usable(const double* values, std::size_t count) {
+  return std::all_of(values, values + count,
+                     [](double value) { return std::fabs(value) <= most_gltf_value; });
+}
+
+std::vector<double> gltf_times(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
+                               std::size_t accessor) {
+  constexpr int float_component = 5126;
+  const GltfNumbers numbers(file, model, buffers, accessor, 1);
+  if (numbers.accessor().component != float_component)
+    throw gltf_error(file, "accessors", accessor, "times are floats");
+  if (numbers.count() == 0) throw gltf_error(file, "accessors", accessor, "no keys");
+  std::vector<double> times = numbers.values();
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (!std::isfinite(times[i]))
+      throw gltf_error(file, "accessors", accessor, fmt::format("time {} is not finite", i));
+    if (i > 0 && times[i] < times[i - 1])
+      throw gltf_error(file, "accessors", accessor, fmt::format("time {} goes back", i));
+  }
+  return times;
+}
+
+// Gives each key that is not finite the value of the key before, else of the next one.
+void hold_missing_keys(GltfCurve& curve) {
+  const std::size_t parts = curve.parts();
+  const auto key_at = [&](std::size_t key) { return curve.values.data() + key * parts; };
+  std::size_t good = curve.keys();
+  for (std::size_t k = 0; k < curve.keys(); ++k) {
+    if (is_usable(key_at(k), parts)) {
+      if (good == curve.keys()) {
+        for (std::size_t i = 0; i < k; ++i) std::copy_n(key_at(k), parts, key_at(i));
+      }
+      good = k;
+      continue;
+    }
+    curve.held.resize(curve.keys());
+    curve.held[k] = 1;
+    if (good < curve.keys()) std::copy_n(key_at(good), parts, key_at(k));
+  }
+  if (good == curve.keys()) std::fill(curve.values.begin(), curve.values.end(), 0.0);
+}
+
+// Visits the segment of each time in turn: the last key that is not later, and the share of the way
+// to the next one (0 at a key).
+template <class Visit>
+void walk_curve(const GltfCurve& curve, const GltfTimes& times, Visit&& visit) {
+  const std::size_t last = curve.keys() - 1;
+  std::size_t key = 0;
+  for (std::size_t frame = 0; frame < times.count; ++frame) {
+    const double t = times.at(frame);
+    while (key < last && curve.times()[key + 1] <= t + times.tolerance_s) ++key;
+    const bool between = key < last && t > curve.times()[key] + times.tolerance_s;
+    const double length = key < last ? curve.times()[key + 1] - curve.times()[key] : 0;
+    visit(frame, key, between && length > 0 ? (t - curve.times()[key]) / length : 0.0, length);
+  }
+}
+
+// A component of a spline: specification, appendix C.5.
+double spline_value(const GltfCurve& curve, std::size_t key, std::size_t c, double s,
+                    double length) {
+  const std::size_t w = curve.width;
+  const double* const a = curve.values.data() + key * 3 * w;
+  const double* const b = a + 3 * w;
+  const double s2 = s * s, s3 = s2 * s;
+  return (2 * s3 - 3 * s2 + 1) * a[w + c] + length * (s3 - 2 * s2 + s) * a[2 * w + c] +
+         (3 * s2 - 2 * s3) * b[w + c] + length * (s3 - s2) * b[c];
+}
+
+}  // namespace
+
+Quat GltfCurve::rotation(std::size_t key) const {
+  const double* const v = value(key);
+  return unit_rotation({v[3], v[0], v[1], v[2]});
+}
+
+GltfCurve read_gltf_curve(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
+                          const GltfSampler& sampler, GltfPath path, GltfClocks& clocks) {
+  GltfCurve curve;
+  curve.interpolation = sampler.interpolation;
+  curve.width = path == GltfPath::rotation ? 4 : 3;
+  auto& clock = clocks[sampler.input];
+  if (clock == nullptr)
+    clock = std::make_shared<std::vector<double>>(gltf_times(file, model, buffers, sampler.input));
+  curve.clock = clock;
+  const GltfNumbers values(file, model, buffers, sampler.output, curve.width);
+  const std::size_t wanted = curve.keys() * (curve.parts() / curve.width);
+  if (values.count() != wanted) {
+    throw gltf_error(file, "accessors", sampler.output,
+                     fmt::format("expected {} elements for {} keys, found {}", wanted, curve.keys(),
+                                 values.count()));
+  }
+  curve.values = values.values();
+  hold_missing_keys(curve);
+  return curve;
+}
+
+bool is_constant(const GltfCurve& curve) {
+  for (std::size_t k = 1; k < curve.keys(); ++k) {
+    if (!std::equal(curve.value(k), curve.value(k) + curve.width, curve.value(0))) return false;
+  }
+  if (curve.parts() == curve.width || curve.keys() == 1) return true;
+  // A spline without tangents between equal values.
+  const auto is_zero = [](double value) { return value == 0; };
+  for (std::size_t k = 0; k < curve.keys(); ++k) {
+    const double* const v = curve.value(k);
+    const auto width = static_cast<std::ptrdiff_t>(curve.width);
+    if (!std::all_of(v - width, v, is_zero) || !std::all_of(v + width, v + 2 * width, is_zero))
+      return false;
+  }
+  return true;
+}
+
+std::vector<Vec3> vectors_at(const GltfCurve& curve, const GltfTimes& times) {
+  std::vector<Vec3> out(times.count);
+  walk_curve(curve, times, [&](std::size_t frame, std::size_t key, double s, double length) {
+    const Vec3 a = curve.vector(key);
+    if (s == 0 || curve.interpolation == GltfInterpolation::step) {
+      out[frame] = a;
+    } else if (curve.interpolation == GltfInterpolation::linear) {
+      out[frame] = (1 - s) * a + s * curve.vector(key + 1);
+    } else {
+      const auto part = [&](std::size_t c) { return spline_value(curve, key, c, s, length); };
+      out[frame] = {part(0), part(1), part(2)};
+    }
+  });
+  return out;
+}
+
+std::vector<Quat> rotations_at(const GltfCurve& curve, const GltfTimes& times) {
+  std::vector<Quat> out(times.count);
+  walk_curve(curve, times, [&](std::size_t frame, std::size_t key, double s, double length) {
+    const Quat a = curve.rotation(key);
+    if (s == 0 || curve.interpolation == GltfInterpolation::step) {
+      out[frame] = a;
+    } else if (curve.interpolation == GltfInterpolation::linear) {
+      out[frame] = unit_rotation(slerp(a, curve.rotation(key + 1), s));
+    } else {
+      const auto part = [&](std::size_t c) { return spline_value(curve, key, c, s, length); };
+      out[frame] = unit_rotation({part(3), part(0), part(1), part(2)});
+    }
+  });
+  return out;
+}
+
+bool has_key_each_frame(const GltfCurve& curve, const GltfTimes& times) {
+  if (curve.keys() != times.count) return false;
+  for (std::size_t k = 0; k < curve.keys(); ++k) {
+    if (std::fabs(curve.times()[k] - times.at(k)) > times.tolerance_s) return false;
+  }
+  return true;
+}
+
+}  // namespace kinemend

@@ -1,0 +1,63 @@
+// The keys of an animation's channel, and its value at any time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "io/gltf/gltf_data.hpp"
+#include "kinemend/rotation.hpp"
+
+namespace kinemend {
+
+/// A channel of an animation, decoded. Keys that are not finite hold a neighbour.
+struct GltfCurve {
+  GltfInterpolation interpolation = GltfInterpolation::linear;
+  std::size_t width = 0;                             ///< 3, or 4 for a rotation (x, y, z, w)
+  std::shared_ptr<const std::vector<double>> clock;  ///< of the keys; curves may share one
+  std::vector<double> values;  ///< keys x width; of splines keys x 3 x width, as the file has it
+  std::vector<std::uint8_t> held;  ///< 1 for a key whose value was not finite; empty: none was
+
+  std::size_t keys() const { return clock == nullptr ? 0 : clock->size(); }
+  /// Seconds, ascending. There are keys.
+  const std::vector<double>& times() const { return *clock; }
+  std::size_t parts() const {
+    return interpolation == GltfInterpolation::cubic_spline ? 3 * width : width;
+  }
+  /// The value of a key, past its in-tangent.
+  const double* value(std::size_t key) const {
+    return values.data() + key * parts() + (parts() == width ? 0 : width);
+  }
+  Vec3 vector(std::size_t key) const { return {value(key)[0], value(key)[1], value(key)[2]}; }
+  Quat rotation(std::size_t key) const;
+};
+
+/// Times of keys that were read, by accessor.
+using GltfClocks = std::map<std::size_t, std::shared_ptr<const std::vector<double>>>;
+
+/// Errors: `unreadable_input` for times that are not finite or descend, and for another number of
+/// values than of keys.
+GltfCurve read_gltf_curve(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
+                          const GltfSampler& sampler, GltfPath path, GltfClocks& clocks);
+
+/// Whether all keys have one value, bit by bit.
+bool is_constant(const GltfCurve& curve);
+
+/// The values at `count` times t0 + i / rate. Times within `tolerance_s` of a key have the key's
+/// value. Before the first key and after the last the curve is constant.
+struct GltfTimes {
+  double start_s = 0, rate_hz = 30;
+  std::size_t count = 0;
+  double tolerance_s = 0;
+
+  double at(std::size_t frame) const { return start_s + static_cast<double>(frame) / rate_hz; }
+};
+std::vector<Vec3> vectors_at(const GltfCurve& curve, const GltfTimes& times);
+std::vector<Quat> rotations_at(const GltfCurve& curve, const GltfTimes& times);
+
+/// Whether key i is frame i, for all keys and all frames.
+bool has_key_each_frame(const GltfCurve& curve, const GltfTimes& times);
+
+}  // namespace kinemend

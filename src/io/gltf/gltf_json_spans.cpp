@@ -1,0 +1,156 @@
+// Walks over JSON text by its brackets and quotes.
+#include "io/gltf/gltf_json_spans.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace kinemend {
+
+namespace {
+
+bool is_json_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+std::size_t after_json_blanks(std::string_view text, std::size_t at) {
+  while (at < text.size() && is_json_blank(text[at])) ++at;
+  return at;
+}
+
+// Past the quote that ends the string that begins at `at`.
+std::size_t after_json_string(std::string_view text, std::size_t at) {
+  for (++at; at < text.size() && text[at] != '"'; ++at) at += text[at] == '\\' ? 1 : 0;
+  return std::min(at + 1, text.size());
+}
+
+std::size_t after_json_brackets(std::string_view text, std::size_t at) {
+  std::size_t depth = 0;
+  while (at < text.size()) {
+    const char c = text[at];
+    if (c == '"') {
+      at = after_json_string(text, at);
+      continue;
+    }
+    ++at;
+    if (c == '{' || c == '[') ++depth;
+    if ((c == '}' || c == ']') && --depth == 0) break;
+  }
+  return at;
+}
+
+std::size_t after_json_value(std::string_view text, std::size_t at) {
+  if (at >= text.size()) return at;
+  if (text[at] == '"') return after_json_string(text, at);
+  if (text[at] == '{' || text[at] == '[') return after_json_brackets(text, at);
+  const std::size_t end = text.find_first_of(",]} \t\r\n", at);
+  return std::min(end, text.size());
+}
+
+bool is_json_key(std::string_view token, std::string_view key) {
+  if (token.size() < 2) return false;
+  if (token.find('\\') == token.npos) return token.substr(1, token.size() - 2) == key;
+  const auto decoded = nlohmann::json::parse(token, nullptr, false);
+  return decoded.is_string() && decoded.get_ref<const std::string&>() == key;
+}
+
+}  // namespace
+
+ByteSpan json_root(std::string_view text) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  const std::size_t begin =
+      after_json_blanks(text, text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+  return {begin, after_json_value(text, begin) - begin};
+}
+
+std::optional<JsonMember> json_named_member(std::string_view text, ByteSpan object,
+                                            std::string_view key) {
+  std::optional<JsonMember> found;
+  const std::size_t end = std::min(object.begin + object.size, text.size());
+  if (object.size < 2 || text[object.begin] != '{') return found;
+  std::size_t at = after_json_blanks(text, object.begin + 1);
+  while (at < end && text[at] == '"') {
+    const std::size_t key_end = after_json_string(text, at);
+    const ByteSpan name{at, key_end - at};
+    at = after_json_blanks(text, key_end);
+    const std::size_t value = after_json_blanks(text, std::min(at + 1, end));
+    const std::size_t value_end = after_json_value(text, value);
+    if (is_json_key(text.substr(name.begin, name.size), key))
+      found = JsonMember{name, {value, value_end - value}};
+    at = after_json_blanks(text, value_end);
+    if (at < end && text[at] == ',') at = after_json_blanks(text, at + 1);
+  }
+  return found;
+}
+
+std::optional<ByteSpan> json_member(std::string_view text, ByteSpan object, std::string_view key) {
+  const auto found = json_named_member(text, object, key);
+  if (!found) return std::nullopt;
+  return found->value;
+}
+
+std::optional<ByteSpan> json_member(std::string_view text,
+                                    std::initializer_list<const char*> keys) {
+  std::optional<ByteSpan> place = json_root(text);
+  for (const char* const key : keys) {
+    if (place) place = json_member(text, *place, key);
+  }
+  return place;
+}
+
+std::vector<ByteSpan> json_elements(std::string_view text, ByteSpan array) {
+  std::vector<ByteSpan> elements;
+  const std::size_t end = std::min(array.begin + array.size, text.size());
+  if (array.size < 2 || text[array.begin] != '[') return elements;
+  std::size_t at = after_json_blanks(text, array.begin + 1);
+  while (at + 1 < end) {
+    const std::size_t value_end = after_json_value(text, at);
+    if (value_end == at) break;
+    elements.push_back({at, value_end - at});
+    at = after_json_blanks(text, value_end);
+    if (at < end && text[at] == ',') at = after_json_blanks(text, at + 1);
+  }
+  return elements;
+}
+
+std::optional<ByteSpan> json_element(std::string_view text, const char* key, std::size_t index) {
+  const auto array = json_member(text, {key});
+  if (!array) return std::nullopt;
+  const auto elements = json_elements(text, *array);
+  if (index >= elements.size()) return std::nullopt;
+  return elements[index];
+}
+
+std::string without_inline_data(std::string_view text) {
+  constexpr std::string_view mark = "\"data:";
+  std::string out;
+  std::size_t copied = 0, at = text.find(mark);
+  while (at != text.npos) {
+    const std::size_t last = at == 0 ? text.npos : text.find_last_not_of('\\', at - 1);
+    const bool is_escaped = (at - 1 - last) % 2 == 1;  // the quote is part of another string
+    const std::size_t end = is_escaped ? at + mark.size() : after_json_string(text, at);
+    if (!is_escaped && text[end - 1] == '"') {
+      out.append(text.substr(copied, at + mark.size() - copied));
+      copied = end - 1;
+    }
+    at = text.find(mark, end);
+  }
+  return out.append(text.substr(copied));
+}
+
+std::string edited_json(std::string_view text, std::vector<JsonEdit> edits) {
+  std::stable_sort(edits.begin(), edits.end(), [](const JsonEdit& a, const JsonEdit& b) {
+    return a.place.begin < b.place.begin;
+  });
+  std::size_t size = text.size();
+  for (const JsonEdit& edit : edits) size += edit.text.size();
+  std::string out;
+  out.reserve(size);
+  std::size_t copied = 0;
+  for (const JsonEdit& edit : edits) {
+    out.append(text.substr(copied, edit.place.begin - copied));
+    out.append(edit.text);
+    copied = edit.place.begin + edit.place.size;
+  }
+  out.append(text.substr(copied));
+  return out;
+}
+
+}  // namespace kinemend

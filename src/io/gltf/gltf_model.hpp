@@ -1,0 +1,104 @@
+// The parts of a glTF file that motion needs, as plain data.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/gltf/gltf_container.hpp"
+#include "kinemend/rotation.hpp"
+
+namespace kinemend {
+
+struct GltfBuffer {
+  enum class Place : std::uint8_t { binary_chunk, in_text, beside, unknown };
+  std::size_t size = 0;
+  Place place = Place::unknown;
+  std::string uri;   ///< of a file beside it, as the text spells it
+  std::string path;  ///< the same, decoded and relative; empty where it is refused
+};
+
+struct GltfView {
+  std::size_t buffer = 0, offset = 0, size = 0;
+  std::size_t stride = 0;  ///< 0: elements follow each other
+  std::string coded;       ///< the extension that compresses it; mostly empty
+};
+
+/// Numbers of a sparse accessor that replace those of its view.
+struct GltfSparse {
+  std::size_t count = 0;
+  std::size_t index_view = 0, index_offset = 0;
+  int index_component = 0;
+  std::size_t value_view = 0, value_offset = 0;
+};
+
+struct GltfAccessor {
+  std::optional<std::size_t> view;
+  std::size_t offset = 0, count = 0;
+  int component = 0;      ///< 5120 to 5126, as OpenGL numbers the types
+  std::size_t width = 0;  ///< components of an element; 0: of an unknown type
+  bool normalized = false;
+  bool has_range = false;  ///< min or max is stated
+  std::optional<GltfSparse> sparse;
+};
+
+struct GltfNode {
+  std::string name;
+  std::vector<std::uint32_t> children;
+  std::int64_t parent = -1;
+  Vec3 translation;
+  Quat rotation;
+  Vec3 scale{1, 1, 1};
+  bool has_matrix = false;
+  bool is_sheared = false;  ///< its matrix is no product of translation, rotation and scale
+  bool holds_more = false;  ///< a mesh, a camera or a light
+};
+
+enum class GltfPath : std::uint8_t { translation, rotation, scale, other };
+enum class GltfInterpolation : std::uint8_t { step, linear, cubic_spline };
+
+struct GltfSampler {
+  std::size_t input = 0, output = 0;
+  GltfInterpolation interpolation = GltfInterpolation::linear;
+};
+
+struct GltfChannel {
+  std::size_t sampler = 0;
+  std::int64_t node = -1;
+  GltfPath path = GltfPath::other;
+};
+
+struct GltfAnimation {
+  std::string name;
+  std::vector<GltfSampler> samplers;
+  std::vector<GltfChannel> channels;
+};
+
+struct GltfModel {
+  std::vector<GltfBuffer> buffers;
+  std::vector<GltfView> views;
+  std::vector<GltfAccessor> accessors;
+  std::vector<GltfNode> nodes;
+  std::vector<std::size_t> roots;  ///< nodes without a parent; those of the scene first
+  std::vector<std::vector<std::size_t>> skins;  ///< the joints of each
+  std::vector<GltfAnimation> animations;
+  std::vector<std::size_t> used_elsewhere;  ///< accessors of meshes and skins
+  std::vector<std::size_t> image_views;
+  std::vector<std::string> image_paths;  ///< of images beside the file, relative
+  std::size_t meshes = 0;
+  std::string generator;
+};
+
+/// Parses the JSON and checks what motion relies on: types, indices, one parent a node and no
+/// cycles. Offsets and sizes are checked where data is read. Errors: `unreadable_input` with the
+/// byte.
+GltfModel parse_gltf(const GltfFile& file);
+
+/// A name for messages and joints: its own, else `node_3`.
+std::string name_of_node(const GltfModel& model, std::size_t node);
+/// Likewise; `#2` for the second animation where it has no name.
+std::string name_of_animation(const GltfModel& model, std::size_t animation);
+
+}  // namespace kinemend

@@ -1,0 +1,31 @@
+// Turns a changed take into changes of the file that it was read from.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "io/gltf/gltf_document.hpp"
+#include "io/gltf/gltf_json_spans.hpp"
+
+namespace kinemend {
+
+/// What changes in a file: pieces of its JSON text, and the whole content of some buffers.
+struct GltfChanges {
+  std::vector<JsonEdit> edits;
+  std::map<std::size_t, std::string> buffers;
+
+  bool empty() const { return edits.empty() && buffers.empty(); }
+};
+
+/// Whether the take has the joints or markers of the document, so that it can be written in place.
+bool belongs_to(const Take& take, const GltfDocument& document, const GltfMotion& motion);
+
+/// The least changes that make the file hold the take. Values are replaced where they are stored. A
+/// track gets new keys at the end of a buffer where it has no key in each frame, shares its bytes
+/// with something else, or cannot hold a value. Errors: `usage` for a joint that cannot be moved.
+GltfChanges changes_of_gltf(const Take& take, const GltfDocument& document,
+                            const GltfMotion& motion);
+
+}  // namespace kinemend

@@ -1,0 +1,129 @@
+// Decodes and encodes base64 and percent signs.
+#include "io/gltf/gltf_uri.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace kinemend {
+
+namespace {
+
+constexpr std::string_view base64_digits =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+constexpr std::uint8_t no_base64_digit = 0xFF;
+
+constexpr std::array<std::uint8_t, 256> base64_values() {
+  std::array<std::uint8_t, 256> values{};
+  values.fill(no_base64_digit);
+  for (std::size_t i = 0; i < base64_digits.size(); ++i)
+    values[static_cast<unsigned char>(base64_digits[i])] = static_cast<std::uint8_t>(i);
+  values['-'] = 62;  // the alphabet for addresses, RFC 4648 section 5
+  values['_'] = 63;
+  return values;
+}
+
+bool append_base64(std::string& out, std::string_view text) {
+  constexpr auto values = base64_values();
+  while (text.ends_with('=')) text.remove_suffix(1);
+  if (text.size() % 4 == 1) return false;
+  out.reserve(text.size() / 4 * 3 + 3);
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    const std::uint8_t value = values[static_cast<unsigned char>(c)];
+    if (value == no_base64_digit) return false;
+    bits = bits << 6 | value;
+    count += 6;
+    if (count < 8) continue;
+    count -= 8;
+    out += static_cast<char>(bits >> count & 0xFF);
+  }
+  return true;
+}
+
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+std::optional<std::string> percent_decoded(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '%') {
+      out += text[i];
+      continue;
+    }
+    if (i + 2 >= text.size()) return std::nullopt;
+    const int high = hex_digit(text[i + 1]), low = hex_digit(text[i + 2]);
+    if (high < 0 || low < 0) return std::nullopt;
+    out += static_cast<char>(16 * high + low);
+    i += 2;
+  }
+  return out;
+}
+
+bool is_inside_folder(std::string_view path) {
+  if (path.empty() || path.front() == '/') return false;
+  for (const char c : path) {
+    if (c == '\\' || c == ':' || static_cast<unsigned char>(c) < 0x20) return false;
+  }
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t end = std::min(path.find('/', begin), path.size());
+    if (path.substr(begin, end - begin) == "..") return false;
+    begin = end + 1;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool is_data_uri(std::string_view uri) { return uri.starts_with("data:"); }
+
+std::optional<DataUri> read_data_uri(std::string_view uri) {
+  constexpr std::string_view mark = ";base64,";
+  const std::size_t comma = uri.find(',');
+  if (comma == uri.npos || !uri.substr(0, comma + 1).ends_with(mark)) return std::nullopt;
+  DataUri data{uri.substr(0, comma + 1), {}};
+  if (!append_base64(data.bytes, uri.substr(comma + 1))) return std::nullopt;
+  return data;
+}
+
+std::string base64_of(std::string_view bytes) {
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t bits = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k)
+      out += i + k <= bytes.size() ? base64_digits[bits >> (18 - 6 * k) & 63] : '=';
+  }
+  return out;
+}
+
+std::optional<std::string> relative_path_of_uri(std::string_view uri) {
+  // A colon before any slash would make it a scheme; an encoded one is refused as a drive is.
+  auto path = percent_decoded(uri);
+  if (!path || !is_inside_folder(*path)) return std::nullopt;
+  return path;
+}
+
+std::string uri_of_file_name(std::string_view name) {
+  constexpr std::string_view kept = "-._~", digits = "0123456789ABCDEF";
+  std::string out;
+  for (const char c : name) {
+    const bool is_plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') ||
+                          (c >= 'A' && c <= 'Z') || kept.find(c) != kept.npos;
+    const auto byte = static_cast<unsigned char>(c);
+    if (is_plain) {
+      out += c;
+    } else {
+      out += {'%', digits[byte >> 4], digits[byte & 15]};
+    }
+  }
+  return out;
+}
+
+}  // namespace kinemend
