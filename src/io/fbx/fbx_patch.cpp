@@ -1,0 +1,108 @@
+// Moves what stands behind a patch, and mends the places that count its bytes.
+#include "io/fbx/fbx_patch.hpp"
+
+#include <algorithm>
+
+#include "io/fbx/fbx_words.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr std::size_t footer_alignment = 16, zeros_after_padding = 4;
+// After the padding: version, 120 zeros, and 16 bytes that end every file.
+constexpr std::size_t footer_tail = 4 + 120 + 16, footer_head = 16;
+
+class FbxPatcher {
+ public:
+  FbxPatcher(const FbxTree& tree, std::vector<FbxPatch> patches)
+      : tree_(tree), patches_(std::move(patches)) {
+    std::sort(patches_.begin(), patches_.end(),
+              [](const FbxPatch& a, const FbxPatch& b) { return a.begin < b.begin; });
+    std::ptrdiff_t shift = 0;
+    for (const FbxPatch& patch : patches_) {
+      shift += static_cast<std::ptrdiff_t>(patch.bytes.size()) -
+               static_cast<std::ptrdiff_t>(patch.end - patch.begin);
+      shifts_.push_back(shift);
+    }
+  }
+
+  std::string write() {
+    std::string out;
+    out.reserve(moved(tree_.bytes.size()) + footer_alignment);
+    std::size_t from = 0;
+    for (const FbxPatch& patch : patches_) {
+      out.append(tree_.bytes, from, patch.begin - from);
+      out += patch.bytes;
+      from = patch.end;
+    }
+    out.append(tree_.bytes, from);
+    const bool moves = std::any_of(shifts_.begin(), shifts_.end(), [](auto s) { return s != 0; });
+    if (!tree_.is_text && moves) {
+      for (const FbxRecord& record : tree_.records) mend_header(record, out);
+      pad_footer(out);
+    }
+    return out;
+  }
+
+ private:
+  // Where a byte that is not within a patch stands in the new file.
+  std::size_t moved(std::size_t place) const {
+    const auto after =
+        std::upper_bound(patches_.begin(), patches_.end(), place,
+                         [](std::size_t at, const FbxPatch& patch) { return at < patch.end; });
+    if (after == patches_.begin()) return place;
+    const auto index = static_cast<std::size_t>(after - patches_.begin()) - 1;
+    return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(place) + shifts_[index]);
+  }
+
+  template <class Word>
+  void put(std::string& out, std::size_t place, std::size_t value) const {
+    put_fbx_word(out.data() + place, static_cast<Word>(value), tree_.is_big_endian);
+  }
+
+  void mend_header(const FbxRecord& record, std::string& out) const {
+    const std::size_t place = moved(record.begin);
+    const std::size_t end = moved(record.end);
+    const std::size_t list = moved(record.properties_end) - moved(record.properties_begin);
+    if (tree_.has_wide_headers()) {
+      put<std::uint64_t>(out, place, end);
+      put<std::uint64_t>(out, place + 16, list);
+    } else {
+      put<std::uint32_t>(out, place, end);
+      put<std::uint32_t>(out, place + 8, list);
+    }
+  }
+
+  // The zeros between the head of the footer and its tail align the tail.
+  void pad_footer(std::string& out) const {
+    const std::size_t begin = moved(tree_.records_end);
+    if (out.size() < begin + footer_head + footer_tail) return;
+    const std::size_t zeros_begin = begin + footer_head;
+    const std::size_t zeros_end = out.size() - footer_tail;
+    const bool is_padding =
+        std::all_of(out.begin() + static_cast<std::ptrdiff_t>(zeros_begin),
+                    out.begin() + static_cast<std::ptrdiff_t>(zeros_end),
+                    [](char c) { return c == 0; });
+    const std::size_t phase = (tree_.bytes.size() - footer_tail) % footer_alignment;
+    if (!is_padding || (phase != 0 && phase != zeros_after_padding)) return;
+    // Autodesk pads with 1 to 16 bytes and adds four; Blender adds four and pads.
+    const std::size_t least = zeros_begin + (phase == 0 ? zeros_after_padding : 1);
+    const std::size_t aligned =
+        (least + footer_alignment - 1) / footer_alignment * footer_alignment;
+    out.replace(zeros_begin, zeros_end - zeros_begin, aligned + phase - zeros_begin, '\0');
+  }
+
+  const FbxTree& tree_;
+  std::vector<FbxPatch> patches_;
+  std::vector<std::ptrdiff_t> shifts_;
+};
+
+}  // namespace
+
+std::string write_patched_fbx(const FbxTree& tree, std::vector<FbxPatch> patches) {
+  if (patches.empty()) return tree.bytes;
+  return FbxPatcher(tree, std::move(patches)).write();
+}
+
+}  // namespace kinemend
