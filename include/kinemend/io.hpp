@@ -37,6 +37,9 @@ struct ReadOptions {
   /// Called with the share of the file that is read (0 to 1). Readers of small formats never call
   /// it.
   std::function<void(double done)> progress;
+  /// The animation to read of a file that has several (FBX). Empty: the active one, or the first
+  /// that moves something. Errors: `usage` for one that the file does not have.
+  std::string animation;
 };
 
 struct ReadResult {

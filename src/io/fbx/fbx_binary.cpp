@@ -20,6 +20,7 @@ std::size_t fbx_number_bytes(char type) {
     case 'C':
     case 'b':
     case 'c':
+    case 'Z':
       return 1;
     case 'Y':
       return 2;

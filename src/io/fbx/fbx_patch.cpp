@@ -2,6 +2,8 @@
 #include "io/fbx/fbx_patch.hpp"
 
 #include <algorithm>
+#include <unordered_map>
+#include <utility>
 
 #include "io/fbx/fbx_words.hpp"
 
@@ -24,6 +26,7 @@ class FbxPatcher {
       shift += static_cast<std::ptrdiff_t>(patch.bytes.size()) -
                static_cast<std::ptrdiff_t>(patch.end - patch.begin);
       shifts_.push_back(shift);
+      if (patch.more_properties != 0) grown_.emplace(patch.begin, patch.more_properties);
     }
   }
 
@@ -37,7 +40,8 @@ class FbxPatcher {
       from = patch.end;
     }
     out.append(tree_.bytes, from);
-    const bool moves = std::any_of(shifts_.begin(), shifts_.end(), [](auto s) { return s != 0; });
+    const bool moves = !grown_.empty() || std::any_of(shifts_.begin(), shifts_.end(),
+                                                      [](auto s) { return s != 0; });
     if (!tree_.is_text && moves) {
       for (const FbxRecord& record : tree_.records) mend_header(record, out);
       pad_footer(out);
@@ -65,11 +69,17 @@ class FbxPatcher {
     const std::size_t place = moved(record.begin);
     const std::size_t end = moved(record.end);
     const std::size_t list = moved(record.properties_end) - moved(record.properties_begin);
+    const auto grown = grown_.find(record.properties_begin);
+    const std::size_t count =
+        record.property_count +
+        static_cast<std::size_t>(grown == grown_.end() ? 0 : grown->second);
     if (tree_.has_wide_headers()) {
       put<std::uint64_t>(out, place, end);
+      put<std::uint64_t>(out, place + 8, count);
       put<std::uint64_t>(out, place + 16, list);
     } else {
       put<std::uint32_t>(out, place, end);
+      put<std::uint32_t>(out, place + 4, count);
       put<std::uint32_t>(out, place + 8, list);
     }
   }
@@ -96,6 +106,7 @@ class FbxPatcher {
   const FbxTree& tree_;
   std::vector<FbxPatch> patches_;
   std::vector<std::ptrdiff_t> shifts_;
+  std::unordered_map<std::size_t, std::int64_t> grown_;  // by the start of a list of properties
 };
 
 }  // namespace

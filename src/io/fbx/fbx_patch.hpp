@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@ struct FbxPatch {
   std::size_t begin = 0;
   std::size_t end = 0;
   std::string bytes;
+  /// Binary, of a patch that begins with the list of properties of a record: by how many it grows.
+  std::int64_t more_properties = 0;
 };
 
 /// The file with the patches, which do not overlap. Ends of records and lengths of lists of

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "io/fbx/fbx_values.hpp"
 #include "io/text/text.hpp"
 
 namespace kinemend {
@@ -10,6 +11,14 @@ namespace kinemend {
 namespace {
 
 constexpr std::string_view binary_magic{"Kaydara FBX Binary  \0", 21};
+
+// Of a text whose first line does not say it.
+std::uint32_t stated_version(const FbxTree& tree) {
+  const std::uint32_t header = tree.child(no_fbx_record, "FBXHeaderExtension");
+  if (header == no_fbx_record) return 0;
+  const std::int64_t version = fbx_child_integer(tree, header, "FBXVersion", 0);
+  return version > 0 && version < 100000 ? static_cast<std::uint32_t>(version) : 0;
+}
 
 }  // namespace
 
@@ -34,6 +43,7 @@ FbxTree read_fbx_tree(std::string bytes, std::string_view name, std::size_t max_
   tree.is_text = !is_binary_fbx(tree.bytes);
   if (tree.is_text) {
     read_text_fbx_records(tree, max_depth);
+    if (tree.version == 0) tree.version = stated_version(tree);
   } else {
     read_binary_fbx_records(tree, max_depth);
   }
