@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "kinemend/experimental/frame_rate.hpp"
 
@@ -65,13 +68,29 @@ class FbxFrameFinder {
   }
 
  private:
-  // The keys of the longest curve, where they are a grid of the whole span.
-  bool take_keys(FbxSpan span, FbxFrames& frames) const {
-    const FbxCurve* longest = moving_.front();
+  // The keys that most curves have.
+  const std::vector<std::int64_t>& common_times() const {
+    using Kind = std::array<std::int64_t, 3>;
+    std::map<Kind, std::pair<std::size_t, const FbxCurve*>> kinds;
     for (const FbxCurve* curve : moving_) {
-      if (curve->key_count() > longest->key_count()) longest = curve;
+      const auto& times = *curve->times;
+      auto& kind = kinds[{static_cast<std::int64_t>(times.size()), times.front(), times.back()}];
+      ++kind.first;
+      kind.second = curve;
     }
-    const std::vector<std::int64_t>& times = *longest->times;
+    const FbxCurve* best = nullptr;
+    std::size_t most = 0;
+    for (const auto& [kind, found] : kinds) {
+      if (found.first < most) continue;
+      most = found.first;
+      best = found.second;
+    }
+    return *best->times;
+  }
+
+  // The keys that most curves have, where they are a grid of the whole span.
+  bool take_keys(FbxSpan span, FbxFrames& frames) const {
+    const std::vector<std::int64_t>& times = common_times();
     const double step = static_cast<double>(times.back() - times.front()) /
                         static_cast<double>(times.size() - 1);
     const double rate_hz = scene_.ticks_per_second / step;

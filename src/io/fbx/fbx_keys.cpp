@@ -124,8 +124,10 @@ class KeyLetters {
     }
     if (kind != 'U' && kind != 'A') throw unknown(kind);
     shape.kind = mode == 'a' ? FbxKeyShape::cubic_auto : FbxKeyShape::cubic;
-    shape.right_slope = static_cast<float>(number());
-    shape.next_left_slope = static_cast<float>(number());
+    if (mode != 'a') {
+      shape.right_slope = static_cast<float>(number());
+      shape.next_left_slope = static_cast<float>(number());
+    }
     const char weights = letter();
     if (weights == 'a' || weights == 'r') shape.right_weight = static_cast<float>(number());
     if (weights == 'a' || weights == 'l') shape.next_left_weight = static_cast<float>(number());

@@ -15,7 +15,9 @@ namespace kinemend {
 namespace {
 
 constexpr double fbx_radians = std::numbers::pi / 180;
-constexpr double same_scale = 1e-6, same_offset = 1e-9;
+constexpr double same_scale = 1e-6;
+// A bone whose length or direction changes by less is rigid: rounding of baked curves.
+constexpr double rigid = 1e-5;
 
 Channel fbx_rotation_channel(Axis axis) {
   return static_cast<Channel>(static_cast<int>(Channel::x_rotation) + static_cast<int>(axis));
@@ -68,7 +70,7 @@ class FbxTakeBuilder {
   // Joints with curves of translation, and those that scales move.
   void find_moving() {
     moving_.assign(rig_.joints.size(), false);
-    for (std::size_t j = 0; j < moving_.size(); ++j) moving_[j] = node(j).has_translation_curves;
+    for (std::size_t j = 0; j < moving_.size(); ++j) moving_[j] = is_translated(node(j));
     if (!has_odd_scales()) return;
     const auto& frames = document_.frames.times;
     std::vector<Vec3> first;
@@ -78,11 +80,32 @@ class FbxTakeBuilder {
         const Vec3 offset = offset_of(poses, j);
         if (f == 0) {
           first.push_back(offset);
-        } else if (!(norm(offset - first[j]) <= same_offset * (norm(offset) + norm(first[j])))) {
+        } else if (!(norm(offset - first[j]) <= rigid * norm(first[j]))) {
           moving_[j] = true;
         }
       }
     }
+  }
+
+  // Whether curves of translation move the joint, beyond rounding.
+  bool is_translated(const FbxRigNode& each) const {
+    Vec3 spread, size = document_.scene.models[each.model].local[fbx_translation];
+    std::size_t layers = 0;
+    for (const FbxLayer& layer : document_.motion.layers) {
+      const auto found = layer.vectors.find(3 * each.model + fbx_translation);
+      if (found == layer.vectors.end()) continue;
+      ++layers;
+      size = found->second.constant;
+      for (std::size_t a = 0; a < 3; ++a) {
+        if (found->second.curves[a] < 0) continue;
+        const FbxCurve& curve =
+            document_.motion.curves[static_cast<std::size_t>(found->second.curves[a])];
+        const auto [least, most] = std::minmax_element(curve.values.begin(), curve.values.end());
+        component_of(size, a) = curve.values.front();
+        component_of(spread, a) = *most - *least;
+      }
+    }
+    return layers > 1 || norm(spread) > rigid * norm(size);
   }
 
   bool has_odd_scales() {
