@@ -12,8 +12,7 @@ namespace kinemend {
 namespace {
 
 constexpr std::size_t footer_alignment = 16, zeros_after_padding = 4;
-// After the padding: version, 120 zeros, and 16 bytes that end every file.
-constexpr std::size_t footer_tail = 4 + 120 + 16, footer_head = 16;
+constexpr std::size_t footer_head = 16;
 
 class FbxPatcher {
  public:
@@ -84,23 +83,32 @@ class FbxPatcher {
     }
   }
 
-  // The zeros between the head of the footer and its tail align the tail.
+  // Zeros between the head of the footer and the version align the version.
   void pad_footer(std::string& out) const {
-    const std::size_t begin = moved(tree_.records_end);
-    if (out.size() < begin + footer_head + footer_tail) return;
-    const std::size_t zeros_begin = begin + footer_head;
-    const std::size_t zeros_end = out.size() - footer_tail;
-    const bool is_padding =
-        std::all_of(out.begin() + static_cast<std::ptrdiff_t>(zeros_begin),
-                    out.begin() + static_cast<std::ptrdiff_t>(zeros_end),
-                    [](char c) { return c == 0; });
-    const std::size_t phase = (tree_.bytes.size() - footer_tail) % footer_alignment;
-    if (!is_padding || (phase != 0 && phase != zeros_after_padding)) return;
+    const std::size_t zeros_begin = tree_.records_end + footer_head;
+    const std::size_t version_place = place_of_version(zeros_begin);
+    if (version_place == 0) return;
+    const std::size_t phase = version_place % footer_alignment;
+    const std::size_t begin = moved(tree_.records_end) + footer_head;
     // Autodesk pads with 1 to 16 bytes and adds four; Blender adds four and pads.
-    const std::size_t least = zeros_begin + (phase == 0 ? zeros_after_padding : 1);
+    const std::size_t least = begin + (phase == 0 ? zeros_after_padding : 1);
     const std::size_t aligned =
         (least + footer_alignment - 1) / footer_alignment * footer_alignment;
-    out.replace(zeros_begin, zeros_end - zeros_begin, aligned + phase - zeros_begin, '\0');
+    out.replace(begin, version_place - zeros_begin, aligned + phase - begin, '\0');
+  }
+
+  // Of the file as it was read; 0 where its footer has another form.
+  std::size_t place_of_version(std::size_t zeros_begin) const {
+    constexpr std::size_t most_zeros = footer_alignment + zeros_after_padding;
+    const std::string& bytes = tree_.bytes;
+    for (std::size_t i = 0; i <= most_zeros && zeros_begin + i + 4 <= bytes.size(); ++i) {
+      const std::size_t place = zeros_begin + i;
+      const std::size_t phase = place % footer_alignment;
+      const auto word = fbx_word<std::uint32_t>(bytes.data() + place, tree_.is_big_endian);
+      if (word == tree_.version && (phase == 0 || phase == zeros_after_padding)) return place;
+      if (bytes[place] != 0) return 0;
+    }
+    return 0;
   }
 
   const FbxTree& tree_;
