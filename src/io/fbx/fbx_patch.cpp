@@ -90,8 +90,8 @@ class FbxPatcher {
     if (version_place == 0) return;
     const std::size_t phase = version_place % footer_alignment;
     const std::size_t begin = moved(tree_.records_end) + footer_head;
-    // Autodesk pads with 1 to 16 bytes and adds four; Blender adds four and pads.
-    const std::size_t least = begin + (phase == 0 ? zeros_after_padding : 1);
+    // Autodesk pads with 1 to 16 bytes and adds four; Blender adds four and pads with 1 to 16.
+    const std::size_t least = begin + 1 + (phase == 0 ? zeros_after_padding : 0);
     const std::size_t aligned =
         (least + footer_alignment - 1) / footer_alignment * footer_alignment;
     out.replace(begin, version_place - zeros_begin, aligned + phase - begin, '\0');
