@@ -349,7 +349,11 @@ class NewFbxWriter {
     file_.close();
     file_.close();
     file_.open("AnimationLayer").id(layer).string(object_name("BaseLayer", "AnimLayer"));
-    file_.string("").close();
+    // Readers expect something within a layer.
+    file_.string("").open("Properties70");
+    file_.set_number("Weight", "Number", "", "A", 100);
+    file_.close();
+    file_.close();
     links_.push_back({layer, stack, {}});
     for (std::size_t m = 0; m < scene_.models.size(); ++m) {
       const NewFbxModel& model = scene_.models[m];
