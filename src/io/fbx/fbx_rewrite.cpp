@@ -41,6 +41,7 @@ class FbxRewriter {
   }
 
   std::string write() {
+    if (is_unchanged()) return document_.tree.bytes;
     find_times();
     for (const FbxMendedKey& key : document_.mended) mended_.push_back(key.curve);
     const std::size_t owners =
@@ -60,6 +61,11 @@ class FbxRewriter {
     return document_.rig.nodes[document_.rig.joints[joint]];
   }
   std::size_t frames() const { return take_.frame_count(); }
+
+  bool is_unchanged() const {
+    return same_frames_ && document_.mended.empty() && take_.rotations == original_.rotations &&
+           take_.positions == original_.positions && take_.observed == original_.observed;
+  }
 
   void find_times() {
     const std::vector<std::int64_t>& known = document_.frames.times;

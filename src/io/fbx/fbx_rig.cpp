@@ -52,7 +52,7 @@ class FbxRigBuilder {
       const auto [model, depth] = open.back();
       open.pop_back();
       if (depth > max_depth_) {
-        throw tree_.error_at(scene_.models[model].record,
+        throw tree_.error_at(tree_.records[scene_.models[model].record].begin,
                              fmt::format("models are nested deeper than {}", max_depth_));
       }
       order_.push_back(model);

@@ -157,7 +157,7 @@ class FbxTestWriter {
       std::string packed(compressBound(raw.size()), '\0');
       uLongf size = packed.size();
       compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
-                reinterpret_cast<const Bytef*>(raw.data()), raw.size(), 9);
+                reinterpret_cast<const Bytef*>(raw.data()), raw.size(), 1);
       raw = packed.substr(0, size);
     }
     out_ += type;
