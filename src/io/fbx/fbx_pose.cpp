@@ -88,6 +88,15 @@ bool invert_fbx_matrix(const FbxMatrix& matrix, FbxMatrix& inverse) {
   return true;
 }
 
+FbxMatrix fbx_step_matrix(const FbxRig& rig, const std::vector<FbxNodePose>& poses,
+                          const FbxRigNode& node) {
+  FbxMatrix matrix;
+  if (node.parent >= 0) matrix = poses[static_cast<std::size_t>(node.parent)].linear;
+  if (node.parent_joint < 0) return matrix;
+  const std::size_t above = rig.joints[static_cast<std::size_t>(node.parent_joint)];
+  return fbx_matrix(conjugate(poses[above].joint_turn)) * matrix;
+}
+
 FbxPoser::FbxPoser(const FbxScene& scene, const FbxMotion& motion, const FbxRig& rig)
     : scene_(scene),
       motion_(motion),
@@ -112,6 +121,11 @@ const std::vector<FbxNodePose>& FbxPoser::at(std::int64_t time) {
     evaluate(n, time);
     place(n);
   }
+  return poses_;
+}
+
+const std::vector<FbxNodePose>& FbxPoser::locals_at(std::int64_t time) {
+  for (std::size_t n = 0; n < poses_.size(); ++n) evaluate(n, time);
   return poses_;
 }
 

@@ -33,6 +33,8 @@ class FbxPoser {
 
   /// The pose of every node, valid until the next call.
   const std::vector<FbxNodePose>& at(std::int64_t time);
+  /// The same with `local` alone, which is much quicker.
+  const std::vector<FbxNodePose>& locals_at(std::int64_t time);
 
  private:
   void evaluate(std::size_t node, std::int64_t time);
@@ -48,6 +50,10 @@ class FbxPoser {
   std::vector<std::size_t> cursors_;  // by curve
   std::vector<FbxNodePose> poses_;
 };
+
+/// Takes a step of a node's translation to one of its position, in the frame of the joint above.
+FbxMatrix fbx_step_matrix(const FbxRig& rig, const std::vector<FbxNodePose>& poses,
+                          const FbxRigNode& node);
 
 FbxMatrix operator*(const FbxMatrix& a, const FbxMatrix& b);
 Vec3 operator*(const FbxMatrix& a, Vec3 v);

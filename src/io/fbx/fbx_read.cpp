@@ -29,9 +29,9 @@ class FbxReader {
     diagnostics_ = &diagnostics;
     document_.scene = read_fbx_scene(tree());
     choose_stack();
+    mend_curves();
     document_.rig = choose_fbx_rig(tree(), document_.scene, document_.motion, options_.max_depth);
     if (document_.rig.joints.empty()) throw no_joints();
-    mend_curves();
     find_frames();
     Take take = take_of_fbx(document_);
     check_fbx_take(document_, take);
@@ -45,7 +45,7 @@ class FbxReader {
 
   Error no_joints() const {
     return Error(ErrorKind::unreadable_input,
-                 fmt::format("{}: holds no joints: none of its {} models is a limb, and none moves",
+                 fmt::format("{}: holds no joints: none of its {} models is a limb, and none has curves",
                              tree().name, document_.scene.models.size()));
   }
 

@@ -89,7 +89,8 @@ class FbxRewriter {
     const std::size_t count = same_frames_ ? frames() : 1;
     angles_.reserve(count * joints);
     for (std::size_t f = 0; f < count; ++f) {
-      const std::vector<FbxNodePose>& poses = poser.at(document_.frames.times[f]);
+      const std::int64_t time = document_.frames.times[f];
+      const std::vector<FbxNodePose>& poses = f == 0 ? poser.at(time) : poser.locals_at(time);
       for (std::size_t j = 0; j < joints; ++j) {
         const FbxNodePose& pose = poses[document_.rig.joints[j]];
         angles_.push_back(pose.local[fbx_rotation]);
@@ -101,14 +102,9 @@ class FbxRewriter {
 
   // Takes a step of a joint's position, in the frame of the joint above, to one of its translation.
   FbxMatrix base_of(const std::vector<FbxNodePose>& poses, std::size_t joint) const {
-    const FbxRigNode& each = node(joint);
-    FbxMatrix matrix, inverse;
-    if (each.parent >= 0) matrix = poses[static_cast<std::size_t>(each.parent)].linear;
-    if (each.parent_joint >= 0) {
-      const std::size_t above = document_.rig.joints[static_cast<std::size_t>(each.parent_joint)];
-      matrix = fbx_matrix(conjugate(poses[above].joint_turn)) * matrix;
-    }
-    if (!invert_fbx_matrix(matrix, inverse)) inverse.rows = {};
+    FbxMatrix inverse;
+    const FbxMatrix step = fbx_step_matrix(document_.rig, poses, node(joint));
+    if (!invert_fbx_matrix(step, inverse)) inverse.rows = {};
     return inverse;
   }
 

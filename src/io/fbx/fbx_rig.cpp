@@ -16,6 +16,11 @@ bool is_limb(const FbxModel& model) {
   return model.kind == "LimbNode" || model.kind == "Limb" || model.kind == "Root";
 }
 
+// Cameras and lights are no bodies.
+bool is_onlooker(const FbxModel& model) {
+  return model.kind == "Camera" || model.kind == "CameraSwitcher" || model.kind == "Light";
+}
+
 class FbxRigBuilder {
  public:
   FbxRigBuilder(const FbxTree& tree, const FbxScene& scene, const FbxMotion& motion,
@@ -62,11 +67,14 @@ class FbxRigBuilder {
 
   void find_animated() {
     animated_.assign(count(), false);
+    moving_.assign(count(), false);
     for (const FbxLayer& layer : motion_.layers) {
       for (const auto& [key, vector] : layer.vectors) {
         for (const std::int32_t curve : vector.curves) {
-          if (curve >= 0 && !motion_.curves[static_cast<std::size_t>(curve)].is_constant())
-            animated_[key / 3] = true;
+          if (curve < 0) continue;
+          animated_[key / 3] = true;
+          if (!motion_.curves[static_cast<std::size_t>(curve)].is_constant())
+            moving_[key / 3] = true;
         }
       }
     }
@@ -85,7 +93,7 @@ class FbxRigBuilder {
     for (const std::size_t m : order_) {
       if (parent_of(m) < 0) continue;
       const auto p = static_cast<std::size_t>(parent_of(m));
-      const bool counts = has_limbs_ ? is_limb(scene_.models[p]) : animated_[p];
+      const bool counts = is_limb(scene_.models[p]) || (!has_limbs_ && animated_[p]);
       below_[m] = below_[p] || counts;
     }
   }
@@ -93,8 +101,8 @@ class FbxRigBuilder {
   bool is_joint(std::size_t m) const {
     const FbxModel& model = scene_.models[m];
     const bool is_null = model.kind == "Null";
-    if (!has_limbs_) return animated_[m] || (is_null && below_[m]);
-    return is_limb(model) || (animated_[m] && (above_[m] || (is_null && below_[m])));
+    if (!has_limbs_) return (animated_[m] && !is_onlooker(model)) || (is_null && below_[m]);
+    return is_limb(model) || (moving_[m] && above_[m]) || (animated_[m] && is_null && below_[m]);
   }
 
   void add_nodes() {
@@ -185,7 +193,9 @@ class FbxRigBuilder {
   std::size_t max_depth_;
   FbxRig rig_;
   std::vector<std::size_t> order_;
-  std::vector<bool> animated_, joint_, above_, below_;
+  std::vector<bool> animated_;  // has curves
+  std::vector<bool> moving_;    // has curves that are not constant
+  std::vector<bool> joint_, above_, below_;
   bool has_limbs_ = false;
 };
 

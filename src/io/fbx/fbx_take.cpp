@@ -50,7 +50,13 @@ class FbxTakeBuilder {
     add_joints(poser_.at(document_.frames.times.front()));
     take_.rotations.reserve(document_.frames.times.size() * joints);
     take_.positions.reserve(document_.frames.times.size() * take_.point_count());
-    for (const std::int64_t time : document_.frames.times) add_frame(poser_.at(time));
+    for (const std::int64_t time : document_.frames.times) {
+      if (scales_are_odd_) {
+        add_frame(poser_.at(time));
+      } else {
+        add_local_frame(poser_.locals_at(time));
+      }
+    }
     mark_mended();
     return std::move(take_);
   }
@@ -71,7 +77,8 @@ class FbxTakeBuilder {
   void find_moving() {
     moving_.assign(rig_.joints.size(), false);
     for (std::size_t j = 0; j < moving_.size(); ++j) moving_[j] = is_translated(node(j));
-    if (!has_odd_scales()) return;
+    scales_are_odd_ = has_odd_scales();
+    if (!scales_are_odd_) return;
     const auto& frames = document_.frames.times;
     std::vector<Vec3> first;
     for (std::size_t f = 0; f < frames.size(); ++f) {
@@ -137,6 +144,8 @@ class FbxTakeBuilder {
       skeleton.add_joint(document_.scene.models[each.model].name, each.parent_joint,
                          offset_of(poses, j), channels_of(each, moving_[j]));
       skeleton.rest_rotations.back() = rest_of(poses, each);
+      firsts_.push_back({offset_of(poses, j), poses[rig_.joints[j]].local[fbx_translation],
+                         fbx_step_matrix(rig_, poses, each)});
       if (j > 0 && moving_[j]) take_.translated_joints.push_back(static_cast<std::int32_t>(j));
     }
   }
@@ -166,6 +175,18 @@ class FbxTakeBuilder {
     for (std::size_t j = 0; j < rig_.joints.size(); ++j) {
       take_.rotations.push_back(rotation_of(node(j), poses[rig_.joints[j]].local[fbx_rotation]));
       if (j == 0 || moving_[j]) take_.positions.push_back(offset_of(poses, j));
+    }
+  }
+
+  // Where scales are the same in all frames and directions, positions follow translations.
+  void add_local_frame(const std::vector<FbxNodePose>& poses) {
+    for (std::size_t j = 0; j < rig_.joints.size(); ++j) {
+      const std::array<Vec3, 3>& local = poses[rig_.joints[j]].local;
+      take_.rotations.push_back(rotation_of(node(j), local[fbx_rotation]));
+      const FirstFrame& first = firsts_[j];
+      if (j == 0 || moving_[j])
+        take_.positions.push_back(first.offset +
+                                  first.step * (local[fbx_translation] - first.translation));
     }
   }
 
@@ -202,10 +223,17 @@ class FbxTakeBuilder {
     }
   }
 
+  struct FirstFrame {
+    Vec3 offset, translation;
+    FbxMatrix step;  // from a change of translation to one of offset
+  };
+
   const FbxDocument& document_;
   const FbxRig& rig_;
   FbxPoser poser_;
   Take take_;
+  bool scales_are_odd_ = false;
+  std::vector<FirstFrame> firsts_;  // by joint
   std::vector<bool> moving_;  // by joint: its position changes in the frame of its parent
 };
 

@@ -225,7 +225,7 @@ TEST(FbxRead, AFileWithoutJointsIsRefused) {
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::unreadable_input);
     EXPECT_STREQ(error.what(),
-                 "take.fbx: holds no joints: none of its 1 models is a limb, and none moves");
+                 "take.fbx: holds no joints: none of its 1 models is a limb, and none has curves");
   }
 }
 
