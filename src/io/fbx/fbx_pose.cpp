@@ -103,14 +103,16 @@ FbxPoser::FbxPoser(const FbxScene& scene, const FbxMotion& motion, const FbxRig&
       rig_(rig),
       animated_(rig.nodes.size()),
       cursors_(motion.curves.size()),
+      is_animated_(3 * rig.nodes.size()),
       poses_(rig.nodes.size()) {
   for (std::size_t n = 0; n < rig.nodes.size(); ++n) {
+    poses_[n].local = scene.models[rig.nodes[n].model].local;
     for (std::size_t v = 0; v < 3; ++v) {
       for (const FbxLayer& layer : motion.layers) {
         const auto found = layer.vectors.find(3 * rig.nodes[n].model + v);
-        animated_[n][v].push_back(found == layer.vectors.end() || layer.is_muted
-                                      ? nullptr
-                                      : &found->second);
+        const bool counts = found != layer.vectors.end() && !layer.is_muted;
+        animated_[n][v].push_back(counts ? &found->second : nullptr);
+        is_animated_[3 * n + v] = is_animated_[3 * n + v] || counts;
       }
     }
   }
@@ -118,14 +120,17 @@ FbxPoser::FbxPoser(const FbxScene& scene, const FbxMotion& motion, const FbxRig&
 
 const std::vector<FbxNodePose>& FbxPoser::at(std::int64_t time) {
   for (std::size_t n = 0; n < poses_.size(); ++n) {
-    evaluate(n, time);
+    for (const FbxVector vector : {fbx_translation, fbx_rotation, fbx_scaling})
+      evaluate(n, vector, time);
     place(n);
   }
   return poses_;
 }
 
 const std::vector<FbxNodePose>& FbxPoser::locals_at(std::int64_t time) {
-  for (std::size_t n = 0; n < poses_.size(); ++n) evaluate(n, time);
+  for (std::size_t n = 0; n < poses_.size(); ++n) {
+    for (const FbxVector vector : {fbx_translation, fbx_rotation}) evaluate(n, vector, time);
+  }
   return poses_;
 }
 
@@ -140,20 +145,19 @@ Vec3 FbxPoser::layer_value(const FbxAnimatedVector& animated, std::int64_t time)
   return value;
 }
 
-void FbxPoser::evaluate(std::size_t n, std::int64_t time) {
-  const FbxRigNode& node = rig_.nodes[n];
-  for (const FbxVector vector : {fbx_translation, fbx_rotation, fbx_scaling}) {
-    Vec3 value = scene_.models[node.model].local[vector];
-    bool is_first = true;
-    for (std::size_t l = 0; l < motion_.layers.size(); ++l) {
-      const FbxAnimatedVector* const animated = animated_[n][vector][l];
-      if (animated == nullptr) continue;
-      const Vec3 layer = layer_value(*animated, time);
-      value = is_first ? layer : mix_layer(value, layer, motion_.layers[l], vector, node.order);
-      is_first = false;
-    }
-    poses_[n].local[vector] = value;
+void FbxPoser::evaluate(std::size_t n, FbxVector vector, std::int64_t time) {
+  if (!is_animated_[3 * n + vector]) return;
+  Vec3 value;
+  bool is_first = true;
+  for (std::size_t l = 0; l < motion_.layers.size(); ++l) {
+    const FbxAnimatedVector* const animated = animated_[n][vector][l];
+    if (animated == nullptr) continue;
+    const Vec3 layer = layer_value(*animated, time);
+    value = is_first ? layer
+                     : mix_layer(value, layer, motion_.layers[l], vector, rig_.nodes[n].order);
+    is_first = false;
   }
+  poses_[n].local[vector] = value;
 }
 
 void FbxPoser::place(std::size_t n) {

@@ -33,21 +33,20 @@ class FbxPoser {
 
   /// The pose of every node, valid until the next call.
   const std::vector<FbxNodePose>& at(std::int64_t time);
-  /// The same with `local` alone, which is much quicker.
+  /// The same with the translations and rotations in `local` alone, which is much quicker.
   const std::vector<FbxNodePose>& locals_at(std::int64_t time);
 
  private:
-  void evaluate(std::size_t node, std::int64_t time);
+  void evaluate(std::size_t node, FbxVector vector, std::int64_t time);
   void place(std::size_t node);
-  Vec3 vector_at(std::size_t model, FbxVector vector, std::int64_t time, const FbxRigNode& node);
   Vec3 layer_value(const FbxAnimatedVector& animated, std::int64_t time);
 
   const FbxScene& scene_;
   const FbxMotion& motion_;
   const FbxRig& rig_;
   std::vector<std::array<std::vector<const FbxAnimatedVector*>, 3>> animated_;  // by node
-  std::vector<std::vector<const FbxLayer*>> layers_;
   std::vector<std::size_t> cursors_;  // by curve
+  std::vector<bool> is_animated_;     // 3 * node + vector
   std::vector<FbxNodePose> poses_;
 };
 

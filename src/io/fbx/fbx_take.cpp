@@ -4,17 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "base/quote.hpp"
 #include "io/fbx/fbx_document.hpp"
+#include "io/motion/half_angles.hpp"
 #include "rotation/component.hpp"
 
 namespace kinemend {
 
 namespace {
 
-constexpr double fbx_radians = std::numbers::pi / 180;
 constexpr double same_scale = 1e-6;
 // A bone whose length or direction changes by less is rigid: rounding of baked curves.
 constexpr double rigid = 1e-5;
@@ -172,33 +171,49 @@ class FbxTakeBuilder {
   }
 
   void add_frame(const std::vector<FbxNodePose>& poses) {
+    add_rotations(poses);
     for (std::size_t j = 0; j < rig_.joints.size(); ++j) {
-      take_.rotations.push_back(rotation_of(node(j), poses[rig_.joints[j]].local[fbx_rotation]));
       if (j == 0 || moving_[j]) take_.positions.push_back(offset_of(poses, j));
     }
   }
 
   // Where scales are the same in all frames and directions, positions follow translations.
   void add_local_frame(const std::vector<FbxNodePose>& poses) {
+    add_rotations(poses);
     for (std::size_t j = 0; j < rig_.joints.size(); ++j) {
-      const std::array<Vec3, 3>& local = poses[rig_.joints[j]].local;
-      take_.rotations.push_back(rotation_of(node(j), local[fbx_rotation]));
+      if (j > 0 && !moving_[j]) continue;
       const FirstFrame& first = firsts_[j];
-      if (j == 0 || moving_[j])
-        take_.positions.push_back(first.offset +
-                                  first.step * (local[fbx_translation] - first.translation));
+      const Vec3 step = poses[rig_.joints[j]].local[fbx_translation] - first.translation;
+      take_.positions.push_back(first.offset + first.step * step);
     }
   }
 
-  static Quat rotation_of(const FbxRigNode& each, Vec3 degrees) {
-    RotationOrder order;
-    std::array<double, 3> angles{};
-    for (std::size_t i = each.first_turn; i < each.end_turn; ++i) {
-      order.axes[order.count] = each.order.axes[i];
-      angles[order.count++] =
-          fbx_radians * component(degrees, static_cast<std::size_t>(each.order.axes[i]));
+  // All joints at once: sines and cosines are dear.
+  void add_rotations(const std::vector<FbxNodePose>& poses) {
+    const std::size_t joints = rig_.joints.size();
+    degrees_.resize(3 * joints);
+    sines_.resize(3 * joints);
+    cosines_.resize(3 * joints);
+    for (std::size_t j = 0; j < joints; ++j) {
+      const FbxRigNode& each = node(j);
+      const Vec3 angles = poses[rig_.joints[j]].local[fbx_rotation];
+      for (std::size_t i = each.first_turn; i < each.end_turn; ++i)
+        degrees_[3 * j + i] = component(angles, static_cast<std::size_t>(each.order.axes[i]));
     }
-    return order.count == 0 ? Quat{} : from_euler(angles, order);
+    half_angle_sincos(degrees_.data(), degrees_.size(), sines_.data(), cosines_.data());
+    for (std::size_t j = 0; j < joints; ++j) take_.rotations.push_back(product_of_turns(j));
+  }
+
+  Quat product_of_turns(std::size_t joint) const {
+    const FbxRigNode& each = node(joint);
+    Quat product;
+    for (std::size_t i = each.first_turn; i < each.end_turn; ++i) {
+      const double s = sines_[3 * joint + i], c = cosines_[3 * joint + i];
+      Quat turn{c, 0, 0, 0};
+      (each.order.axes[i] == Axis::x ? turn.x : each.order.axes[i] == Axis::y ? turn.y : turn.z) = s;
+      product = i == each.first_turn ? turn : product * turn;
+    }
+    return normalized(product);
   }
 
   void mark_mended() {
@@ -234,6 +249,7 @@ class FbxTakeBuilder {
   Take take_;
   bool scales_are_odd_ = false;
   std::vector<FirstFrame> firsts_;  // by joint
+  std::vector<double> degrees_, sines_, cosines_;  // of a frame, three a joint
   std::vector<bool> moving_;  // by joint: its position changes in the frame of its parent
 };
 
