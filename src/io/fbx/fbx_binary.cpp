@@ -69,8 +69,8 @@ class BinaryFbxReader {
     if (tree_.bytes.size() < first_record_place)
       throw tree_.error_at(tree_.bytes.size(), "the file ends in its head");
     tree_.is_big_endian = tree_.bytes[version_place - 1] == 1;
-    tree_.version = fbx_word<std::uint32_t>(tree_.bytes.data() + version_place,
-                                            tree_.is_big_endian);
+    tree_.version =
+        fbx_word<std::uint32_t>(tree_.bytes.data() + version_place, tree_.is_big_endian);
   }
 
   std::size_t header_bytes() const { return tree_.has_wide_headers() ? 25 : 13; }
@@ -83,8 +83,7 @@ class BinaryFbxReader {
     const bool big = tree_.is_big_endian;
     if (tree_.has_wide_headers()) {
       return {fbx_word<std::uint64_t>(bytes, big), fbx_word<std::uint64_t>(bytes + 8, big),
-              fbx_word<std::uint64_t>(bytes + 16, big),
-              static_cast<std::uint8_t>(bytes[24])};
+              fbx_word<std::uint64_t>(bytes + 16, big), static_cast<std::uint8_t>(bytes[24])};
     }
     return {fbx_word<std::uint32_t>(bytes, big), fbx_word<std::uint32_t>(bytes + 4, big),
             fbx_word<std::uint32_t>(bytes + 8, big), static_cast<std::uint8_t>(bytes[12])};

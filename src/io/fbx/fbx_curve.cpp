@@ -16,8 +16,8 @@ double fbx_bezier_share(double x, double first, double second) {
   double low = 0, high = 1, share = x;
   for (int i = 0; i < 60 && high - low > 1e-14; ++i) {
     const double rest = 1 - share;
-    const double time = 3 * rest * rest * share * first + 3 * rest * share * share * second +
-                        share * share * share;
+    const double time =
+        3 * rest * rest * share * first + 3 * rest * share * share * second + share * share * share;
     (time < x ? low : high) = share;
     share = 0.5 * (low + high);
   }
@@ -120,8 +120,7 @@ double fbx_value_between(const FbxCurve& curve, std::int64_t time, double ticks,
                          std::size_t& cursor) {
   const std::vector<std::int64_t>& times = *curve.times;
   const std::size_t last = times.size() - 1;
-  if (cursor >= last || times[cursor] > time ||
-      (cursor + 2 <= last && times[cursor + 2] <= time)) {
+  if (cursor >= last || times[cursor] > time || (cursor + 2 <= last && times[cursor + 2] <= time)) {
     const auto after = std::upper_bound(times.begin(), times.end(), time);
     cursor = static_cast<std::size_t>(after - times.begin());
     cursor = cursor == 0 ? 0 : cursor - 1;

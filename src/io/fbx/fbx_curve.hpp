@@ -22,13 +22,14 @@ struct FbxKeyShape {
   /// Of `cubic`: value units a second at this key and at the next. Of `cubic_tcb`: tension,
   /// continuity.
   float right_slope = 0, next_left_slope = 0;
-  float bias = 0;                             ///< of `cubic_tcb`
+  float bias = 0;                                ///< of `cubic_tcb`
   float right_weight = 0, next_left_weight = 0;  ///< share of the step; 0 where not weighted
 };
 
 /// What a curve is before its first key or after its last.
 struct FbxExtrapolation {
-  /// C holds the key, K goes on with its slope, R repeats, A repeats from the last value, M mirrors.
+  /// C holds the key, K goes on with its slope, R repeats, A repeats from the last value, M
+  /// mirrors.
   char type = 'C';
   std::int64_t repetitions = -1;  ///< negative: without end
 };
@@ -36,14 +37,12 @@ struct FbxExtrapolation {
 struct FbxCurve {
   std::uint32_t record = 0;
   std::shared_ptr<const std::vector<std::int64_t>> times;  ///< ticks, ascending
-  std::vector<double> values;                              ///< one a key, at least one; NaN where not finite
-  std::vector<FbxKeyShape> shapes;                         ///< one, or one a key
+  std::vector<double> values;       ///< one a key, at least one; NaN where not finite
+  std::vector<FbxKeyShape> shapes;  ///< one, or one a key
   FbxExtrapolation before, after;
 
   std::size_t key_count() const { return values.size(); }
-  const FbxKeyShape& shape(std::size_t key) const {
-    return shapes[shapes.size() == 1 ? 0 : key];
-  }
+  const FbxKeyShape& shape(std::size_t key) const { return shapes[shapes.size() == 1 ? 0 : key]; }
   /// Whether it is the same number always.
   bool is_constant() const;
 };

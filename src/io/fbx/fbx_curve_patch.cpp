@@ -148,15 +148,14 @@ class FbxCurvePatcher {
       append_fbx_float(list, values[k], 'd', tree_.is_big_endian);
       list += "CL";
     }
-    const std::size_t begin = tree_.is_text ? tree_.properties[keys.first_property].begin
-                                            : keys.properties_begin;
+    const std::size_t begin =
+        tree_.is_text ? tree_.properties[keys.first_property].begin : keys.properties_begin;
     const auto more = static_cast<std::int64_t>(3 * times.size()) -
                       static_cast<std::int64_t>(keys.property_count);
     patches_.push_back({begin, keys.properties_end, std::move(list), tree_.is_text ? 0 : more});
     const FbxProperty* const count = fbx_child_value(tree_, curve_.record, "KeyCount");
     if (count != nullptr && times.size() != curve_.key_count())
-      patches_.push_back(
-          fbx_integer_patch(tree_, *count, static_cast<std::int64_t>(times.size())));
+      patches_.push_back(fbx_integer_patch(tree_, *count, static_cast<std::int64_t>(times.size())));
   }
 
   // One shape for all keys.

@@ -91,8 +91,8 @@ class FbxFrameFinder {
   // The keys that most curves have, where they are a grid of the whole span.
   bool take_keys(FbxSpan span, FbxFrames& frames) const {
     const std::vector<std::int64_t>& times = common_times();
-    const double step = static_cast<double>(times.back() - times.front()) /
-                        static_cast<double>(times.size() - 1);
+    const double step =
+        static_cast<double>(times.back() - times.front()) / static_cast<double>(times.size() - 1);
     const double rate_hz = scene_.ticks_per_second / step;
     const bool is_mode = std::fabs(rate_hz / scene_.frame_rate_hz - 1) < same_rate;
     if (times.front() != span.first || times.back() != span.last || !lies_on_grid(times, step) ||

@@ -30,7 +30,7 @@ FbxKeyShape shape_of(std::uint32_t flags, const float* data) {
   if ((flags & flag_constant) != 0) {
     shape.kind = (flags & flag_auto) != 0 ? FbxKeyShape::constant_next : FbxKeyShape::constant;
   } else if ((flags & flag_cubic) != 0) {
-    shape.kind = (flags & flag_tcb) != 0 ? FbxKeyShape::cubic_tcb
+    shape.kind = (flags & flag_tcb) != 0                          ? FbxKeyShape::cubic_tcb
                  : (flags & (flag_auto | flag_user)) == flag_auto ? FbxKeyShape::cubic_auto
                                                                   : FbxKeyShape::cubic;
   } else {
@@ -161,8 +161,8 @@ std::vector<std::uint32_t> fbx_value_places(const FbxTree& tree, const FbxRecord
 
 FbxCurve FbxKeyReader::read(std::uint32_t record) {
   const std::uint32_t letters = tree_.child(record, "Key");
-  FbxCurve curve = letters != no_fbx_record ? read_letters(record, tree_.records[letters])
-                                            : read_arrays(record);
+  FbxCurve curve =
+      letters != no_fbx_record ? read_letters(record, tree_.records[letters]) : read_arrays(record);
   curve.record = record;
   curve.before = extrapolation_of(tree_, record, "Pre-Extrapolation");
   curve.after = extrapolation_of(tree_, record, "Post-Extrapolation");
@@ -191,8 +191,8 @@ FbxCurve FbxKeyReader::read_arrays(std::uint32_t record) {
   }
   if (curve.values.size() != curve.times->size()) {
     throw tree_.error_at(tree_.records[values].begin,
-                         fmt::format("a curve has {} key times, but {} values",
-                                     curve.times->size(), curve.values.size()));
+                         fmt::format("a curve has {} key times, but {} values", curve.times->size(),
+                                     curve.values.size()));
   }
   read_shapes(record, curve);
   return curve;

@@ -91,8 +91,8 @@ NewFbxModel model_of_joint(const Take& take, std::size_t joint) {
   model.name = fbx_name(skeleton.names[joint], "joint");
   model.parent = skeleton.parents[joint];
   model.translation = skeleton.offsets[joint];
-  model.pre_rotation = degrees_of(to_euler(skeleton.rest_rotations[joint], fbx_factors(0)),
-                                  fbx_factors(0));
+  model.pre_rotation =
+      degrees_of(to_euler(skeleton.rest_rotations[joint], fbx_factors(0)), fbx_factors(0));
   const RotationOrder turns = skeleton.rotation_order(joint);
   model.order = turns.count == 0 ? 0 : order_with(turns).value_or(0);
   bool is_fixed = true;
@@ -182,9 +182,17 @@ NewFbxScene scene_of(const Take& take) {
 
 // FBX SDK, FbxTime::EMode, of the rates that have one; 14 is a custom rate.
 std::int32_t mode_of_rate(double rate_hz) {
-  constexpr std::array<std::pair<double, std::int32_t>, 11> modes{
-      {{120, 1}, {100, 2}, {60, 3}, {50, 4}, {48, 5}, {30, 6}, {25, 10}, {24, 11}, {1000, 12},
-       {96, 15}, {72, 16}}};
+  constexpr std::array<std::pair<double, std::int32_t>, 11> modes{{{120, 1},
+                                                                   {100, 2},
+                                                                   {60, 3},
+                                                                   {50, 4},
+                                                                   {48, 5},
+                                                                   {30, 6},
+                                                                   {25, 10},
+                                                                   {24, 11},
+                                                                   {1000, 12},
+                                                                   {96, 15},
+                                                                   {72, 16}}};
   for (const auto& [rate, mode] : modes) {
     if (rate == rate_hz) return mode;
   }
@@ -237,9 +245,14 @@ class NewFbxWriter {
     file_.add("FBXVersion", 7500);
     file_.add("EncryptionType", 0);
     file_.open("CreationTimeStamp");
-    constexpr std::array<std::pair<std::string_view, std::int32_t>, 8> stamp{
-        {{"Version", 1000}, {"Year", 1970}, {"Month", 1}, {"Day", 1}, {"Hour", 10}, {"Minute", 0},
-         {"Second", 0}, {"Millisecond", 0}}};
+    constexpr std::array<std::pair<std::string_view, std::int32_t>, 8> stamp{{{"Version", 1000},
+                                                                              {"Year", 1970},
+                                                                              {"Month", 1},
+                                                                              {"Day", 1},
+                                                                              {"Hour", 10},
+                                                                              {"Minute", 0},
+                                                                              {"Second", 0},
+                                                                              {"Millisecond", 0}}};
     for (const auto& [name, value] : stamp) file_.add(name, value);
     file_.close();
     file_.add("Creator", "Kinemend");
@@ -308,7 +321,8 @@ class NewFbxWriter {
     for (std::size_t m = 0; m < scene_.models.size(); ++m) {
       ids_.push_back(next_id());
       const NewFbxModel& model = scene_.models[m];
-      links_.push_back({ids_[m], model.parent < 0 ? 0 : ids_[static_cast<std::size_t>(model.parent)], {}});
+      links_.push_back(
+          {ids_[m], model.parent < 0 ? 0 : ids_[static_cast<std::size_t>(model.parent)], {}});
       if (model.is_limb) write_attribute(model, ids_[m]);
       write_model(model, ids_[m]);
     }

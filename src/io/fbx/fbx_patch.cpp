@@ -39,8 +39,8 @@ class FbxPatcher {
       from = patch.end;
     }
     out.append(tree_.bytes, from);
-    const bool moves = !grown_.empty() || std::any_of(shifts_.begin(), shifts_.end(),
-                                                      [](auto s) { return s != 0; });
+    const bool moves = !grown_.empty() ||
+                       std::any_of(shifts_.begin(), shifts_.end(), [](auto s) { return s != 0; });
     if (!tree_.is_text && moves) {
       for (const FbxRecord& record : tree_.records) mend_header(record, out);
       pad_footer(out);
@@ -70,8 +70,7 @@ class FbxPatcher {
     const std::size_t list = moved(record.properties_end) - moved(record.properties_begin);
     const auto grown = grown_.find(record.properties_begin);
     const std::size_t count =
-        record.property_count +
-        static_cast<std::size_t>(grown == grown_.end() ? 0 : grown->second);
+        record.property_count + static_cast<std::size_t>(grown == grown_.end() ? 0 : grown->second);
     if (tree_.has_wide_headers()) {
       put<std::uint64_t>(out, place, end);
       put<std::uint64_t>(out, place + 8, count);

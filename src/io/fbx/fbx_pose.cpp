@@ -27,10 +27,9 @@ Quat fbx_share(Quat rotation, double weight) {
 
 Vec3 mix_rotations(Vec3 below, Vec3 value, const FbxLayer& layer, RotationOrder order) {
   const Quat under = fbx_turn(below, order), over = fbx_turn(value, order);
-  const Quat mixed =
-      layer.is_override
-          ? under * fbx_share(normalized(conjugate(under) * over), layer.weight)
-          : under * fbx_share(over, layer.weight);
+  const Quat mixed = layer.is_override
+                         ? under * fbx_share(normalized(conjugate(under) * over), layer.weight)
+                         : under * fbx_share(over, layer.weight);
   return fbx_angles(normalized(mixed), order);
 }
 
@@ -153,8 +152,8 @@ void FbxPoser::evaluate(std::size_t n, FbxVector vector, std::int64_t time) {
     const FbxAnimatedVector* const animated = animated_[n][vector][l];
     if (animated == nullptr) continue;
     const Vec3 layer = layer_value(*animated, time);
-    value = is_first ? layer
-                     : mix_layer(value, layer, motion_.layers[l], vector, rig_.nodes[n].order);
+    value =
+        is_first ? layer : mix_layer(value, layer, motion_.layers[l], vector, rig_.nodes[n].order);
     is_first = false;
   }
   poses_[n].local[vector] = value;
@@ -164,8 +163,8 @@ void FbxPoser::place(std::size_t n) {
   const FbxRigNode& node = rig_.nodes[n];
   const FbxModel& model = scene_.models[node.model];
   FbxNodePose& pose = poses_[n];
-  const Quat turn = node.pre * fbx_turn(pose.local[fbx_rotation], node.order) *
-                    conjugate(node.post);
+  const Quat turn =
+      node.pre * fbx_turn(pose.local[fbx_rotation], node.order) * conjugate(node.post);
   const Vec3 centre = pose.local[fbx_translation] + model.rotation_offset + model.rotation_pivot;
   if (node.parent < 0) {
     pose.turn = normalized(turn);

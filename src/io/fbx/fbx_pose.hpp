@@ -45,8 +45,8 @@ class FbxPoser {
   const FbxMotion& motion_;
   const FbxRig& rig_;
   std::vector<std::array<std::vector<const FbxAnimatedVector*>, 3>> animated_;  // by node
-  std::vector<std::size_t> cursors_;  // by curve
-  std::vector<bool> is_animated_;     // 3 * node + vector
+  std::vector<std::size_t> cursors_;                                            // by curve
+  std::vector<bool> is_animated_;                                               // 3 * node + vector
   std::vector<FbxNodePose> poses_;
 };
 

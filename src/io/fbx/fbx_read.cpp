@@ -44,9 +44,10 @@ class FbxReader {
   const FbxTree& tree() const { return document_.tree; }
 
   Error no_joints() const {
-    return Error(ErrorKind::unreadable_input,
-                 fmt::format("{}: holds no joints: none of its {} models is a limb, and none has curves",
-                             tree().name, document_.scene.models.size()));
+    return Error(
+        ErrorKind::unreadable_input,
+        fmt::format("{}: holds no joints: none of its {} models is a limb, and none has curves",
+                    tree().name, document_.scene.models.size()));
   }
 
   void note(std::string_view kind, std::string_view message, std::size_t count) {
@@ -67,13 +68,13 @@ class FbxReader {
     const std::vector<FbxStack>& stacks = document_.scene.stacks;
     const bool is_asked = !options_.animation.empty();
     const std::string& wanted = is_asked ? options_.animation : document_.scene.active_stack;
-    const auto named = std::find_if(stacks.begin(), stacks.end(), [&](const FbxStack& stack) {
-      return stack.name == wanted;
-    });
+    const auto named = std::find_if(stacks.begin(), stacks.end(),
+                                    [&](const FbxStack& stack) { return stack.name == wanted; });
     if (is_asked && named == stacks.end()) {
-      throw Error(ErrorKind::usage,
-                  fmt::format("{}: has no animation {}; it has {}", tree().name, quote(wanted),
-                              stacks.empty() ? "none" : fmt::format("{}", fmt::join(stack_names(), ", "))));
+      throw Error(
+          ErrorKind::usage,
+          fmt::format("{}: has no animation {}; it has {}", tree().name, quote(wanted),
+                      stacks.empty() ? "none" : fmt::format("{}", fmt::join(stack_names(), ", "))));
     }
     if (named != stacks.end() && (take_stack(*named) || is_asked)) return;
     std::size_t tried = 0;
@@ -109,23 +110,24 @@ class FbxReader {
   void find_frames() {
     const FbxRig& rig = document_.rig;
     const std::size_t frame_bytes = rig.nodes.size() * (sizeof(Quat) + sizeof(Vec3) + 1);
-    document_.frames =
-        find_fbx_frames(tree(), document_.scene, document_.motion,
-                        fbx_joint_curves(document_.motion, rig),
-                        std::max<std::size_t>(memory_limit(tree().bytes.size()) / frame_bytes, 1));
+    document_.frames = find_fbx_frames(
+        tree(), document_.scene, document_.motion, fbx_joint_curves(document_.motion, rig),
+        std::max<std::size_t>(memory_limit(tree().bytes.size()) / frame_bytes, 1));
   }
 
   void note_repairs(const Take& take) {
     note("value_not_finite", "a key is not a finite number: held from a neighbouring key",
          document_.mended.size());
     note("keys_resampled",
-         fmt::format("curves without a key in each frame are sampled at {:.6g} Hz", take.frame_rate_hz),
+         fmt::format("curves without a key in each frame are sampled at {:.6g} Hz",
+                     take.frame_rate_hz),
          document_.frames.resampled);
     std::size_t spheric = 0, scaled = 0;
     for (std::size_t j = 0; j < document_.rig.joints.size(); ++j) {
       const FbxRigNode& node = document_.rig.nodes[document_.rig.joints[j]];
       const FbxModel& model = document_.scene.models[node.model];
-      if (model.rotation_active && (model.rotation_order < 0 || model.rotation_order > 5)) ++spheric;
+      if (model.rotation_active && (model.rotation_order < 0 || model.rotation_order > 5))
+        ++spheric;
       if (take.has_joints() && j > 0 && take.skeleton.has_position_channels(j) &&
           !node.has_translation_curves)
         ++scaled;
@@ -140,8 +142,8 @@ class FbxReader {
       take.source.facts.push_back({std::move(name), printable(text)});
     };
     if (!document_.scene.stacks.empty())
-      fact("animations", fmt::format("{}; this is {}", fmt::join(stack_names(), ", "),
-                                     document_.stack.name));
+      fact("animations",
+           fmt::format("{}; this is {}", fmt::join(stack_names(), ", "), document_.stack.name));
     const std::size_t others = document_.scene.models.size() - document_.rig.joints.size();
     if (others > 0) fact("other models", fmt::format("{}", others));
     if (document_.motion.layers.size() > 1)

@@ -158,14 +158,13 @@ class FbxRewriter {
     RotationOrder order;
     std::array<double, 3> near{};
     for (std::size_t i = each.first_turn; i < each.end_turn; ++i) {
-      near[order.count] = radians_per_degree *
-                          component(source_angles(0, joint),
-                                    static_cast<std::size_t>(each.order.axes[i]));
+      near[order.count] =
+          radians_per_degree *
+          component(source_angles(0, joint), static_cast<std::size_t>(each.order.axes[i]));
       order.axes[order.count++] = each.order.axes[i];
     }
     for (std::size_t f = 0; f < frames(); ++f) {
-      const bool is_same =
-          same_frames_ && take_.rotation(f, joint) == original_.rotation(f, joint);
+      const bool is_same = same_frames_ && take_.rotation(f, joint) == original_.rotation(f, joint);
       if (!is_same) near = to_euler_near(take_.rotation(f, joint), order, near);
       for (std::size_t i = 0; i < order.count; ++i) {
         const auto axis = static_cast<std::size_t>(order.axes[i]);
@@ -259,8 +258,7 @@ class FbxRewriter {
     if (!same_frames_ && !curve.is_constant()) return false;
     std::size_t cursor = 0;
     for (std::size_t f = 0; f < values.size(); ++f) {
-      const double now =
-          fbx_value_at(curve, times_[f], document_.scene.ticks_per_second, cursor);
+      const double now = fbx_value_at(curve, times_[f], document_.scene.ticks_per_second, cursor);
       if (static_cast<float>(now) != static_cast<float>(values[f])) return false;
     }
     return true;
@@ -293,7 +291,7 @@ class FbxRewriter {
   const FbxDocument& document_;
   const Take& original_;
   bool same_frames_;
-  std::vector<std::size_t> uses_;  // by curve: how many axes it moves
+  std::vector<std::size_t> uses_;             // by curve: how many axes it moves
   std::vector<std::vector<double>> changed_;  // by curve: its value in each frame
   std::vector<std::size_t> mended_;           // curves
   std::vector<std::int64_t> times_;
@@ -308,7 +306,8 @@ bool fits_fbx_document(const Take& take, const FbxDocument& document, const Take
   if (take.frame_count() == 0 || document.rig.joints.empty()) return false;
   if (take.has_joints() != original.has_joints()) return false;
   if (!take.has_joints()) return take.names == original.names && take.unit == original.unit;
-  return take.metres_per_unit == original.metres_per_unit && same_skeleton(take.skeleton, original.skeleton) &&
+  return take.metres_per_unit == original.metres_per_unit &&
+         same_skeleton(take.skeleton, original.skeleton) &&
          take.translated_joints == original.translated_joints;
 }
 

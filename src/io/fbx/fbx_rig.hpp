@@ -34,7 +34,8 @@ struct FbxRig {
 /// Joints are, in tree order:
 /// - models of the kinds LimbNode, Limb and Root;
 /// - models of any kind above one of these that move, and nulls below one that have curves;
-/// - in a file without these, models that have curves (but cameras and lights), and nulls below one.
+/// - in a file without these, models that have curves (but cameras and lights), and nulls below
+/// one.
 FbxRig choose_fbx_rig(const FbxTree& tree, const FbxScene& scene, const FbxMotion& motion,
                       std::size_t max_depth);
 

@@ -235,8 +235,8 @@ class FbxSceneReader {
     const bool is_new = tree_.version >= 8000;
     std::int64_t definition = is_new ? 0 : old_ticks_definition;
     if (header != no_fbx_record &&
-        (is_new || fbx_child_integer(tree_, header, "FBXHeaderVersion", 0) >=
-                       least_header_with_definition)) {
+        (is_new ||
+         fbx_child_integer(tree_, header, "FBXHeaderVersion", 0) >= least_header_with_definition)) {
       const std::uint32_t flags = tree_.child(header, "OtherFlags");
       if (flags != no_fbx_record)
         definition = fbx_child_integer(tree_, flags, "TCDefinition", definition);

@@ -24,8 +24,7 @@ Channel fbx_rotation_channel(Axis axis) {
 
 std::vector<Channel> channels_of(const FbxRigNode& node, bool is_translated) {
   std::vector<Channel> channels;
-  if (is_translated)
-    channels = {Channel::x_position, Channel::y_position, Channel::z_position};
+  if (is_translated) channels = {Channel::x_position, Channel::y_position, Channel::z_position};
   for (std::size_t i = node.first_turn; i < node.end_turn; ++i)
     channels.push_back(fbx_rotation_channel(node.order.axes[i]));
   return channels;
@@ -210,7 +209,9 @@ class FbxTakeBuilder {
     for (std::size_t i = each.first_turn; i < each.end_turn; ++i) {
       const double s = sines_[3 * joint + i], c = cosines_[3 * joint + i];
       Quat turn{c, 0, 0, 0};
-      (each.order.axes[i] == Axis::x ? turn.x : each.order.axes[i] == Axis::y ? turn.y : turn.z) = s;
+      (each.order.axes[i] == Axis::x   ? turn.x
+       : each.order.axes[i] == Axis::y ? turn.y
+                                       : turn.z) = s;
       product = i == each.first_turn ? turn : product * turn;
     }
     return normalized(product);
@@ -248,7 +249,7 @@ class FbxTakeBuilder {
   FbxPoser poser_;
   Take take_;
   bool scales_are_odd_ = false;
-  std::vector<FirstFrame> firsts_;  // by joint
+  std::vector<FirstFrame> firsts_;                 // by joint
   std::vector<double> degrees_, sines_, cosines_;  // of a frame, three a joint
   std::vector<bool> moving_;  // by joint: its position changes in the frame of its parent
 };
@@ -269,9 +270,9 @@ Take fbx_markers(const FbxDocument& document, Take joints) {
         static_cast<std::int32_t>(k) + 1;
   for (std::size_t f = 0; f < frames; ++f) {
     for (std::size_t m = 0; m < count; ++m) {
-      take.positions.push_back(
-          point_of[m] < 0 ? joints.skeleton.offsets[m]
-                          : joints.position(f, static_cast<std::size_t>(point_of[m])));
+      take.positions.push_back(point_of[m] < 0
+                                   ? joints.skeleton.offsets[m]
+                                   : joints.position(f, static_cast<std::size_t>(point_of[m])));
     }
   }
   take.observed.assign(frames * count, 1);
@@ -344,10 +345,11 @@ std::vector<double> FbxDocument::channel_values() const {
 void check_fbx_take(const FbxDocument& document, const Take& take) {
   const auto is_finite = [](Vec3 v) { return std::isfinite(norm(v)) && norm(v) < 1e100; };
   const auto refuse = [&](std::size_t joint) {
-    const FbxModel& model = document.scene.models[document.rig.nodes[document.rig.joints[joint]].model];
-    return document.tree.error_at(document.tree.records[model.record].begin,
-                                  fmt::format("{} is nowhere: its scales or distances overflow",
-                                              quote(model.name)));
+    const FbxModel& model =
+        document.scene.models[document.rig.nodes[document.rig.joints[joint]].model];
+    return document.tree.error_at(
+        document.tree.records[model.record].begin,
+        fmt::format("{} is nowhere: its scales or distances overflow", quote(model.name)));
   };
   for (std::size_t j = 0; j < take.joint_count(); ++j) {
     if (!is_finite(take.skeleton.offsets[j])) throw refuse(j);

@@ -79,8 +79,9 @@ class TextFbxReader {
   }
 
   Error unexpected(std::string_view wanted) const {
-    return tree_.error_at(place_, fmt::format("expected {}, found {}", wanted,
-                                              quote(bytes_.substr(place_, word_end(place_ + 1) - place_))));
+    return tree_.error_at(place_,
+                          fmt::format("expected {}, found {}", wanted,
+                                      quote(bytes_.substr(place_, word_end(place_ + 1) - place_))));
   }
 
   void end_block() {

@@ -45,7 +45,7 @@ struct FbxTree {
   std::uint32_t version = 0;  ///< 7400
   bool is_text = false;
   bool is_big_endian = false;
-  std::size_t records_end = 0;       ///< binary: after the record that ends the top level
+  std::size_t records_end = 0;  ///< binary: after the record that ends the top level
   std::uint32_t first_root = no_fbx_record;
   std::vector<FbxRecord> records;
   std::vector<FbxProperty> properties;

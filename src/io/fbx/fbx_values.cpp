@@ -61,8 +61,7 @@ double element(const char* bytes, char type, bool big) {
     case 'f':
       return static_cast<double>(fbx_float(bytes, big));
     case 'l':
-      return static_cast<double>(
-          static_cast<std::int64_t>(fbx_word<std::uint64_t>(bytes, big)));
+      return static_cast<double>(static_cast<std::int64_t>(fbx_word<std::uint64_t>(bytes, big)));
     case 'i':
       return static_cast<std::int32_t>(fbx_word<std::uint32_t>(bytes, big));
     default:
@@ -89,9 +88,7 @@ std::vector<Value> values_of(const FbxTree& tree, const FbxRecord& record, OfByt
                              OfText&& of_text) {
   std::vector<Value> values;
   const FbxProperty* const array = fbx_array(tree, record);
-  const auto refuse = [&](std::size_t place) {
-    return tree.error_at(place, "expected a number");
-  };
+  const auto refuse = [&](std::size_t place) { return tree.error_at(place, "expected a number"); };
   if (array != nullptr && tree.is_text) {
     const std::vector<FbxToken> tokens = fbx_tokens(tree, *array);
     values.reserve(tokens.size());

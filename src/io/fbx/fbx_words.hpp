@@ -14,8 +14,8 @@ Word fbx_word(const char* bytes, bool big_endian) {
   Word word = 0;
   for (std::size_t i = 0; i < sizeof(Word); ++i) {
     const std::size_t shift = 8 * (big_endian ? sizeof(Word) - 1 - i : i);
-    word = static_cast<Word>(word | (static_cast<Word>(static_cast<unsigned char>(bytes[i]))
-                                     << shift));
+    word = static_cast<Word>(word |
+                             (static_cast<Word>(static_cast<unsigned char>(bytes[i])) << shift));
   }
   return word;
 }

@@ -74,8 +74,7 @@ TEST(FbxCurve, WeightedTangentsAreBezierCurves) {
 }
 
 TEST(FbxCurve, AutomaticTangentsPassThroughTheNeighbours) {
-  const FbxCurve curve =
-      curve_of({0, 1, 2, 3}, {0, 1, 4, 5}, {of_kind(FbxKeyShape::cubic_auto)});
+  const FbxCurve curve = curve_of({0, 1, 2, 3}, {0, 1, 4, 5}, {of_kind(FbxKeyShape::cubic_auto)});
   // Slopes 2 and 2 at the inner keys.
   EXPECT_NEAR(at(curve, 1.5), 0.5 * (1 + 4) + 0.125 * 2 - 0.125 * 2, 1e-9);
   // A key between keys at either end of which the curve is level.
@@ -117,7 +116,8 @@ TEST(FbxCurve, RepetitionsEnd) {
 }
 
 TEST(FbxCurve, TheOrderOfTimesDoesNotMatter) {
-  const FbxCurve curve = curve_of({0, 1, 2, 3, 4}, {0, 1, 4, 9, 16}, {of_kind(FbxKeyShape::linear)});
+  const FbxCurve curve =
+      curve_of({0, 1, 2, 3, 4}, {0, 1, 4, 9, 16}, {of_kind(FbxKeyShape::linear)});
   std::size_t cursor = 0;
   for (const double t : {3.5, 0.5, 2.5, 2.5, 0.0, 4.0, 1.5}) {
     const auto ticks = static_cast<std::int64_t>(t * second);

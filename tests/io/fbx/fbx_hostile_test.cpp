@@ -128,20 +128,19 @@ TEST(HostileFbx, LargeNonsenseIsRefusedQuicklyAndInLittleMemory) {
   for (char& c : noise) c = static_cast<char>(random.below(256));
   const std::string good = fbx_bytes(fbx_walker());
   const std::string head = good.substr(0, 27);
-  expect_quick_verdicts(
-      "fbx", {{"noise", noise},
-              {"noise behind a head", head + noise},
-              {"zero bytes", head + std::string(1 << 20, '\0')},
-              {"deep text", deep_text(200000)},
-              {"deep records", deep_binary(600)},
-              {"deep models", deep_models(600)},
-              {"braces", "; FBX 7.4.0\n" + repeated("{", 1 << 20)},
-              {"names", "; FBX 7.4.0\n" + repeated("a:", 1 << 19)},
-              {"numbers", "; FBX 7.4.0\na: " + repeated("1,", 1 << 19)},
-              {"packed keys", packed_keys(100000, 1539538600)},
-              {"far keys", packed_keys(50, std::int64_t{1} << 55)},
-              {"dense keys", packed_keys(100000, 1)},
-              {"many connections", many_links(20000)}});
+  expect_quick_verdicts("fbx", {{"noise", noise},
+                                {"noise behind a head", head + noise},
+                                {"zero bytes", head + std::string(1 << 20, '\0')},
+                                {"deep text", deep_text(200000)},
+                                {"deep records", deep_binary(600)},
+                                {"deep models", deep_models(600)},
+                                {"braces", "; FBX 7.4.0\n" + repeated("{", 1 << 20)},
+                                {"names", "; FBX 7.4.0\n" + repeated("a:", 1 << 19)},
+                                {"numbers", "; FBX 7.4.0\na: " + repeated("1,", 1 << 19)},
+                                {"packed keys", packed_keys(100000, 1539538600)},
+                                {"far keys", packed_keys(50, std::int64_t{1} << 55)},
+                                {"dense keys", packed_keys(100000, 1)},
+                                {"many connections", many_links(20000)}});
 }
 
 TEST(HostileFbx, CountsAreCheckedBeforeMemoryIsTaken) {
@@ -150,9 +149,8 @@ TEST(HostileFbx, CountsAreCheckedBeforeMemoryIsTaken) {
   bytes.replace(at, 4, "\xFF\xFF\xFF\x3F");
   ReadOptions options;
   options.format = "fbx";
-  const std::size_t peak = peak_memory([&] {
-    EXPECT_THROW(read_take(bytes, "take.fbx", options), Error);
-  });
+  const std::size_t peak =
+      peak_memory([&] { EXPECT_THROW(read_take(bytes, "take.fbx", options), Error); });
   EXPECT_LT(peak, memory_allowed);
 }
 

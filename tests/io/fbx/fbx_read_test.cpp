@@ -102,9 +102,9 @@ TEST(FbxRead, RotationsAreRelativeToThePreRotation) {
   EXPECT_LT(angle_between(clip.skeleton.rest_rotations[1],
                           from_euler({30 * degree, -20 * degree, 10 * degree}, order)),
             1e-7);
-  EXPECT_LT(angle_between(clip.rotation(1, 1),
-                          from_euler({8 * degree, -5 * degree, 20 * degree}, order)),
-            1e-7);
+  EXPECT_LT(
+      angle_between(clip.rotation(1, 1), from_euler({8 * degree, -5 * degree, 20 * degree}, order)),
+      1e-7);
   EXPECT_EQ(clip.skeleton.rotation_order(1), order);
 }
 
@@ -138,7 +138,8 @@ TEST(FbxRead, PivotsOffsetsAndPostRotationPlaceTheChildren) {
       fbx_vector("ScalingPivot", 1, -1, 0.25),  fbx_vector("Lcl Scaling", 2, 2, 2),
       fbx_number_property("RotationActive", 1), fbx_number_property("InheritType", 1)};
   models[1].rotation.clear();
-  models[1].properties = {fbx_vector("Lcl Translation", 3, 20, 1), fbx_number_property("InheritType", 1)};
+  models[1].properties = {fbx_vector("Lcl Translation", 3, 20, 1),
+                          fbx_number_property("InheritType", 1)};
   const Clip clip = read_fbx_clip(fbx_bytes(models));
   ASSERT_EQ(clip.frame_count(), 2u);
   const Placement place = moved(1, 2, 3) * moved(4, 5, 6) * moved(-3, 2, 7) * xyz(15, 25, 35) *
@@ -156,7 +157,8 @@ TEST(FbxRead, StaticModelsAboveTheRootTurnAndScaleIt) {
   models.insert(models.begin(), FbxTestModel{});
   models[0].name = "Armature";
   models[0].kind = "Null";
-  models[0].properties = {fbx_vector("Lcl Rotation", -90, 0, 0), fbx_vector("Lcl Scaling", 100, 100, 100)};
+  models[0].properties = {fbx_vector("Lcl Rotation", -90, 0, 0),
+                          fbx_vector("Lcl Scaling", 100, 100, 100)};
   for (auto& model : models) model.parent = model.parent < 0 ? 0 : model.parent + 1;
   models[0].parent = -1;
   const Clip clip = read_fbx_clip(fbx_bytes(models));
@@ -183,7 +185,8 @@ TEST(FbxRead, TurnsWithoutCurvesAreNoChannels) {
   models[1].rotation = {{}, {{0, 5, 10, 15, 20, 25}}, {}};
   const Clip clip = read_fbx_clip(fbx_bytes(models));
   EXPECT_EQ(clip.skeleton.channels[1], std::vector<Channel>{Channel::y_rotation});
-  const Placement spine = moved(1, 91, 0) * xyz(5, 2, -2) * moved(0, 20, 1) * xyz(10, -20, 30) * xyz(11, 5, 33);
+  const Placement spine =
+      moved(1, 91, 0) * xyz(5, 2, -2) * moved(0, 20, 1) * xyz(10, -20, 30) * xyz(11, 5, 33);
   expect_at(forward_kinematics(clip, 1).positions[2], spine * moved(0, 30, 0));
 }
 

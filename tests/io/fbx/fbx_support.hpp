@@ -20,9 +20,9 @@ struct FbxWord {
   char letter;
 };
 
-using FbxValue = std::variant<std::int32_t, std::int64_t, double, std::string, FbxWord,
-                              std::vector<std::int64_t>, std::vector<float>,
-                              std::vector<std::int32_t>>;
+using FbxValue =
+    std::variant<std::int32_t, std::int64_t, double, std::string, FbxWord,
+                 std::vector<std::int64_t>, std::vector<float>, std::vector<std::int32_t>>;
 
 struct FbxNode {
   std::string name;
@@ -94,9 +94,8 @@ class FbxTestWriter {
     out_ += bytes_of(value);
   }
   void put_head(std::size_t at, std::size_t field, std::uint64_t value) {
-    const std::string bytes = form_.version >= 7500
-                                  ? bytes_of(value)
-                                  : bytes_of(static_cast<std::uint32_t>(value));
+    const std::string bytes =
+        form_.version >= 7500 ? bytes_of(value) : bytes_of(static_cast<std::uint32_t>(value));
     out_.replace(at + field * bytes.size(), bytes.size(), bytes);
   }
 
@@ -392,7 +391,8 @@ inline std::vector<FbxTestModel> fbx_walker() {
   models[0].rotation = {{{0, 5, 10, 5, 0, -5}}, {{1, 2, 3, 4, 5, 6}}, {{-3, -2, -1, 0, 1, 2}}};
   models[1].name = "Spine";
   models[1].parent = 0;
-  models[1].properties = {fbx_vector("Lcl Translation", 0, 20, 1), fbx_vector("PreRotation", 10, -20, 30),
+  models[1].properties = {fbx_vector("Lcl Translation", 0, 20, 1),
+                          fbx_vector("PreRotation", 10, -20, 30),
                           fbx_number_property("RotationActive", 1)};
   models[1].rotation = {{{10, 20, 30, 40, 50, 60}}, {{0, -5, 5, 0, 5, 0}}, {{7, 8, 9, 10, 11, 12}}};
   models[2].name = "Head";

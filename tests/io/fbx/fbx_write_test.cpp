@@ -69,7 +69,8 @@ TEST(FbxWrite, InTextOnlyTheChangedNumbersAreOtherBytes) {
 TEST(FbxWrite, TheFooterStaysAlignedWhenRecordsMove) {
   const std::string bytes = fbx_bytes(fbx_walker(), fbx_forms[1]);
   Clip clip = read_fbx_clip(bytes);
-  for (std::size_t f = 0; f < clip.frame_count(); ++f) clip.position(f, 0).x += 0.123 * double(f * f);
+  for (std::size_t f = 0; f < clip.frame_count(); ++f)
+    clip.position(f, 0).x += 0.123 * double(f * f);
   const std::string written = write_clip(clip);
   ASSERT_NE(written.size(), 0u);
   const std::size_t version = written.size() - 140;
@@ -79,7 +80,8 @@ TEST(FbxWrite, TheFooterStaysAlignedWhenRecordsMove) {
 
 TEST(FbxWrite, ARotationContinuesTheAnglesOfTheFrameBefore) {
   auto models = fbx_walker();
-  models[1].rotation = {{{350, 355, 360, 365, 370, 375}}, {{0, 0, 0, 0, 0, 0}}, {{0, 0, 0, 0, 0, 0}}};
+  models[1].rotation = {
+      {{350, 355, 360, 365, 370, 375}}, {{0, 0, 0, 0, 0, 0}}, {{0, 0, 0, 0, 0, 0}}};
   Clip clip = read_fbx_clip(fbx_bytes(models));
   clip.rotation(4, 1) = exp(Vec3{0.15, 0, 0});
   const Clip again = read_fbx_clip(write_clip(clip));
@@ -132,7 +134,8 @@ TEST(FbxWrite, AJointThatLayersMoveIsNotChanged) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
-    EXPECT_STREQ(error.what(), "take.fbx: 2 layers move \"Spine\"; merge them into one to change it");
+    EXPECT_STREQ(error.what(),
+                 "take.fbx: 2 layers move \"Spine\"; merge them into one to change it");
   }
 }
 
@@ -141,7 +144,8 @@ TEST(FbxWrite, AMovedJointBelowTurnedAndScaledModelsIsWhereItWasPut) {
   models.insert(models.begin(), FbxTestModel{});
   models[0].name = "Armature";
   models[0].kind = "Null";
-  models[0].properties = {fbx_vector("Lcl Rotation", -90, 20, 0), fbx_vector("Lcl Scaling", 100, 100, 100)};
+  models[0].properties = {fbx_vector("Lcl Rotation", -90, 20, 0),
+                          fbx_vector("Lcl Scaling", 100, 100, 100)};
   for (auto& model : models) model.parent = model.parent < 0 ? 0 : model.parent + 1;
   models[0].parent = -1;
   Clip clip = read_fbx_clip(fbx_bytes(models));
@@ -191,10 +195,11 @@ TEST(FbxWrite, ANewFileIsMadeOfWholeRecords) {
   const std::string bytes = write_clip(made_clip(), "fbx");
   std::set<std::string> paths;
   for (const WalkedRecord& record : walk_binary_fbx(bytes)) paths.insert(record.path);
-  for (const char* path : {"/FBXHeaderExtension/FBXVersion", "/FileId", "/GlobalSettings/Properties70/P",
-                           "/Definitions/ObjectType/Count", "/Objects/Model/Properties70/P",
-                           "/Objects/NodeAttribute/TypeFlags", "/Objects/AnimationCurve/KeyTime",
-                           "/Connections/C", "/Takes/Take/LocalTime"}) {
+  for (const char* path :
+       {"/FBXHeaderExtension/FBXVersion", "/FileId", "/GlobalSettings/Properties70/P",
+        "/Definitions/ObjectType/Count", "/Objects/Model/Properties70/P",
+        "/Objects/NodeAttribute/TypeFlags", "/Objects/AnimationCurve/KeyTime", "/Connections/C",
+        "/Takes/Take/LocalTime"}) {
     EXPECT_TRUE(paths.contains(path)) << path;
   }
 }
@@ -223,9 +228,12 @@ TEST(FbxWrite, MarkersAreNullsAndComeBackAsMarkers) {
 std::vector<FbxNode> version_6_scene() {
   const auto text = [](const char* s) { return std::string(s); };
   const auto channel = [&](const char* name, std::vector<double> values) {
-    FbxNode node{"Channel", {text(name)}, {{"Default", {values.front()}, {}}, {"KeyVer", {4005}, {}},
-                                           {"KeyCount", {static_cast<std::int32_t>(values.size())}, {}},
-                                           {"Key", {}, {}}}};
+    FbxNode node{"Channel",
+                 {text(name)},
+                 {{"Default", {values.front()}, {}},
+                  {"KeyVer", {4005}, {}},
+                  {"KeyCount", {static_cast<std::int32_t>(values.size())}, {}},
+                  {"Key", {}, {}}}};
     for (std::size_t k = 0; k < values.size(); ++k) {
       FbxNode& keys = node.children.back();
       keys.values.push_back(static_cast<std::int64_t>(k) * (fbx_test_second / 30));
@@ -240,10 +248,16 @@ std::vector<FbxNode> version_6_scene() {
   };
   FbxNode objects{"Objects",
                   {},
-                  {{"Model", {hips, text("Limb")}, {{"Properties60", {}, {property("Lcl Translation", 0, 90, 0)}}}},
-                   {"Model", {spine, text("Limb")}, {{"Properties60", {}, {property("Lcl Translation", 0, 20, 0)}}}}}};
+                  {{"Model",
+                    {hips, text("Limb")},
+                    {{"Properties60", {}, {property("Lcl Translation", 0, 90, 0)}}}},
+                   {"Model",
+                    {spine, text("Limb")},
+                    {{"Properties60", {}, {property("Lcl Translation", 0, 20, 0)}}}}}};
   FbxNode links{"Connections", {}, {{"Connect", {text("OO"), spine, hips}, {}}}};
-  FbxNode turns{"Channel", {text("R")}, {channel("X", {0, 10, 20}), channel("Y", {1, 2, 3}), channel("Z", {0, 0.5, 0})}};
+  FbxNode turns{"Channel",
+                {text("R")},
+                {channel("X", {0, 10, 20}), channel("Y", {1, 2, 3}), channel("Z", {0, 0.5, 0})}};
   FbxNode model{"Model", {hips}, {{"Channel", {text("Transform")}, {turns}}}};
   FbxNode takes{"Takes", {}, {{"Current", {text("walk")}, {}}, {"Take", {text("walk")}, {model}}}};
   return {{"FBXHeaderExtension", {}, {{"FBXVersion", {6100}, {}}}}, objects, links, takes};
