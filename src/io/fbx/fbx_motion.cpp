@@ -25,6 +25,14 @@ int index_in(const std::array<std::string_view, N>& names, std::string_view name
   return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
+// What an added layer holds where it adds nothing.
+Vec3 neutral(int vector) { return vector == fbx_scaling ? Vec3{1, 1, 1} : Vec3{}; }
+
+bool is_neutral(const FbxAnimatedVector& animated, int vector) {
+  return animated.curves == std::array<std::int32_t, 3>{-1, -1, -1} &&
+         animated.constant == neutral(vector);
+}
+
 class FbxMotionReader {
  public:
   FbxMotionReader(const FbxTree& tree, const FbxScene& scene)
@@ -78,8 +86,11 @@ class FbxMotionReader {
       if (vector < 0 || node == layer_of_node_.end() || model == scene_.model_of_id.end()) continue;
       const auto owner = static_cast<std::size_t>(model->second);
       const Vec3 rest = scene_.models[owner].local[static_cast<std::size_t>(vector)];
+      const bool is_added = node->second > 0 && !motion_.layers[node->second].is_override;
+      const FbxAnimatedVector animated = vector_of(link.from, is_added ? neutral(vector) : rest);
+      if (is_added && is_neutral(animated, vector)) continue;
       motion_.layers[node->second].vectors.insert_or_assign(
-          3 * owner + static_cast<std::size_t>(vector), vector_of(link.from, rest));
+          3 * owner + static_cast<std::size_t>(vector), animated);
     }
   }
 

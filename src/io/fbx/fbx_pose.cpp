@@ -146,15 +146,14 @@ Vec3 FbxPoser::layer_value(const FbxAnimatedVector& animated, std::int64_t time)
 
 void FbxPoser::evaluate(std::size_t n, FbxVector vector, std::int64_t time) {
   if (!is_animated_[3 * n + vector]) return;
-  Vec3 value;
-  bool is_first = true;
+  // The first layer replaces the value at rest; the others are mixed with what is below.
+  Vec3 value = scene_.models[rig_.nodes[n].model].local[vector];
   for (std::size_t l = 0; l < motion_.layers.size(); ++l) {
     const FbxAnimatedVector* const animated = animated_[n][vector][l];
     if (animated == nullptr) continue;
     const Vec3 layer = layer_value(*animated, time);
     value =
-        is_first ? layer : mix_layer(value, layer, motion_.layers[l], vector, rig_.nodes[n].order);
-    is_first = false;
+        l == 0 ? layer : mix_layer(value, layer, motion_.layers[l], vector, rig_.nodes[n].order);
   }
   poses_[n].local[vector] = value;
 }

@@ -115,20 +115,24 @@ class FbxRewriter {
     return translations_[(same_frames_ ? frame : 0) * document_.rig.joints.size() + joint];
   }
 
-  // The curves of a vector of a joint; null where it has none, or where nothing else could follow.
+  // The curves of a vector of a joint; null where it has none. Only those of the first layer, with
+  // nothing mixed in, hold the value itself.
   const FbxAnimatedVector* curves_of(std::size_t joint, FbxVector vector) const {
     const FbxAnimatedVector* found = nullptr;
     std::size_t layers = 0;
+    bool is_plain = true;
     for (const FbxLayer& layer : document_.motion.layers) {
       const auto entry = layer.vectors.find(3 * node(joint).model + vector);
       if (entry == layer.vectors.end()) continue;
       ++layers;
       found = &entry->second;
+      is_plain = &layer == &document_.motion.layers.front() && !layer.is_muted;
     }
-    if (layers > 1) {
+    if (layers > 1 || !is_plain) {
       throw Error(ErrorKind::usage,
-                  fmt::format("{}: {} layers move {}; merge them into one to change it",
-                              take_.source.name, layers, quote(name_of(joint))));
+                  fmt::format("{}: {} of {} layers move {}; merge the layers into one to change it",
+                              take_.source.name, layers, document_.motion.layers.size(),
+                              quote(name_of(joint))));
     }
     return found;
   }

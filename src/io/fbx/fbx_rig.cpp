@@ -166,8 +166,10 @@ class FbxRigBuilder {
       return has_curve[static_cast<std::size_t>(node.order.axes[i])];
     };
     const bool any = has_curve[0] || has_curve[1] || has_curve[2];
-    // Several layers that turn the model give angles that no single axis explains.
-    if (any && (layers > 1 || motion_.layers.size() > 1)) {
+    // Layers that are mixed give angles that no single axis explains.
+    const bool is_first = !motion_.layers.empty() && !motion_.layers.front().is_muted &&
+                          motion_.layers.front().vectors.contains(3 * node.model + fbx_rotation);
+    if (any && !(layers == 1 && is_first)) {
       node.tail = conjugate(node.post);
       return;
     }

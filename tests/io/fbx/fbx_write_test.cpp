@@ -135,7 +135,7 @@ TEST(FbxWrite, AJointThatLayersMoveIsNotChanged) {
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
     EXPECT_STREQ(error.what(),
-                 "take.fbx: 2 layers move \"Spine\"; merge them into one to change it");
+                 "take.fbx: 2 of 2 layers move \"Spine\"; merge the layers into one to change it");
   }
 }
 
