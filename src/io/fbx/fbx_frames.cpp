@@ -78,7 +78,7 @@ class FbxFrameFinder {
       ++kind.first;
       kind.second = curve;
     }
-    const FbxCurve* best = nullptr;
+    const FbxCurve* best = moving_.front();
     std::size_t most = 0;
     for (const auto& [kind, found] : kinds) {
       if (found.first < most) continue;
@@ -115,9 +115,10 @@ class FbxFrameFinder {
     const double length = static_cast<double>(span.last) - static_cast<double>(span.first);
     const double steps = std::floor(length / frames.step_ticks + grid_tolerance);
     check_count(steps + 1);
-    for (double i = 0; i <= steps; ++i) {
-      frames.times.push_back(span.first +
-                             static_cast<std::int64_t>(std::llround(i * frames.step_ticks)));
+    const auto count = static_cast<std::size_t>(steps) + 1;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double ticks = static_cast<double>(i) * frames.step_ticks;
+      frames.times.push_back(span.first + static_cast<std::int64_t>(std::llround(ticks)));
     }
   }
 
