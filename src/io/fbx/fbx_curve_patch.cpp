@@ -165,11 +165,18 @@ class FbxCurvePatcher {
     const std::uint32_t found = tree_.child(curve_.record, "KeyAttrDataFloat");
     const FbxProperty* const array =
         found == no_fbx_record ? nullptr : fbx_array(tree_, tree_.records[found]);
-    if (array != nullptr && (tree_.is_text || array->type == 'f' || array->type == 'i')) {
+    if (array != nullptr && holds_floats_as_text(*array)) {
+      replace_array(tree_.records[found], *array, 4, "0,0,4.09994609e-31,0");
+    } else if (array != nullptr && (tree_.is_text || array->type == 'f' || array->type == 'i')) {
       replace("KeyAttrDataFloat", 4,
               [&](std::size_t i) { return static_cast<std::int64_t>(data[i]); });
     }
     replace("KeyAttrRefCount", 1, [&](std::size_t) { return static_cast<std::int64_t>(keys); });
+  }
+
+  // Text of version 7.1, where later versions spell the bits.
+  bool holds_floats_as_text(const FbxProperty& array) const {
+    return tree_.is_text && tree_.text_of(array).find('.') != std::string_view::npos;
   }
 
   // Bits of a word each: 8 bytes for l, else 4.

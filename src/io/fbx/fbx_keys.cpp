@@ -53,13 +53,16 @@ FbxKeyShape shape_of(std::uint32_t flags, const float* data) {
   return shape;
 }
 
-// Slopes and weights; text files spell the bits of the floats as integers.
+// Slopes and weights; most text files spell the bits of the floats as integers.
 std::vector<float> shape_data(const FbxTree& tree, const FbxRecord& record) {
-  std::vector<float> data;
   const std::vector<double> numbers = fbx_numbers(tree, record);
+  const auto may_be_bits = [](double number) {
+    return number == std::floor(number) && std::fabs(number) < 4.3e9;
+  };
+  const bool is_bits = tree.is_text && std::all_of(numbers.begin(), numbers.end(), may_be_bits);
+  std::vector<float> data;
   data.reserve(numbers.size());
   for (const double number : numbers) {
-    const bool is_bits = tree.is_text && number == std::floor(number) && std::fabs(number) < 4.3e9;
     data.push_back(is_bits ? std::bit_cast<float>(
                                  static_cast<std::uint32_t>(static_cast<std::int64_t>(number)))
                            : static_cast<float>(number));
