@@ -254,6 +254,10 @@ class FbxTakeBuilder {
   std::vector<bool> moving_;  // by joint: its position changes in the frame of its parent
 };
 
+bool may_be_marker(const FbxModel& model) {
+  return model.kind == "Null" || model.kind == "Marker" || model.kind == "OpticalMarker";
+}
+
 Take fbx_markers(const FbxDocument& document, Take joints) {
   Take take;
   const std::size_t count = joints.joint_count(), frames = joints.frame_count();
@@ -302,7 +306,7 @@ std::vector<std::size_t> fbx_joint_curves(const FbxMotion& motion, const FbxRig&
 bool holds_fbx_markers(const FbxScene& scene, const FbxMotion& motion, const FbxRig& rig) {
   for (const std::size_t n : rig.joints) {
     const FbxRigNode& node = rig.nodes[n];
-    if (scene.models[node.model].kind != "Null" || node.parent_joint >= 0 ||
+    if (!may_be_marker(scene.models[node.model]) || node.parent_joint >= 0 ||
         !node.has_translation_curves || node.first_turn != node.end_turn)
       return false;
     for (const FbxLayer& layer : motion.layers) {
