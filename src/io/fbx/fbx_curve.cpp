@@ -179,8 +179,8 @@ bool FbxCurve::is_constant() const {
   return true;
 }
 
-double fbx_value_at(const FbxCurve& curve, std::int64_t time, double ticks_per_second,
-                    std::size_t& cursor) {
+double fbx_value_anywhere(const FbxCurve& curve, std::int64_t time, double ticks_per_second,
+                          std::size_t& cursor) {
   const std::vector<std::int64_t>& times = *curve.times;
   if (times.size() > 1 && (time < times.front() || time > times.back())) {
     const bool is_after = time > times.back();

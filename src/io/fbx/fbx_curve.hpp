@@ -47,9 +47,22 @@ struct FbxCurve {
   bool is_constant() const;
 };
 
+/// The value at any time; see `fbx_value_at`.
+double fbx_value_anywhere(const FbxCurve& curve, std::int64_t time, double ticks_per_second,
+                          std::size_t& cursor);
+
 /// The value at a time. `cursor`: 0 at first, then what the last call left; makes successive times
 /// quick. `ticks_per_second`: of the file.
-double fbx_value_at(const FbxCurve& curve, std::int64_t time, double ticks_per_second,
-                    std::size_t& cursor);
+inline double fbx_value_at(const FbxCurve& curve, std::int64_t time, double ticks_per_second,
+                           std::size_t& cursor) {
+  // Mostly the next key is asked for.
+  const std::size_t next = cursor + 1;
+  const std::vector<std::int64_t>& times = *curve.times;
+  if (next < times.size() && times[next] == time) {
+    cursor = next;
+    return curve.values[next];
+  }
+  return fbx_value_anywhere(curve, time, ticks_per_second, cursor);
+}
 
 }  // namespace kinemend

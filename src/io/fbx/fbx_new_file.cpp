@@ -397,6 +397,7 @@ class NewFbxWriter {
     constexpr std::int32_t linear_flags = 24836;
     constexpr float third_weights = std::bit_cast<float>(std::uint32_t{0x0D050D05});
     std::vector<float> values;
+    values.reserve(track.size());
     for (const Vec3& value : track) values.push_back(static_cast<float>(component(value, axis)));
     const std::int64_t id = next_id();
     file_.open("AnimationCurve").id(id).string(object_name("", "AnimCurve")).string("");

@@ -214,7 +214,7 @@ class FbxTakeBuilder {
                                        : turn.z) = s;
       product = i == each.first_turn ? turn : product * turn;
     }
-    return normalized(product);
+    return product;
   }
 
   void mark_mended() {
