@@ -130,12 +130,12 @@ IDENTITY = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]
 class Animated:
     """The nodes of a glTF file, at any time."""
 
-    def __init__(self, path):
+    def __init__(self, path, take):
         self.scene = json.load(open(path, encoding="utf-8"))
         self.folder = os.path.dirname(path)
         self.buffers = [open(os.path.join(self.folder, b["uri"]), "rb").read() for b in self.scene["buffers"]]
         self.tracks = {}
-        for animation in self.scene.get("animations", [])[:1]:
+        for animation in self.scene.get("animations", [])[take:take + 1]:
             for channel in animation["channels"]:
                 sampler = animation["samplers"][channel["sampler"]]
                 target = channel["target"]
@@ -203,9 +203,12 @@ def assimp_tries(path, folder, rate, count):
     subprocess.run(["assimp", "export", path, out, "-fgltf2"], capture_output=True, text=True)
     if not os.path.exists(out):
         return []
-    scene = Animated(out)
-    starts = sorted({times[0] for times, values in scene.tracks.values() if len(times) > 1})[:6] or [0.0]
-    return [[scene.places(start + f / rate) for f in range(count)] for start in starts]
+    tries = []
+    for take in range(max(1, len(Animated(out, 0).scene.get("animations", [])))):
+        scene = Animated(out, take)
+        starts = sorted({times[0] for times, values in scene.tracks.values() if len(times) > 1})[:6] or [0.0]
+        tries += [[scene.places(start + f / rate) for f in range(count)] for start in starts]
+    return tries
 
 
 def compare(kinemend, path):
