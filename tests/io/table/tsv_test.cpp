@@ -16,15 +16,15 @@ std::string tsv_fixture(const std::string& name) {
   return read_file(std::filesystem::path(KINEMEND_TEST_FIXTURES) / "tsv" / name);
 }
 
-TakeResult read_table(std::string bytes, ReadOptions options = {}) {
+TakeResult read_tsv(std::string bytes, ReadOptions options = {}) {
   options.format = "tsv";
   return read_take(std::move(bytes), "take.tsv", options);
 }
 
-Take read_markers(const std::string& name) { return read_table(tsv_fixture(name)).take; }
+Take tsv_markers(const std::string& name) { return read_tsv(tsv_fixture(name)).take; }
 
 TEST(TsvReader, ReadsNamesPositionsRateAndUnit) {
-  const TakeResult result = read_table(tsv_fixture("good/plain.tsv"));
+  const TakeResult result = read_tsv(tsv_fixture("good/plain.tsv"));
   EXPECT_TRUE(result.diagnostics.empty());
   const auto& clip = result.take;
   EXPECT_THAT(clip.names, ElementsAre("Wrist_L", "Hip_L"));
@@ -37,11 +37,11 @@ TEST(TsvReader, ReadsNamesPositionsRateAndUnit) {
 }
 
 TEST(TsvReader, LayoutsOfTheSameTakeReadTheSame) {
-  const Take plain = read_markers("good/plain.tsv");
+  const Take plain = tsv_markers("good/plain.tsv");
   for (const char* const name : {"crlf", "no_types", "frame_time", "labels", "trailing_tabs",
                                  "events", "external_rate", "decimal_comma", "wrong_counts"}) {
     SCOPED_TRACE(name);
-    const Take clip = read_markers(std::string("good/") + name + ".tsv");
+    const Take clip = tsv_markers(std::string("good/") + name + ".tsv");
     EXPECT_EQ(clip.names, plain.names);
     EXPECT_EQ(clip.positions, plain.positions);
     EXPECT_EQ(clip.observed, plain.observed);
@@ -51,15 +51,15 @@ TEST(TsvReader, LayoutsOfTheSameTakeReadTheSame) {
 }
 
 TEST(TsvReader, EmptyCellsOrElseZerosAreMissing) {
-  EXPECT_THAT(read_markers("good/empty_cells.tsv").observed, ElementsAre(1, 1, 1, 0, 1, 1));
-  EXPECT_EQ(read_markers("good/empty_cells.tsv").first_frame, 20);
-  EXPECT_THAT(read_markers("good/empty_cells_bare.tsv").observed, ElementsAre(1, 1, 1, 0, 1, 1));
-  EXPECT_THAT(read_markers("good/zeros.tsv").observed, ElementsAre(1, 1, 1, 0, 1, 1));
-  EXPECT_THAT(read_markers("good/never_seen.tsv").observed, ElementsAre(1, 0, 1, 0, 1, 0));
+  EXPECT_THAT(tsv_markers("good/empty_cells.tsv").observed, ElementsAre(1, 1, 1, 0, 1, 1));
+  EXPECT_EQ(tsv_markers("good/empty_cells.tsv").first_frame, 20);
+  EXPECT_THAT(tsv_markers("good/empty_cells_bare.tsv").observed, ElementsAre(1, 1, 1, 0, 1, 1));
+  EXPECT_THAT(tsv_markers("good/zeros.tsv").observed, ElementsAre(1, 1, 1, 0, 1, 1));
+  EXPECT_THAT(tsv_markers("good/never_seen.tsv").observed, ElementsAre(1, 0, 1, 0, 1, 0));
 }
 
 TEST(TsvReader, EventsAreRead) {
-  const Take clip = read_markers("good/events.tsv");
+  const Take clip = tsv_markers("good/events.tsv");
   ASSERT_EQ(clip.events.size(), 1u);
   EXPECT_EQ(clip.events[0].label, "Foot strike");
   EXPECT_EQ(clip.events[0].time_s, 0.00833);
@@ -75,7 +75,7 @@ TEST(TsvReader, RepairsHaveNames) {
       {"wrong_counts", "frame_count_mismatch marker_count_mismatch"},
       {"unnamed", "marker_unnamed marker_count_mismatch"}};
   for (const auto& [name, repairs] : expected) {
-    const TakeResult result = read_table(tsv_fixture("good/" + name + ".tsv"));
+    const TakeResult result = read_tsv(tsv_fixture("good/" + name + ".tsv"));
     std::string found;
     for (const Diagnostic& entry : result.diagnostics.entries())
       found += (found.empty() ? "" : " ") + entry.name;
@@ -98,7 +98,7 @@ TEST(TsvReader, TablesOfOtherThingsAreRefusedByName) {
       {"text_in_row", "take.tsv:13: expected a number, found \"7x\""}};
   for (const auto& [name, message] : expected) {
     const std::string table = tsv_fixture(std::string("bad/") + name + ".tsv");
-    EXPECT_EQ(message_of([&] { read_table(table); }, ErrorKind::unreadable_input), message);
+    EXPECT_EQ(message_of([&] { read_tsv(table); }, ErrorKind::unreadable_input), message);
   }
 }
 
@@ -118,13 +118,13 @@ TEST(TsvWriter, EveryFixtureComesBackToTheByte) {
   for (const auto& path : fixture_paths("tsv")) {
     if (path.parent_path().filename() != "good") continue;
     const std::string bytes = read_file(path);
-    EXPECT_EQ(write_take(read_table(bytes).take, "tsv"), bytes) << path;
+    EXPECT_EQ(write_take(read_tsv(bytes).take, "tsv"), bytes) << path;
   }
 }
 
 TEST(TsvWriter, OnlyChangedSamplesGetNewDigits) {
   const std::string bytes = tsv_fixture("good/labels.tsv");
-  Take clip = read_markers("good/labels.tsv");
+  Take clip = tsv_markers("good/labels.tsv");
   clip.position(1, 1).y = 165;
   std::string expected = bytes;
   const std::size_t at = expected.find("164.822");
@@ -134,9 +134,9 @@ TEST(TsvWriter, OnlyChangedSamplesGetNewDigits) {
 
 // Once a cell is empty, zeros say no longer that a sample is missing.
 TEST(TsvWriter, MissingSamplesStayMissingBesideNewOnes) {
-  Take clip = read_markers("good/zeros.tsv");
+  Take clip = tsv_markers("good/zeros.tsv");
   clip.observed[0] = 0;
-  const Take again = read_table(write_take(clip, "tsv")).take;
+  const Take again = read_tsv(write_take(clip, "tsv")).take;
   EXPECT_EQ(again.observed, clip.observed);
 }
 
@@ -149,7 +149,7 @@ TEST(TsvWriter, TakesOfOtherFormatsReadBack) {
     clip.positions[i] = {0.5 * static_cast<double>(i), -1.25, 0.0625};
     clip.observed[i] = 1;
   }
-  const TakeResult result = read_table(write_take(clip, "tsv"));
+  const TakeResult result = read_tsv(write_take(clip, "tsv"));
   EXPECT_TRUE(result.diagnostics.empty());
   const auto& again = result.take;
   EXPECT_EQ(again.names, clip.names);
@@ -174,10 +174,10 @@ TEST(TsvWriter, ARowWithoutAnySampleStaysAFrame) {
   const std::string text =
       "NO_OF_FRAMES\t3\nNO_OF_MARKERS\t1\nFREQUENCY\t100\nMARKER_NAMES\tA\n"
       "1\t2\t3\n4\t5\t6\n7\t8\t9\n";
-  auto clip = read_table(text).take;
+  auto clip = read_tsv(text).take;
   ASSERT_EQ(clip.frame_count(), 3u);
   clip.observed[1] = 0;
-  const auto again = read_table(write_take(clip, "tsv")).take;
+  const auto again = read_tsv(write_take(clip, "tsv")).take;
   EXPECT_THAT(again.observed, ElementsAre(1, 0, 1));
   EXPECT_EQ(again.position(2, 0), (Vec3{7, 8, 9}));
 }
@@ -188,7 +188,7 @@ TEST(TsvWriter, NamesWithQuotesBlanksAndTabsReadBack) {
   for (std::size_t m = 0; m < 4; ++m) clip.positions[m] = {1, 2, static_cast<double>(m)};
   clip.observed.assign(4, 1);
   const std::string written = write_take(clip, "tsv");
-  const TakeResult result = read_table(written);
+  const TakeResult result = read_tsv(written);
   EXPECT_TRUE(result.diagnostics.empty());
   EXPECT_EQ(result.take.names, clip.names);
   EXPECT_EQ(result.take.positions, clip.positions);
