@@ -55,9 +55,9 @@ std::string gltf_data_in_text(const GltfFile& file, std::size_t buffer) {
     const bool is_escaped = quoted.find('\\') != quoted.npos;
     const std::string plain =
         is_escaped ? GltfJson::parse(quoted, nullptr, false).get<std::string>() : std::string();
-    auto data =
-        read_data_uri(is_escaped ? std::string_view(plain) : quoted.substr(1, quoted.size() - 2));
-    if (data) return std::move(data->bytes);
+    auto data = bytes_of_data_uri(is_escaped ? std::string_view(plain)
+                                             : quoted.substr(1, quoted.size() - 2));
+    if (data) return std::move(*data);
   }
   throw gltf_error(file, "buffers", buffer, "its data are not base64");
 }

@@ -84,13 +84,13 @@ bool is_inside_folder(std::string_view path) {
 
 bool is_data_uri(std::string_view uri) { return uri.starts_with("data:"); }
 
-std::optional<DataUri> read_data_uri(std::string_view uri) {
+std::optional<std::string> bytes_of_data_uri(std::string_view uri) {
   constexpr std::string_view mark = ";base64,";
   const std::size_t comma = uri.find(',');
   if (comma == uri.npos || !uri.substr(0, comma + 1).ends_with(mark)) return std::nullopt;
-  DataUri data{uri.substr(0, comma + 1), {}};
-  if (!decode_base64(uri.substr(comma + 1), data.bytes)) return std::nullopt;
-  return data;
+  std::string bytes;
+  if (!decode_base64(uri.substr(comma + 1), bytes)) return std::nullopt;
+  return bytes;
 }
 
 std::string base64_of(std::string_view bytes) {
