@@ -1,3 +1,5 @@
+// Example-based denoising: products of matrices, bases of 2,000 frames x 62 channels at 30 Hz
+// (window 20), and takes of 10 s and more cleaned with them.
 #include <benchmark/benchmark.h>
 
 #include <Spectra/MatOp/DenseSymMatProd.h>
@@ -17,8 +19,6 @@
 #include "nn/gemm.hpp"
 #include "noisy_walk.hpp"
 
-// Example-based denoising: products of matrices, bases of 2,000 frames x 62 channels at 30 Hz
-// (window 20), and takes of 10 s and more cleaned with them.
 namespace {
 
 using kinemend::PoseMatrix;

@@ -1,3 +1,4 @@
+// Speed of finding contacts and cleaning feet in takes of 31 joints at 120 Hz whose root wanders.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -5,8 +6,6 @@
 #include "kinemend/experimental/synth.hpp"
 #include "kinemend/feet.hpp"
 
-// Feet of a take of 31 joints at 120 Hz whose root wanders: ms is the figure, 5,000 frames the
-// take.
 namespace {
 
 kinemend::Take sliding_walk(std::size_t frames) {

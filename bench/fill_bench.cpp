@@ -1,3 +1,5 @@
+// Filling all gaps of a take of 41 markers at 120 Hz: 60 gaps of 10 to 200 frames in a take of
+// 4,500 frames, and as many a second in longer ones. ms is the figure.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -11,8 +13,6 @@
 #include "kinemend/fill.hpp"
 #include "kinemend/gaps.hpp"
 
-// Filling all gaps of a take of 41 markers at 120 Hz: 60 gaps of 10 to 200 frames in a take of
-// 4,500 frames, and as many a second in longer ones. ms is the figure.
 namespace {
 
 using kinemend::Vec3;

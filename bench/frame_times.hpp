@@ -1,3 +1,4 @@
+// Measures the processor time of single frames, for benchmarks of live cleaning.
 #pragma once
 
 #include <benchmark/benchmark.h>

@@ -1,3 +1,4 @@
+// Takes for the benchmarks of learned methods.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +7,6 @@
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/experimental/synth.hpp"
 
-// Takes for the benchmarks of learned methods.
 namespace kinemend::bench {
 
 inline Take walk(std::uint64_t seed, double rate_hz, double duration_s) {

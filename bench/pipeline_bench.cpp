@@ -1,3 +1,5 @@
+// A take of 31 joints and 10,000 frames at 120 Hz with one degree of noise, cleaned as a whole; and
+// the same skeleton live. The first argument of a cleaning benchmark is the number of threads.
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 
@@ -11,8 +13,6 @@
 #include "kinemend/methods.hpp"
 #include "kinemend/stream.hpp"
 
-// A take of 31 joints and 10,000 frames at 120 Hz with one degree of noise, cleaned as a whole; and
-// the same skeleton live. The first argument of a cleaning benchmark is the number of threads.
 namespace {
 
 using namespace kinemend;

@@ -1,3 +1,5 @@
+// The method `recurrent`: the EBF of Mall et al. at the paper's size, and LibTorch's time with the
+// same weights where it is.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -12,8 +14,6 @@
 #include "sequence_network.hpp"
 #endif
 
-// The method `recurrent`: the EBF of Mall et al. at the paper's size, and LibTorch's time with the
-// same weights where it is.
 namespace {
 
 // 10 s of the paper's 126 channels.

@@ -1,3 +1,4 @@
+// Filters on takes of 96 channels and 10,000 frames at 120 Hz; frames/s is the figure.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -7,7 +8,6 @@
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/experimental/signal.hpp"
 
-// Filters on takes of 96 channels and 10,000 frames at 120 Hz; frames/s is the figure.
 namespace {
 
 using kinemend::PoseMatrix;

@@ -1,3 +1,5 @@
+// Dictionaries and codes (bench/sklearn_sparse.py has the same jobs), and the method `sparse` on
+// takes with the model that ships.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -19,8 +21,6 @@
 #include "learned/sparse/sparse_prior.hpp"
 #include "noisy_walk.hpp"
 
-// Dictionaries and codes (bench/sklearn_sparse.py has the same jobs), and the method `sparse` on
-// takes with the model that ships.
 namespace {
 
 using kinemend::Random;

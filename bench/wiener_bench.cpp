@@ -1,8 +1,9 @@
+// The method `wiener`: takes cleaned with the model that ships, as a whole and without what `auto`
+// does beforehand, and training.
 #include <benchmark/benchmark.h>
 
 #include <cstdint>
 #include <memory>
-#include <variant>
 #include <vector>
 
 #include "kinemend/cleaner.hpp"
@@ -11,8 +12,6 @@
 #include "kinemend/methods.hpp"
 #include "noisy_walk.hpp"
 
-// The method `wiener`: takes cleaned with the model that ships, as a whole and without what `auto`
-// does beforehand, and training.
 namespace {
 
 using kinemend::Take;

@@ -1,3 +1,4 @@
+// Walks folders, reads lists, and keeps the takes that belong to a shard.
 #include "batch_list.hpp"
 
 #include <fmt/format.h>

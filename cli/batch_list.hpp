@@ -1,3 +1,4 @@
+// The takes of a batch, and where their results go.
 #pragma once
 
 #include <cstdint>
@@ -5,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-// The takes of a batch, and where their results go.
 namespace kinemend::cli {
 
 /// One file of a batch.

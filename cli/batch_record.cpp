@@ -1,3 +1,5 @@
+// Reads and writes the records, locks takes against other processes, and removes temporary files of
+// processes that ended.
 #include "batch_record.hpp"
 
 #include <fcntl.h>

@@ -1,3 +1,5 @@
+// Remembers what a batch did with each take, so that it can be resumed: one small file per take
+// below `.kinemend/` in the output folder, written after the result.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +10,6 @@
 
 #include "kinemend/experimental/batch_rows.hpp"
 
-// What a batch remembers of each take, so that it can be resumed: one small file per take below
-// `.kinemend/` in the output folder, written after the result.
 namespace kinemend::cli {
 
 /// Everything that a result depends on.

@@ -1,3 +1,4 @@
+// Appends rows under a lock, merges them with those of earlier runs, and adds up the records.
 #include "batch_summary.hpp"
 
 #include <fcntl.h>

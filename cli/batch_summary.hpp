@@ -1,3 +1,4 @@
+// Writes the rows of a batch, and sums over all its takes.
 #pragma once
 
 #include <string>

@@ -155,6 +155,9 @@ Command clean_command() {
   command.flags = clean_output_flags();
   append(command.flags, cleaning_flags());
   command.flags.push_back(contacts_flag());
+  command.flags.push_back(switch_flag("all_takes", "Input",
+                                      "clean every take of a file that holds several",
+                                      "Of FBX and glTF, in the format of the input."));
   command.flags.push_back(jobs_flag());
   command.group_heading = "With --method %";
   command.groups = method_groups();
@@ -168,6 +171,7 @@ Command clean_command() {
        "part of the body, part of the time"},
       {"kinemend clean walk.bvh --feet auto", "also stop standing feet from sliding"},
       {"kinemend clean trial.c3d --fix-swaps --fill auto", "markers: labels, noise, then gaps"},
+      {"kinemend clean hero.fbx --all-takes", "a character with several takes, in place"},
       {"kinemend clean - < in.bvh > out.bvh", "in a pipeline"},
       {"kinemend clean --preset biomech --print-config > lab.toml",
        "a settings file to keep and edit"}};

@@ -1,3 +1,5 @@
+// Defines each flag of cleaning: its choices, its help, its letter, and whether a configuration
+// file may hold it.
 #include "clean_flags.hpp"
 
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
+// The flags of `clean`, in the parts that `batch` shares.
 #pragma once
 
 #include <vector>
 
 #include "command.hpp"
 
-// The flags of `clean`, in the parts that `batch` shares.
 namespace kinemend::cli {
 
 /// Where results and reports of single takes go.

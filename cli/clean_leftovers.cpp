@@ -1,3 +1,4 @@
+// Words the findings of a check and the noise of a report, each with its reason and what to try.
 #include "clean_leftovers.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Explains what cleaning left in a take: faults that it does not repair, noise that it kept, and
+// flags without effect.
 #pragma once
 
 #include <string>

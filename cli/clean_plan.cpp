@@ -1,3 +1,4 @@
+// Merges the settings of all sources, checks them, and plans the output of each take.
 #include "clean_plan.hpp"
 
 #include <fmt/format.h>
@@ -253,6 +254,11 @@ CleanPlan make_clean_plan(const Arguments& arguments) {
   }
   plan.reports = report_files(arguments, plan.jobs.size());
   if (plan.reports.with_page()) plan.page = page_settings(arguments);
+  plan.all_takes = arguments.flag("all_takes");
+  if (plan.all_takes && (plan.page || arguments.given("take"))) {
+    throw Error(ErrorKind::usage,
+                "clean: --all-takes cannot be combined with --take, nor with a page of one take");
+  }
   plan.dry_run = arguments.flag("dry_run");
   plan.json = arguments.flag("json");
   plan.verbose = arguments.flag("verbose");

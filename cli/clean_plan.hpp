@@ -1,3 +1,4 @@
+// The plan of a `clean` or `batch` run: which takes, which method and which settings.
 #pragma once
 
 #include <memory>
@@ -37,6 +38,7 @@ struct CleanPlan {
   /// Of --gaps and --contacts: bytes and name. Names and frames are those of a take.
   std::optional<std::pair<std::string, std::string>> gaps, contacts;
   bool fix_swaps = false;
+  bool all_takes = false;              ///< of `clean`: every take of a file that holds several
   std::vector<std::string> asked{};    ///< of `clean`: flags that the command line itself gives
   std::string folder;                  ///< --output-dir; made where it does not exist
   ReportFiles reports{};               ///< of `clean`

@@ -1,3 +1,4 @@
+// Takes one file through all steps, from reading to reports, and turns every error into an outcome.
 #include "clean_take.hpp"
 
 #include <fmt/format.h>
@@ -115,15 +116,18 @@ auto as_stage(const TakeProgress& progress, std::string_view name, const Work& w
   return work(tell);
 }
 
-// What is left of a take: words.
+// What is left of a take: words. A file may hold several takes.
 void tell(const Report& report, const CleanJob& job, const CleanPlan& plan, Outcome& outcome) {
   TextOptions options;
   options.details = plan.jobs.size() == 1 || plan.verbose;
   options.all = plan.verbose;
   options.colours = Colours::of_out().on();
-  if (!plan.quiet) outcome.text = to_text(report, options);
-  if (plan.json) outcome.json = to_json(report, false);
-  if (plan.reports.with_json()) outcome.report = to_json(report);
+  const auto add = [](std::string& entries, const std::string& entry) {
+    entries += (entries.empty() ? "" : ",\n") + entry;
+  };
+  if (!plan.quiet) outcome.text += to_text(report, options);
+  if (plan.json) add(outcome.json, to_json(report, false));
+  if (plan.reports.with_json()) add(outcome.report, to_json(report));
   if (!job.row_name.empty()) outcome.row = cleaned_row(job.row_name, report, outcome.warnings);
 }
 
@@ -134,16 +138,10 @@ std::string picture_of(const Take& take) {
   return film_strip_svg(take, nullptr, {0, take.frame_count() - 1}, poses);
 }
 
-void clean_job(const CleanJob& job, const CleanPlan& plan, const TakeProgress& progress,
-               Outcome& outcome) {
+// Cleans what was read, in place, and tells of it. Returns the format to write.
+std::string clean_one(TakeResult& read, const CleanJob& job, const CleanPlan& plan,
+                      const TakeProgress& progress, Outcome& outcome) {
   const std::string name = input_name(job.input);
-  refuse_folder(job.input);
-  if (!plan.dry_run) check_free(job.output, plan.force || job.may_replace);
-  TakeResult read = as_stage(progress, "reading", [&](const auto& tell) {
-    ReadOptions options = plan.reading;
-    if (progress) options.progress = tell;
-    return read_take(fs::path(job.input), options);
-  });
   for (const Diagnostic& entry : read.diagnostics.entries())
     outcome.warnings.push_back(diagnostic_line(read.take.source, entry));
   const std::string format = format_for(job.output, read.take.source);
@@ -162,13 +160,49 @@ void clean_job(const CleanJob& job, const CleanPlan& plan, const TakeProgress& p
     outcome.warnings.push_back(fmt::format("{}: {}", name, warning));
   for (std::string& line : loss_lines(name, read.take, format, plan.strict))
     outcome.warnings.push_back(std::move(line));
-  if (!plan.dry_run)
-    as_stage(progress, "writing", [&](const auto&) { write_result(job, read.take, format, plan); });
   Report report{facts_of(read.take, job.input, std::move(read.diagnostics)), std::move(cleaned)};
   if (!plan.dry_run) report.take.output = job.output;
   tell(report, job, plan, outcome);
   if (plan.page) outcome.page = report_page(report, *before, &read.take, *plan.page);
   if (plan.page && !job.row_name.empty()) outcome.picture = picture_of(read.take);
+  return format;
+}
+
+// The takes of the file that are still to be cleaned after the one that was read first.
+std::vector<std::string> other_takes(const SourceInfo& source, const CleanPlan& plan) {
+  std::vector<std::string> names;
+  if (!plan.all_takes) return names;
+  names = source.animations;
+  std::erase(names, source.animation);
+  return names;
+}
+
+void check_keeps_format(const CleanJob& job, const SourceInfo& source) {
+  if (format_for(job.output, source) == source.format) return;
+  throw Error(ErrorKind::usage, fmt::format("{}: --all-takes writes the format of the input, {}",
+                                            input_name(job.input), source.format));
+}
+
+void clean_job(const CleanJob& job, const CleanPlan& plan, const TakeProgress& progress,
+               Outcome& outcome) {
+  refuse_folder(job.input);
+  if (!plan.dry_run) check_free(job.output, plan.force || job.may_replace);
+  ReadOptions options = plan.reading;
+  TakeResult read = as_stage(progress, "reading", [&](const auto& tell) {
+    if (progress) options.progress = tell;
+    return read_take(fs::path(job.input), options);
+  });
+  options.progress = {};
+  const std::vector<std::string> others = other_takes(read.take.source, plan);
+  if (!others.empty()) check_keeps_format(job, read.take.source);
+  std::string format = clean_one(read, job, plan, progress, outcome);
+  for (const std::string& other : others) {
+    options.animation = other;
+    read = read_take(write_take(read.take, format), read.take.source.name, options);
+    clean_one(read, job, plan, progress, outcome);
+  }
+  if (!plan.dry_run)
+    as_stage(progress, "writing", [&](const auto&) { write_result(job, read.take, format, plan); });
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+// Cleans one take of a plan and returns only text, so that a batch does not grow in memory.
 #pragma once
 
 #include <functional>

@@ -1,3 +1,4 @@
+// Lists all commands, builds flags of each type, and gives typed access to parsed arguments.
 #include "command.hpp"
 
 #include <fmt/format.h>

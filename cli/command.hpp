@@ -1,3 +1,5 @@
+// The tables from which parser, help, manual page, shell completion and configuration files are
+// made.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +10,6 @@
 
 #include "kinemend/options.hpp"
 
-// The tables from which parser, help, manual page, shell completion and configuration files are
-// made.
 namespace kinemend::cli {
 
 /// How often a flag takes a value.

@@ -1,3 +1,4 @@
+// Splits the words with CLI11, and turns them into values by the tables of flags.
 #include "command_line.hpp"
 
 #include <fmt/format.h>

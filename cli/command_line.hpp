@@ -1,3 +1,4 @@
+// Parses command lines by the tables of commands and flags.
 #pragma once
 
 #include <string>

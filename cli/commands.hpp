@@ -1,8 +1,8 @@
+// Each command's file defines its entry in the table of commands; `command.cpp` lists them.
 #pragma once
 
 #include "command.hpp"
 
-// Each command's file defines its entry in the table of commands; `command.cpp` lists them.
 namespace kinemend::cli {
 
 Command clean_command();

@@ -1,3 +1,4 @@
+// Makes the page of a comparison, for `compare` and for `view`.
 #pragma once
 
 #include <string>

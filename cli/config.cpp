@@ -1,3 +1,4 @@
+// Reads TOML with line numbers for errors, and writes settings back as commented TOML.
 #include "config.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Settings of `clean` from presets, configuration files and the command line. Later ones override.
 #pragma once
 
 #include <map>
@@ -8,7 +9,6 @@
 
 #include "command.hpp"
 
-// Settings of `clean` from presets, configuration files and the command line. Later ones override.
 namespace kinemend::cli {
 
 /// The settings of one source; those that it does not set are absent.

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <variant>
 #include <vector>
 
 #include "commands.hpp"

@@ -1,3 +1,4 @@
+// Loads gaps, plan and models, fills the take in place, and reports what was filled and refused.
 #include "fill_take.hpp"
 
 #include <fmt/format.h>

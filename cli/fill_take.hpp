@@ -1,3 +1,4 @@
+// Fills the gaps of one take as the command line asks, for `fill` and for `view`.
 #pragma once
 
 #include <optional>

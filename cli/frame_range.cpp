@@ -1,3 +1,4 @@
+// Parses both ends of a range and converts seconds and frame numbers into frames of a take.
 #include "frame_range.hpp"
 
 #include <fmt/format.h>

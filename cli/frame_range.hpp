@@ -1,3 +1,4 @@
+// Ranges of frames or seconds, as the flag `--range` gives them.
 #pragma once
 
 #include <cstddef>

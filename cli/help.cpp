@@ -1,3 +1,4 @@
+// Lays out the flags, groups of options, exit codes and examples of each command as text.
 #include "help.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// The help texts of the program and its commands, from the tables of flags.
 #pragma once
 
 #include <string>

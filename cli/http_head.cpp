@@ -1,3 +1,4 @@
+// Reads a head line by line and rejects what two readers could understand differently.
 #include "http_head.hpp"
 
 #include <algorithm>

@@ -1,11 +1,11 @@
+// The head of an HTTP/1.1 request: its first line and its headers. Only what a page of the program
+// sends is accepted: everything else is refused before a byte of the body is read.
 #pragma once
 
 #include <cstddef>
 #include <string>
 #include <string_view>
 
-// The head of an HTTP/1.1 request: its first line and its headers. Only what a page of the program
-// sends is accepted: everything else is refused before a byte of the body is read.
 namespace kinemend::cli {
 
 namespace http {

@@ -1,3 +1,5 @@
+// Accepts connections, gives each a thread with deadlines, and closes the one that has waited
+// longest when there are too many.
 #include "http_server.hpp"
 
 #include <arpa/inet.h>

@@ -1,3 +1,5 @@
+// A small HTTP/1.1 server on 127.0.0.1 for pages of the program; it bounds what any client can make
+// it store and how long it waits.
 #pragma once
 
 #include <chrono>
@@ -8,8 +10,6 @@
 
 #include "http_head.hpp"
 
-// A small HTTP/1.1 server on 127.0.0.1 for pages of the program. What a client can make it keep and
-// how long it waits for a client are bounded, whoever the client is.
 namespace kinemend::cli {
 
 struct HttpLimits {

@@ -1,3 +1,4 @@
+// Converts option values, options and repairs to JSON.
 #include "json.hpp"
 
 #include <cmath>

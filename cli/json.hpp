@@ -1,3 +1,4 @@
+// The JSON that commands print: its text, and the values of options and repairs in it.
 #pragma once
 
 #include <nlohmann/json.hpp>

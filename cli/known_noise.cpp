@@ -1,3 +1,4 @@
+// Finds the noise of the first take in a report of `clean` or `check`.
 #include "known_noise.hpp"
 
 #include <fmt/format.h>

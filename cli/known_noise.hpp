@@ -1,3 +1,4 @@
+// Reads what the flag `--noise` says of the noise of a take.
 #pragma once
 
 #include <optional>

@@ -1,3 +1,4 @@
+// Waits for input, output, silence and signals with poll, and feeds the session as bytes arrive.
 #include "live_loop.hpp"
 
 #include <fcntl.h>

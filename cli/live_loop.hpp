@@ -1,3 +1,4 @@
+// Runs a live session between its source of frames and its output.
 #pragma once
 
 #include <cstddef>

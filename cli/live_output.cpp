@@ -1,3 +1,5 @@
+// Queues frames for the client, drops the oldest when it does not read, reconnects, and counts
+// latencies.
 #include "live_output.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Sends the cleaned frames of a stream to standard output or a client, and measures their latency.
 #pragma once
 
 #include <chrono>

@@ -1,3 +1,4 @@
+// Resolves addresses, and opens, connects and accepts non-blocking sockets.
 #include "live_sockets.hpp"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// Sockets of `kinemend stream`: plain POSIX, non-blocking.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-// Sockets of `kinemend stream`: plain POSIX, non-blocking.
 namespace kinemend::cli {
 
 /// Closes its descriptor on destruction.

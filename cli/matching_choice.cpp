@@ -1,3 +1,4 @@
+// Compares names exactly first and then without regard to case.
 #include "matching_choice.hpp"
 
 #include <algorithm>

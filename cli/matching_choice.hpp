@@ -1,3 +1,4 @@
+// Finds the choice that a typed name means, in any case.
 #pragma once
 
 #include <string>

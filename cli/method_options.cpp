@@ -1,3 +1,5 @@
+// Makes groups of flags from the table of methods, and refuses options that belong to another
+// group.
 #include "method_options.hpp"
 
 #include <fmt/format.h>

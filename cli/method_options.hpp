@@ -1,3 +1,4 @@
+// The options of cleaning methods as flags of a command.
 #pragma once
 
 #include <map>

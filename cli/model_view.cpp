@@ -1,3 +1,4 @@
+// Gathers the card and the facts of a model and escapes them for each form.
 #include "model_view.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Learned models as text, JSON and Markdown.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -6,7 +7,6 @@
 
 #include "kinemend/experimental/model.hpp"
 
-// Learned models as text, JSON and Markdown.
 namespace kinemend::cli {
 
 /// A model and the file it came from.

@@ -1,10 +1,10 @@
+// Tells pages from JSON by their endings, checks them before work begins, and writes them.
 #include "page_report.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <string_view>
-#include <variant>
 
 #include "kinemend/error.hpp"
 #include "takes.hpp"

@@ -1,3 +1,4 @@
+// The reports of a run: each `--report FILE.html` is a page for a browser, and any other is JSON.
 #pragma once
 
 #include <string>
@@ -10,7 +11,6 @@
 #include "kinemend/report.hpp"
 #include "run_files.hpp"
 
-// Reports that are pages for a browser: --report FILE.html.
 namespace kinemend::cli {
 
 /// Whether a report of that name is a page and no JSON.

@@ -1,3 +1,5 @@
+// Identifies files by device and number, follows symlinks, and compares every output with every
+// other file.
 #include "run_files.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// The files of one run, so that no output replaces what the run needs.
 #pragma once
 
 #include <string>
@@ -5,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-// The files of one run, so that no output replaces what the run needs.
 namespace kinemend::cli {
 
 /// All files that a run reads and writes. Each command that writes names them here before it works:

@@ -1,3 +1,5 @@
+// Chooses output names by the format of the input, writes takes without overwriting, and words
+// warnings, limits and shared flags.
 #include "takes.hpp"
 
 #include <fmt/format.h>
@@ -305,13 +307,16 @@ std::vector<Flag> reading_flags(std::string strict_help) {
                          "frame rate of a file that does not state it",
                          "Ignored for files that state their rate.");
   fps.has_default = false;
-  return {from_flag(), asf, fps, strict_flag(std::move(strict_help))};
+  Flag take = text_flag("take", "NAME", "Input", "which take of a file that holds several",
+                        "Of FBX and glTF; kinemend info lists them. Without it, the active one.");
+  return {from_flag(), take, asf, fps, strict_flag(std::move(strict_help))};
 }
 
 ReadOptions read_options(const Arguments& arguments) {
   ReadOptions options;
   options.format = arguments.text("from");
   options.strict = arguments.flag("strict");
+  options.animation = arguments.text("take");
   if (arguments.given("asf")) options.skeleton = arguments.text("asf");
   if (arguments.given("from_fps")) options.frame_rate_hz = arguments.number("from_fps");
   return options;

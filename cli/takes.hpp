@@ -1,3 +1,4 @@
+// Names, checks, messages and flags that the commands which read and write takes share.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +14,6 @@
 #include "kinemend/report.hpp"
 #include "kinemend/skeleton.hpp"
 
-// What the commands that read and write takes share.
 namespace kinemend::cli {
 
 /// "standard input" for "-".

@@ -1,3 +1,5 @@
+// Writes to the standard streams, draws progress where they are terminals, and remembers whether
+// standard output was closed.
 #include "terminal.hpp"
 
 #include <fcntl.h>

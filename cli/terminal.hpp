@@ -1,3 +1,4 @@
+// Messages, colours and progress on the standard streams.
 #pragma once
 
 #include <chrono>

@@ -1,3 +1,4 @@
+// The topics of `kinemend help` that concern several commands.
 #pragma once
 
 #include <string>

@@ -16,7 +16,6 @@
 #include <memory>
 #include <optional>
 #include <system_error>
-#include <variant>
 
 #include "batch_list.hpp"
 #include "clean_flags.hpp"

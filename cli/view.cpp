@@ -8,7 +8,6 @@
 #include <csignal>
 #include <filesystem>
 #include <set>
-#include <variant>
 #include <vector>
 
 #include "commands.hpp"

@@ -1,3 +1,4 @@
+// Compares host, origin, token and content type of a request, and draws tokens.
 #include "view_access.hpp"
 
 #include <fmt/format.h>

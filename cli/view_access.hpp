@@ -1,9 +1,9 @@
+// Decides which requests `view` answers: those of its own page, which has the printed address.
 #pragma once
 
 #include <string>
 #include <string_view>
 
-// Decides which requests `view` answers: those of its own page, which has the printed address.
 namespace kinemend::cli {
 
 /// The parts of a request's head that the decision needs.

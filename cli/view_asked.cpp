@@ -1,3 +1,4 @@
+// Parses the JSON of a request and refuses members of a wrong type.
 #include "view_asked.hpp"
 
 #include <fmt/format.h>

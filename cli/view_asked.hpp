@@ -1,3 +1,4 @@
+// Reads from the bytes of a request what the page of `view` asks for.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +8,6 @@
 #include <variant>
 #include <vector>
 
-// What the page of `view` asks for, out of the bytes of a request.
 namespace kinemend::cli {
 
 struct AskedFlag {

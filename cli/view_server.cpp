@@ -1,3 +1,4 @@
+// Runs the HTTP server and turns SIGINT and SIGTERM into an orderly end.
 #include "view_server.hpp"
 
 #include <fcntl.h>

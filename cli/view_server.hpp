@@ -1,3 +1,4 @@
+// The server of `view`: it decides who may ask and when it ends, and the caller answers.
 #pragma once
 
 #include <functional>
@@ -6,7 +7,6 @@
 #include "http_server.hpp"
 #include "view_access.hpp"
 
-// The server of `view`: who may ask, and when it ends. What is answered, the caller says.
 namespace kinemend::cli {
 
 /// Answers what `ViewAccess` lets through. Called from several threads.

@@ -1,3 +1,5 @@
+// Turns requests into command lines, runs them in turn, and answers with pages, curves, progress or
+// saved files.
 #include "view_session.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Answers the page of `view`: runs other commands on one take, with the code that the command line
+// uses.
 #pragma once
 
 #include <mutex>
@@ -13,8 +15,6 @@
 #include "view_asked.hpp"
 #include "view_turns.hpp"
 
-// Answers the page of `view`: runs other commands on one take, with the code that the command line
-// uses.
 namespace kinemend::cli {
 
 /// The files that a session reads and writes. A take is saved in the folder of `cleaned` or

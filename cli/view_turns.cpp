@@ -1,3 +1,4 @@
+// Counts the requests of each tab; a run whose count is no longer the latest stops.
 #include "view_turns.hpp"
 
 #include "kinemend/error.hpp"

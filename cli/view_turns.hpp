@@ -1,3 +1,4 @@
+// Keeps track of the latest run of each browser tab: a newer run stops the one before it.
 #pragma once
 
 #include <atomic>
@@ -8,7 +9,6 @@
 #include <mutex>
 #include <string>
 
-// Keeps track of the latest run of each browser tab: a newer run stops the one before it.
 namespace kinemend::cli {
 
 /// A run cleans or fills the take; curves compare the methods over one gap of it.

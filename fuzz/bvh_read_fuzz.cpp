@@ -1,3 +1,4 @@
+// Reads any bytes as BVH and checks the law of readers.
 #include "read_law.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

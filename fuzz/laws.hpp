@@ -1,3 +1,4 @@
+// Checks that every fuzz target makes: a law holds, and a refusal is one line that names the file.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +8,6 @@
 #include <string_view>
 
 #include "kinemend/error.hpp"
-
-// What every fuzz target asks for.
 
 /// Ends the program where a law is broken, so that libFuzzer keeps the input.
 inline void check(bool holds) {

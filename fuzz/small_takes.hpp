@@ -1,3 +1,4 @@
+// Takes of a few frames, for fuzz targets that read a file beside a take.
 #pragma once
 
 #include <string>
@@ -5,8 +6,6 @@
 
 #include "kinemend/io.hpp"
 #include "kinemend/take.hpp"
-
-// Takes of a few frames, for what is read beside a take.
 
 /// Two legs and a spine, standing and walking on the spot, 24 frames at 60 Hz.
 inline kinemend::Take small_clip() {

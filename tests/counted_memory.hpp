@@ -1,10 +1,10 @@
+// Bytes on the heap, for laws about memory. `counting_allocation.hpp` counts them in the programs
+// that include it once; they stay zero where a sanitizer counts itself.
 #pragma once
 
 #include <atomic>
 #include <cstddef>
 
-/// Bytes on the heap, for laws about memory. `counting_allocation.hpp` counts them in the programs
-/// that include it once; they stay zero where a sanitizer counts itself.
 namespace kinemend::test {
 
 inline std::atomic<std::size_t> memory_now{0}, memory_peak{0};

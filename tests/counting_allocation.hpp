@@ -1,7 +1,6 @@
-#pragma once
-
 // Replaces the allocation functions of the C library, on which all others stand, by ones that
 // count: for one source of a program.
+#pragma once
 
 #include <malloc.h>
 

@@ -1,9 +1,9 @@
+// Dense matrix computations that tests compare the library with, compiled once: each of these takes
+// a compiler longer than most tests.
 #pragma once
 
 #include <Eigen/Core>
 
-// What tests compute with dense matrices by other ways than the library, compiled once: each of
-// these takes a compiler longer than most tests.
 namespace kinemend::test {
 
 /// The X with the least |A X - B|.

@@ -1,3 +1,4 @@
+// Figures of a series of errors by their definitions, for tests and the page of noise.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 
 #include "kinemend/rotation.hpp"
 
-// Figures of a series of errors, by their definitions: what tests and the page of noise measure by.
 namespace kinemend::test {
 
 inline double mean_of(const std::vector<double>& x) {

@@ -1,3 +1,4 @@
+// Draws normal numbers for tests.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
+// Encoded synthetic walks, for tests of trainings.
 #pragma once
 
 #include <optional>
-#include <variant>
 
 #include "kinemend/experimental/synth.hpp"
 #include "learned/core/training_sequences.hpp"

@@ -1,3 +1,4 @@
+// Reads and adds positions of clips, track by track.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +8,6 @@
 
 #include "kinemend/take.hpp"
 
-// The positions of clips, track by track.
 namespace kinemend::test {
 
 /// One track of the positions, frame by frame: 0 is the root's, k + 1 that of translated joint k.

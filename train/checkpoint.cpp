@@ -1,3 +1,4 @@
+// Stores the batch and the seed in the metadata of a tensor file, and checks them when reading.
 #include "checkpoint.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Checkpoints of trainings, so that one that was interrupted can go on.
 #pragma once
 
 #include <cstddef>

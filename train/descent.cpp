@@ -1,3 +1,5 @@
+// Runs layers, draws first weights, and makes the steps of the optimiser with their running
+// averages.
 #include "descent.hpp"
 
 #include <fmt/format.h>

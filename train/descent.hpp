@@ -1,3 +1,4 @@
+// Weights, layers and the steps of their descent; only files that see LibTorch include it.
 #pragma once
 
 #include <torch/torch.h>
@@ -9,7 +10,6 @@
 
 #include "sequence_network.hpp"
 
-// Weights and the steps of their descent. Seen by files that see LibTorch, and by no other.
 namespace kinemend::train {
 
 using Parameters = std::map<std::string, torch::Tensor, std::less<>>;

@@ -1,3 +1,5 @@
+// Damages takes, cuts chunks, computes errors and gradients, and puts the trained network into a
+// model.
 #include "filter_training.hpp"
 
 #include <algorithm>
@@ -103,7 +105,7 @@ BodyMirror without_root(const BodyMirror& whole) {
 }
 
 // A mirror turns the angular velocity about the two axes that lie in it; time its sign.
-void turn_in_form(std::vector<float>& turning, RecurrentForm form) {
+void turn_in_form(std::vector<float>& turning, MotionForm form) {
   if (form.is_reversed) {
     for (std::size_t low = 0, high = turning.size() / axes; low + 1 < high; ++low, --high) {
       for (std::size_t a = 0; a < axes; ++a)
@@ -117,7 +119,7 @@ void turn_in_form(std::vector<float>& turning, RecurrentForm form) {
   }
 }
 
-void marks_in_form(std::vector<std::uint8_t>& marks, RecurrentForm form, const BodyMirror& mirror) {
+void marks_in_form(std::vector<std::uint8_t>& marks, MotionForm form, const BodyMirror& mirror) {
   const std::size_t tracks = mirror.partners.size(), frames = marks.size() / tracks;
   std::vector<std::uint8_t> result(marks.size());
   for (std::size_t f = 0; f < frames; ++f) {

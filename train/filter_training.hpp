@@ -1,3 +1,4 @@
+// Trains the networks of Mall et al. 2017 on whole takes, damaged as in their tests.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +10,10 @@
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/options.hpp"
 #include "kinemend/take.hpp"
-#include "learned/core/recurrent_forms.hpp"
+#include "learned/core/motion_forms.hpp"
 #include "learned/papers/filter_network.hpp"
 #include "sequence_network.hpp"
 
-// Training of the networks of Mall et al. 2017 on whole takes, damaged as their tests are.
 namespace kinemend::train {
 
 struct FilterDamage {
@@ -71,7 +71,7 @@ class FilterTrainer {
   struct Chunk {
     std::size_t take = 0;
     std::ptrdiff_t first = 0;  // frame of the first row, which may lie before the take
-    RecurrentForm form;
+    MotionForm form;
   };
   struct Rows {
     FilterTake take;            // rows of a chunk

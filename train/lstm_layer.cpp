@@ -1,3 +1,4 @@
+// Runs the gates frame by frame and computes their derivatives in one backward loop.
 #include "lstm_layer.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// An LSTM layer for training, which takes less time to differentiate than LibTorch's own.
 #pragma once
 
 #include <torch/torch.h>

@@ -1,3 +1,5 @@
+// Computes the loss of a batch in parts, one thread each, and adds up their gradients in a fixed
+// order.
 #include "motion_descent.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// The network of the learned cleaner (`learned/corrector/motion_network.hpp`) as it is trained.
+// LibTorch is behind this header.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +10,6 @@
 
 #include "sequence_network.hpp"
 
-// The network of the learned cleaner (`learned/corrector/motion_network.hpp`) as it is trained.
-// LibTorch is behind this header.
 namespace kinemend::train {
 
 struct MotionShape {

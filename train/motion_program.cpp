@@ -6,7 +6,6 @@
 #include <numeric>
 #include <optional>
 #include <utility>
-#include <variant>
 
 #include "base/file_bytes.hpp"
 #include "kinemend/error.hpp"

@@ -1,3 +1,5 @@
+// Reads samples as the network sees them, draws the next batch beside each step, and makes the
+// model.
 #include "motion_training.hpp"
 
 #include <algorithm>

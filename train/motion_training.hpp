@@ -1,3 +1,4 @@
+// Trains the network of the method `learned`.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// Writes weights, numbers and dilations into a model, and computes the learning rate of a batch.
 #include "network_model.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Puts trained weights and numbers into models, and gives the learning rate over time.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +7,6 @@
 #include "kinemend/experimental/model.hpp"
 #include "sequence_network.hpp"
 
-// What the trainers put into the models that they make.
 namespace kinemend::train {
 
 /// Weights by the names of their layers: matrices in half precision, biases in single.

@@ -1,3 +1,5 @@
+// Reads lists of takes, parses the shared options, and saves the model and the checkpoint at
+// intervals.
 #include "program.hpp"
 
 #include <fmt/format.h>
@@ -8,7 +10,6 @@
 #include <fstream>
 #include <optional>
 #include <utility>
-#include <variant>
 
 #include "kinemend/error.hpp"
 #include "kinemend/io.hpp"

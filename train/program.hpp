@@ -1,3 +1,4 @@
+// The options, files and training loop that the training programs share.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,7 +12,6 @@
 #include "learned/core/training_sequences.hpp"
 #include "sequence_network.hpp"
 
-// What the programs that train have in common.
 namespace kinemend::train {
 
 /// Lines of a file that are not empty. Errors: `ErrorKind::unreadable_input`.

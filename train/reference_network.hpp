@@ -1,3 +1,5 @@
+// Makes small LibTorch networks with random weights, whose outputs the tests of the library compare
+// with.
 #pragma once
 
 #include <string>

@@ -1,3 +1,5 @@
+// Builds dense and LSTM layers, runs them both ways, and adds up gradients from the derivatives of
+// the outputs.
 #include "sequence_network.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Networks from sequences to sequences, and the steps of their training. LibTorch is behind this
+// header and in no other: its own headers define CHECK and LOG.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +12,6 @@
 
 #include "kinemend/experimental/tensor.hpp"
 
-// Networks from sequences to sequences, and the steps of their training. LibTorch is behind this
-// header and in no other: its own headers define CHECK and LOG.
 namespace kinemend::train {
 
 /// Layers by name with their weights, [out, in] or [out, tap, in]; biases [out].

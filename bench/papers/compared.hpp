@@ -1,3 +1,4 @@
+// The methods that the experiments on `learned` compare.
 #pragma once
 
 #include <string>
@@ -5,7 +6,6 @@
 
 #include "page.hpp"
 
-// The methods that the experiments on `learned` compare.
 namespace kinemend::papers {
 
 struct Compared {

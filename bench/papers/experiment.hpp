@@ -1,3 +1,4 @@
+// Arguments, takes and tables that the programs which repeat a paper's experiments share.
 #pragma once
 
 #include <fmt/core.h>
@@ -15,7 +16,6 @@
 #include "kinemend/io.hpp"
 #include "kinemend/take.hpp"
 
-// What the programs that repeat a paper's experiment share: arguments, takes and tables.
 namespace kinemend::papers {
 
 struct Arguments {

@@ -1,3 +1,4 @@
+// Takes that neither `learned` nor `wiener`, as they ship, have seen.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +7,6 @@
 
 #include "experiment.hpp"
 
-// Takes that neither `learned` nor `wiener`, as they ship, have seen.
 namespace kinemend::papers {
 
 /// Kept aside by tools/training_clips.py.

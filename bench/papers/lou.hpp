@@ -1,3 +1,4 @@
+// Takes at 30 Hz, models of them, noise and errors, for the experiments of Lou & Chai 2010.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +8,6 @@
 #include <memory>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "experiment.hpp"
@@ -18,7 +18,6 @@
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
 
-// What the experiments of Lou & Chai 2010 share: takes at 30 Hz, models of them, noise and errors.
 namespace kinemend::papers {
 
 constexpr double lou_rate_hz = 30;  // the paper's: 120 Hz, thinned

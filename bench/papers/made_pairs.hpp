@@ -1,3 +1,4 @@
+// Pairs of one motion by two systems, for the quick forms of experiments on real pairs.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +7,6 @@
 #include "kinemend/experimental/corrupt.hpp"
 #include "registry/marker_takes.hpp"
 
-// Pairs of one motion by two systems, for the quick forms of experiments on real pairs.
 namespace kinemend::papers {
 
 struct MarkerPair {

@@ -1,3 +1,4 @@
+// The error figure of Mall et al. 2017, with and without the joints that turn over.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +13,6 @@
 #include "kinemend/rotation.hpp"
 #include "kinemend/take.hpp"
 
-// The error figure of Mall et al. 2017, and what one channel that turns over makes of it.
 namespace kinemend::papers {
 
 /// Errors of a take, with and without the joints that turn over: those with an Euler channel that

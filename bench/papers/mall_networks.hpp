@@ -1,3 +1,4 @@
+// Hold-outs and trained networks for the experiments of Mall et al. 2017.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +13,6 @@
 #include "kinemend/experimental/model.hpp"
 #include "learned/papers/filter_network.hpp"
 
-// What the programs on the networks of Mall et al. 2017 share.
 namespace kinemend::papers {
 
 struct HeldOut {

@@ -1,3 +1,5 @@
+// Damage, cleaning and number formats for the programs that measure the figures of the
+// documentation.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +10,6 @@
 #include "kinemend/experimental/corrupt.hpp"
 #include "kinemend/metrics.hpp"
 
-// What the programs that measure the figures of pages share.
 namespace kinemend::papers {
 
 inline Take damaged(Take clip, const std::string& damage, const OptionValues& options,

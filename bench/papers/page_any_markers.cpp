@@ -3,7 +3,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <variant>
 
 #include "base/quantiles.hpp"
 #include "compared.hpp"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <variant>
 
 #include "base/quantiles.hpp"
 #include "compared.hpp"

@@ -5,7 +5,6 @@
 #include <map>
 #include <numbers>
 #include <set>
-#include <variant>
 
 #include "body/body_takes.hpp"
 #include "body/body_trend.hpp"

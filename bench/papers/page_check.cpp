@@ -1,5 +1,4 @@
 // Figures of docs/check.md: labels of markers exchanged at random, and found.
-#include <variant>
 
 #include "check/marker_support.hpp"
 #include "experiment.hpp"

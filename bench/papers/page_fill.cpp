@@ -1,7 +1,6 @@
 // Figures of docs/methods/fill.md and fill-joints.md: what is promised of filled gaps and what
 // becomes of it, and the methods for joints by the length of the gap.
 #include <algorithm>
-#include <variant>
 
 #include "fill/made_gaps.hpp"
 #include "page.hpp"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <memory>
 #include <set>
-#include <variant>
 
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/experimental/train.hpp"

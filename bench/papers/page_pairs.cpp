@@ -2,7 +2,6 @@
 // markers of the same motion, cleaned.
 #include <algorithm>
 #include <cmath>
-#include <variant>
 
 #include "made_pairs.hpp"
 #include "page.hpp"

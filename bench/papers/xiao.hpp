@@ -1,3 +1,4 @@
+// Takes as markers of joints, noise, models and errors, for the experiments of Xiao et al. 2015.
 #pragma once
 
 #include <cmath>
@@ -15,7 +16,6 @@
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
 
-// What the experiments of Xiao et al. 2015 share: joints as markers, noise, methods and errors.
 namespace kinemend::papers {
 
 /// Clips of one action as the markers of their joints: learned from, and tried.

@@ -1,3 +1,5 @@
+// Builds each method with its settings, fits the models, and chooses the setting with the least
+// error.
 #include "xiao_methods.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// The methods that the comparison of Xiao et al. 2015 tries, each with the settings that it is
+// tuned over.
 #pragma once
 
 #include <array>
@@ -10,8 +12,6 @@
 #include "xiao.hpp"
 #include "xiao_paper.hpp"
 
-// The methods that the comparison of Xiao et al. 2015 tries, each with the settings that it is
-// tuned over.
 namespace kinemend::papers {
 
 /// M of `sparse`, at 60 Hz.

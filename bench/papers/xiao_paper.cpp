@@ -1,3 +1,5 @@
+// Learns a dictionary for each part of the body, codes the windows of a take, and averages what
+// they give.
 #include "xiao_paper.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Algorithm 1 of Xiao et al. 2015 as the paper states it, without what the method `sparse` adds:
+// local coordinates of each pose, all windows, plain losses, and no step after them.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +12,6 @@
 #include "kinemend/take.hpp"
 #include "learned/sparse/sparse_prior.hpp"
 
-// Algorithm 1 of Xiao et al. 2015 as the paper states it, without what the method `sparse` adds:
-// local coordinates of each pose, all windows, plain losses, and no step after them.
 namespace kinemend::papers {
 
 struct XiaoPaperSizes {

@@ -1,3 +1,5 @@
+// The interface of cleaning methods: what a method takes and gives, for whole takes and frame by
+// frame, and the table of all methods.
 #pragma once
 
 #include <cstdint>

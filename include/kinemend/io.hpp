@@ -29,8 +29,9 @@ struct ReadOptions {
   /// Called with the share of the file that is read (0 to 1). Readers of small formats never call
   /// it.
   std::function<void(double done)> progress;
-  /// The animation of a glTF file, by name; one without a name is called `#2`, by its place. Empty:
-  /// the first that turns or moves a joint.
+  /// The take of a file that holds several (FBX, glTF), by its name; one without a name is called
+  /// `#2`, by its place. Empty: the active one, else the first that moves a joint. Errors: `usage`
+  /// for a name that the file does not have.
   std::string animation;
 };
 
@@ -43,8 +44,7 @@ struct TakeResult {
 /// another format gets the diagnostic `extension_mismatch`. A value that is not finite (nan, inf)
 /// is missing: a marker has no position there; a joint holds the value of the frame before, else of
 /// the next, and is not `observed`. A text file that ends in the middle of a line is read up to
-/// there
-/// (`file_cut`). The page of each format in docs/formats lists its repairs, each a named
+/// there (`file_cut`). The page of each format in docs/formats lists its repairs, each a named
 /// diagnostic. Errors: `ErrorKind::unreadable_input` with the name of the file and the line or
 /// byte, also for a file that would need far more memory than it has bytes; `usage` for an unknown
 /// format; `quality_limit` for a repair when `strict`.

@@ -25,8 +25,9 @@ inline constexpr std::string_view report_schema = "kinemend.report/1";
 
 /// What a report says of the take itself.
 struct TakeFacts {
-  std::string input;   ///< as it was named; "-" is standard input
-  std::string output;  ///< where the result was written; empty for none
+  std::string input;      ///< as it was named; "-" is standard input
+  std::string output;     ///< where the result was written; empty for none
+  std::string animation;  ///< which take of a file that holds several; else empty
   TakeKind kind = TakeKind::joints;
   std::string format;               ///< "bvh"
   std::string unit;                 ///< of lengths; empty if the file does not state it

@@ -1,3 +1,4 @@
+// Cleans motion frame by frame, with a fixed delay.
 #pragma once
 
 #include <cstddef>

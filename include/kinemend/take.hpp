@@ -34,6 +34,10 @@ struct SourceInfo {
   std::string format;  ///< "bvh"; empty for a clip made in memory
   std::shared_ptr<const SourceDocument> document;
   std::vector<SourceFact> facts{};  ///< what the fields of the take do not say
+  /// The takes in a file that may hold several, by the names that `ReadOptions::animation` has for
+  /// them, and which of them this is. Empty for other files.
+  std::vector<std::string> animations{};
+  std::string animation{};
 };
 
 /// An event that the file names: a heel strike, a foot off.
@@ -163,6 +167,9 @@ double body_height(const Take& clip);
 
 /// Metres in a unit, by its usual names ("mm", "m", "cm", "in", "inches", ...); 0 for other names.
 double metres_per_unit(std::string_view unit);
+
+/// The usual name of a unit of so many metres; empty for lengths that have none.
+std::string unit_name(double metres);
 
 /// Metres in a unit of the take's lengths: what it states, else, of joints, what gives its skeleton
 /// the size of a person; 0 where neither tells.

@@ -1,3 +1,4 @@
+// Damages that turn each joint by a constant angle, or by a sinusoid over time.
 #include <cmath>
 
 #include "corrupt/damage_kind.hpp"

@@ -1,3 +1,4 @@
+// Looks for words of arms and legs, and for left and right, in the spellings of many programs.
 #include "corrupt/body_parts.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Tells from the name of a joint or a marker which limb it belongs to.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Sums random harmonics by an inverse Fourier transform, and integrates slow noise into paths.
 #include "corrupt/coloured_noise.hpp"
 
 #include <algorithm>

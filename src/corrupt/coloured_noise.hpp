@@ -1,3 +1,4 @@
+// Noise of a given spectrum, and random paths, the same at every frame rate.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Turns a struct that describes a kind of damage into an entry of the table of damages.
 #pragma once
 
 #include <functional>

@@ -1,3 +1,4 @@
+// The drift of heading and place in takes of inertial suits.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Damages that lose spans of samples: frozen spans, random gaps, and gaps of a given length.
 #include <fmt/format.h>
 
 #include <algorithm>

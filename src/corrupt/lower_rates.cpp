@@ -1,3 +1,5 @@
+// Damages that show a take as if it had been captured at a lower rate: samples are held, or joined
+// by straight lines.
 #include <fmt/format.h>
 
 #include <algorithm>

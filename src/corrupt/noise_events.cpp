@@ -1,3 +1,4 @@
+// Draws the times of events as a Poisson process and fades each event in and out.
 #include "corrupt/track_errors.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Draws vectors of independent normal numbers.
 #pragma once
 
 #include "kinemend/experimental/random.hpp"

@@ -1,3 +1,5 @@
+// Damages that throw single samples off: random jumps, jumps of one size, and values multiplied by
+// a factor.
 #include "corrupt/damage_kind.hpp"
 #include "corrupt/normal_vector.hpp"
 #include "corrupt/position_targets.hpp"

@@ -1,3 +1,5 @@
+// Damages that add noise to positions, by a deviation or a signal-to-noise ratio, and refit the
+// skeleton to them.
 #include <fmt/format.h>
 
 #include <algorithm>

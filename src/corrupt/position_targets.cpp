@@ -1,3 +1,4 @@
+// Chooses the joints with damaged positions, finds the length of a unit, and calls the refit.
 #include "corrupt/position_targets.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// The joints that damage of positions reaches, and the way back from positions to a pose.
 #pragma once
 
 #include <span>

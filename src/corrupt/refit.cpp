@@ -1,3 +1,5 @@
+// Solves Wahba's problem for joints with several children, takes the smallest turn for one, and
+// goes from the roots down.
 #include "corrupt/refit.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Turns the joints of a clip so that they come near to given positions.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,5 @@
+// Damages that add noise to rotations: white, correlated over time, or in proportion to the motion
+// of each channel.
 #include <algorithm>
 #include <cmath>
 #include <functional>

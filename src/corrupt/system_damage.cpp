@@ -1,3 +1,5 @@
+// The damage `system`: adds the errors of a family of capture systems to joints, or to tracks of
+// vectors such as markers.
 #include <algorithm>
 #include <cmath>
 

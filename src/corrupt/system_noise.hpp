@@ -1,3 +1,4 @@
+// The numbers that describe the errors of a capture system, and five families of such systems.
 #pragma once
 
 #include <span>

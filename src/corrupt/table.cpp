@@ -1,3 +1,4 @@
+// The table of damages: applies one by its name, and measures how much it changed.
 #include <fmt/format.h>
 
 #include <algorithm>

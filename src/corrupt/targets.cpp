@@ -1,3 +1,4 @@
+// Matches names with patterns, divides a skeleton into limbs, and reads and turns samples.
 #include "corrupt/targets.hpp"
 
 #include <fmt/format.h>

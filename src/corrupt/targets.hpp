@@ -1,3 +1,4 @@
+// The joints or tracks that a damage may touch, alone or in groups, and access to their samples.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// Draws the errors of a track from its own noise and from what it shares with its limb and body.
 #include "corrupt/track_errors.hpp"
 
 #include <algorithm>

@@ -13,7 +13,6 @@
 #include "fill/driver.hpp"
 #include "fill/joint_choice.hpp"
 #include "motion/calibration.hpp"
-#include "motion/unit_name.hpp"
 
 namespace kinemend::fill {
 

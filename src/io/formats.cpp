@@ -9,6 +9,7 @@
 #include "io/acclaim/asf.hpp"
 #include "io/bvh/bvh.hpp"
 #include "io/c3d/c3d.hpp"
+#include "io/fbx/fbx.hpp"
 #include "io/gltf/gltf.hpp"
 #include "io/table/tables.hpp"
 #include "io/text/text.hpp"
@@ -162,6 +163,13 @@ std::span<const Format> formats() {
        &read_gltf,
        &write_gltf,
        &write_gltf_markers},
+      {"fbx",
+       "Autodesk FBX, an animated skeleton",
+       {".fbx"},
+       &sniff_fbx,
+       &read_fbx,
+       &write_fbx,
+       &write_fbx_markers},
   };
   return list;
 }

@@ -1,6 +1,5 @@
 // Turns joints into markers, drops rest rotations from a skeleton, and scales lengths.
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "kinemend/experimental/convert.hpp"
@@ -10,11 +9,6 @@
 namespace kinemend {
 
 namespace {
-
-std::string_view unit_name(double metres) {
-  const auto is = [metres](double known) { return std::fabs(metres / known - 1) < 1e-9; };
-  return is(1) ? "m" : is(0.01) ? "cm" : is(0.001) ? "mm" : "";
-}
 
 // One row of marks: 1 where the joint's own rotation and all above it are observed; a joint's
 // position does not depend on its own.

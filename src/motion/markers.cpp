@@ -83,4 +83,12 @@ double metres_per_unit(std::string_view unit) {
   return found == known.end() ? 0 : found->second;
 }
 
+std::string unit_name(double metres) {
+  for (const char* const name : {"m", "cm", "mm", "in"}) {
+    const double known = metres_per_unit(name);
+    if (std::fabs(metres - known) <= 1e-9 * known) return name;
+  }
+  return "";
+}
+
 }  // namespace kinemend

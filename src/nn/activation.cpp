@@ -1,3 +1,4 @@
+// Chooses the kernel of an activation and applies it to values or rows.
 #include "nn/activation.hpp"
 
 #include "nn/activation_kernel.hpp"

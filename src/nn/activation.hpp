@@ -1,3 +1,4 @@
+// Activation functions of network layers.
 #pragma once
 
 #include <cstdint>

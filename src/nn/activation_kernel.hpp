@@ -1,8 +1,8 @@
+// Functions of `count` floats in place, compiled for each instruction set and chosen at run time.
 #pragma once
 
 #include <cstddef>
 
-/// Functions of `count` floats in place, compiled for each instruction set and chosen at run time.
 namespace kinemend::nn {
 
 void exp_of(float* values, std::size_t count);

@@ -1,3 +1,4 @@
+// Packs panels of the second matrix and shares the rows of a product among threads.
 #include "nn/gemm.hpp"
 
 #include <tbb/blocked_range.h>

@@ -1,10 +1,10 @@
+// Products of dense matrices, in double and (with an F behind the name) in single precision.
 #pragma once
 
 #include <cstddef>
 #include <span>
 #include <vector>
 
-/// Products of dense matrices, in double and (with an F behind the name) in single precision.
 namespace kinemend::nn {
 
 /// Element (r, c) is values[r * row_stride + c * column_stride]. Rows may overlap: with

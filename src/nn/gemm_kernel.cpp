@@ -1,3 +1,4 @@
+// Multiplies tiles whose sums stay in registers, compiled once for each instruction set.
 #include "nn/gemm_kernel.hpp"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
+// The inner loops of `multiply`, compiled for each instruction set and chosen at run time.
 #pragma once
 
 #include <cstddef>
 
 #include "nn/gemm.hpp"
 
-/// The inner loops of `multiply`, compiled for each instruction set and chosen at run time.
 namespace kinemend::nn {
 
 /// Rows of b that are packed at once: a panel of them stays in the nearest caches.

@@ -1,3 +1,4 @@
+// Converts between doubles and the bits of half-precision numbers, without help from the processor.
 #include "nn/half.hpp"
 
 #include <bit>

@@ -1,8 +1,8 @@
+// Numbers of 16 bits (IEEE 754 binary16).
 #pragma once
 
 #include <cstdint>
 
-// Numbers of 16 bits (IEEE 754 binary16).
 namespace kinemend {
 
 /// The nearest half, of two equally near the even one; an infinity from 65520 on.

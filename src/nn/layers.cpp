@@ -1,3 +1,4 @@
+// Reads dense and convolutional layers from tensors, and runs them as matrix products.
 #include "nn/layers.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Layers of networks in single precision, for inference: T rows of one width to T rows of another.
+// Their weights have the shapes and the order of gates of LibTorch.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +13,6 @@
 #include "nn/activation.hpp"
 #include "nn/gemm.hpp"
 
-// Layers of networks in single precision, for inference: T rows of one width to T rows of another.
-// Their weights have the shapes and the order of gates of LibTorch.
 namespace kinemend::nn {
 
 /// Tensors by name, as of a `TensorFile` or a `Model`.

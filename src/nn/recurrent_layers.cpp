@@ -1,3 +1,4 @@
+// Reads LSTM layers, and runs them over a sequence or one step at a time.
 #include "nn/recurrent_layers.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Recurrent layers for inference: over whole sequences, and step by step.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +8,6 @@
 
 #include "nn/layers.hpp"
 
-// Recurrent layers for inference: over whole sequences, and step by step.
 namespace kinemend::nn {
 
 enum class Direction { forward, backward };

@@ -1,3 +1,4 @@
+// Reads and writes safetensors files, and rejects values that a type cannot hold.
 #include "kinemend/experimental/tensor.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Parses the header as a stream of JSON events, and checks that the tensors cover the data without
+// overlap.
 #include "nn/tensor_header.hpp"
 
 #include <fmt/format.h>

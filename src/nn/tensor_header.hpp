@@ -1,3 +1,4 @@
+// The header of a safetensors file: JSON that says where each tensor lies.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,6 @@
 
 #include "kinemend/experimental/tensor.hpp"
 
-// The header of a safetensors file: JSON that says where each tensor lies.
 namespace kinemend {
 
 inline constexpr std::string_view metadata_key = "__metadata__";

@@ -1,3 +1,4 @@
+// Checks the frames of a stream and passes them to the live filter of the cleaner.
 #include "kinemend/stream.hpp"
 
 #include <utility>

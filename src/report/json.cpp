@@ -244,6 +244,7 @@ Json take_json(const Report& report, Depth depth) {
                {"metres_per_unit", positive_or_null(metres_per_unit_of(report))},
                {"track_unit", text_or_null(tracks.unit)},
                {"verdict", text_or_null(verdict_of(report))}};
+  if (!take.animation.empty()) json["animation"] = take.animation;
   std::visit([&](const auto& result) { add_own(take, result, depth, json); }, report.result);
   json["figures"] = figures_json(report);
   const std::vector<std::string>* const warnings = warnings_of(report);

@@ -9,7 +9,6 @@
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/report.hpp"
-#include "motion/unit_name.hpp"
 #include "report/texts.hpp"
 
 namespace kinemend {
@@ -39,6 +38,7 @@ std::string contents_without_markers(const Take& clip) {
 TakeFacts take_facts(const Take& take) {
   TakeFacts facts;
   facts.format = take.source.format;
+  if (take.source.animations.size() > 1) facts.animation = take.source.animation;
   facts.tracks = take.owner_names();
   facts.frames = take.frame_count();
   facts.first_frame = first_frame_number(take);
@@ -70,7 +70,8 @@ std::string diagnostic_line(const SourceInfo& source, const Diagnostic& diagnost
 const char* noun_of(TakeKind kind) { return kind == TakeKind::markers ? "marker" : "joint"; }
 
 std::string shown_name(const TakeFacts& take) {
-  return take.input == "-" ? "standard input" : printable(take.input);
+  const std::string name = take.input == "-" ? "standard input" : printable(take.input);
+  return take.animation.empty() ? name : fmt::format("{} ({})", name, printable(take.animation));
 }
 
 std::string written_text(const TakeFacts& take) {

@@ -1,3 +1,4 @@
+// Reads fixtures of comma-separated values.
 #pragma once
 
 #include <fstream>

@@ -1,3 +1,5 @@
+// Tests of errors and diagnostics: messages with their place, and nothing in them that commands a
+// terminal.
 #include "kinemend/error.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Tests of the bound on nested JSON, on text alone.
 #include "kinemend/experimental/json_depth.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of measured values as text: their units and digits.
 #include "base/measure.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of option tables: defaults, ranges, texts, and the messages for values that do not fit.
 #include "kinemend/options.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Tests of quantiles, against sorted values and the normal distribution.
 #include "base/quantiles.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// Tests of the random numbers: the sequence of the published generator, moments, and independent
+// forks.
 #include "kinemend/experimental/random.hpp"
 
 #include <gtest/gtest.h>

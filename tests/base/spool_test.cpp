@@ -1,3 +1,4 @@
+// Tests of spools, in memory and in a temporary file.
 #include "base/spool.hpp"
 
 #include <gtest/gtest.h>

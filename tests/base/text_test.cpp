@@ -1,3 +1,4 @@
+// Tests of text for people: figures, tables, names that could command a terminal, and colours.
 #include "kinemend/experimental/text.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// Tests of bodies of joints: channels that do not depend on place, heading, axes or rest pose, and
+// the way back.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

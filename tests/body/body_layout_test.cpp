@@ -1,3 +1,4 @@
+// Tests of layouts: their channels, their rules, and how they are learned from takes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// Tests of bodies of markers, with noise, missing markers and several people.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

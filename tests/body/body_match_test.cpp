@@ -1,3 +1,4 @@
+// Tests of the match between a layout and a skeleton: by names, by topology, and by a name map.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// Tests of the parts of the body that names of bones mean.
 #include "body/body_names.hpp"
 
 #include <gtest/gtest.h>

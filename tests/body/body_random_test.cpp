@@ -1,3 +1,4 @@
+// Bodies of random shapes give finite channels or an error, and nothing else.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -6,7 +7,6 @@
 #include "body/body_takes.hpp"
 #include "kinemend/error.hpp"
 
-// Bodies of any shape: nothing but an error or finite channels comes of them.
 namespace kinemend {
 namespace {
 

@@ -1,3 +1,4 @@
+// Tests of bodies on real takes: one motion in two formats, and walks of other skeletons.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

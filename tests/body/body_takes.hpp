@@ -1,3 +1,4 @@
+// Takes and comparisons for the tests of bodies.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/experimental/synth.hpp"
 
-// Takes and comparisons for the tests of bodies.
 namespace kinemend::body_test {
 
 inline Take walk(std::string motion = "walk", double duration_s = 4, double frame_rate_hz = 60) {

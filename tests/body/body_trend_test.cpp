@@ -1,3 +1,4 @@
+// Tests of the slow trend of tracks: at curves, ends, spikes and gaps.
 #include "body/body_trend.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of name maps as files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,3 +1,5 @@
+// Tests of the channels that encode rotations: they come back exactly, and have no jump at half a
+// turn.
 #include "kinemend/experimental/representation.hpp"
 
 #include <gtest/gtest.h>

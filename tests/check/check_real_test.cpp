@@ -1,9 +1,9 @@
+// Real takes have the faults that are known of them, and those that are clean have none.
 #include <gtest/gtest.h>
 
 #include "check/support.hpp"
 #include "kinemend/io.hpp"
 
-// Faults that real takes are known to have.
 namespace kinemend::test {
 namespace {
 

@@ -1,10 +1,11 @@
+// Each fault that is put into a synthetic clip is found where it was put, and no other fault is
+// found.
 #include <gmock/gmock.h>
 
 #include "check/support.hpp"
 #include "kinemend/error.hpp"
 #include "translations.hpp"
 
-// Each fault put into a synthetic clip is found where it was put, and nothing else is.
 namespace kinemend::test {
 namespace {
 

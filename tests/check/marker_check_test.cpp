@@ -1,3 +1,4 @@
+// Tests of checks on markers: each fault that is put into a synthetic take is found.
 #include <gmock/gmock.h>
 
 #include "check/marker_support.hpp"

@@ -1,3 +1,4 @@
+// Synthetic markers, and exchanged labels in them, for tests of checks.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Synthetic clips, and findings by kind, for tests of checks.
 #pragma once
 
 #include <gtest/gtest.h>

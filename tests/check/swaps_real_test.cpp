@@ -1,9 +1,9 @@
+// Exchanged labels that are put into real takes of markers are found to the frame.
 #include <gtest/gtest.h>
 
 #include "check/marker_support.hpp"
 #include "kinemend/io.hpp"
 
-// Swaps put into real takes of markers.
 namespace kinemend::test {
 namespace {
 

@@ -1,3 +1,5 @@
+// Tests of exchanged labels in synthetic takes: they are found, and undoing them gives the take
+// back.
 #include <gtest/gtest.h>
 
 #include "check/marker_support.hpp"

@@ -1,6 +1,6 @@
+// Tests of the inputs of a batch, and of earlier results that it must not overwrite.
 #include "cli/program.hpp"
 
-// What a batch takes for its inputs, and what of earlier runs it leaves alone.
 namespace kinemend::test {
 namespace {
 

@@ -1,3 +1,4 @@
+// Tests of the sums and rows of a batch, and of the takes that it names for review.
 #include <signal.h>
 #include <sys/stat.h>
 
@@ -6,7 +7,6 @@
 
 #include "cli/program.hpp"
 
-// What a batch says of itself: sums, rows, the takes to look at.
 namespace kinemend::test {
 namespace {
 

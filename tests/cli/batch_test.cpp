@@ -1,3 +1,4 @@
+// Tests of `kinemend batch`: a tree of takes, runs that are resumed, shards, and takes that fail.
 #include <signal.h>
 
 #include <chrono>

@@ -1,10 +1,10 @@
+// The law of C3D files on the command line: everything in the file is kept, or a warning names it.
 #pragma once
 
 #include <set>
 
 #include "cli/program.hpp"
 
-/// What the program owes to all that is in a C3D file, as its user sees it.
 namespace kinemend::test {
 
 class C3dLaw : public Program {

@@ -1,3 +1,4 @@
+// Real C3D files keep what an option does not concern, or the program names the loss.
 #include <cctype>
 
 #include "cli/c3d_law.hpp"

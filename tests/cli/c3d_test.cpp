@@ -1,3 +1,5 @@
+// Tests of C3D files on the command line: what is kept, what is named as lost, and what is
+// repaired.
 #include "cli/c3d_law.hpp"
 
 namespace kinemend::test {

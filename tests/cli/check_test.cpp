@@ -1,6 +1,6 @@
+// Tests of `kinemend check`: findings, limits, and the gap file that it writes.
 #include "cli/program.hpp"
 
-// kinemend check.
 namespace kinemend::test {
 namespace {
 

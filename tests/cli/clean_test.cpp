@@ -1,8 +1,8 @@
+// Tests of `kinemend clean`: how it changes a take, and its report.
 #include <cmath>
 
 #include "cli/program.hpp"
 
-// What `kinemend clean` does to a take and says of it.
 namespace kinemend::test {
 namespace {
 

@@ -1,3 +1,5 @@
+// Tests of the reasons that `clean` gives for a take that it leaves unchanged, and of flags without
+// effect.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -6,7 +8,6 @@
 #include "cli/plate.hpp"
 #include "cli/program.hpp"
 
-// What `clean` says of takes that it leaves as they are, and of flags that mean nothing for them.
 namespace kinemend::test {
 namespace {
 

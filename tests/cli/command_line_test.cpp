@@ -1,8 +1,8 @@
+// Tests of the command line: words are understood as they were meant, or refused with a reason.
 #include <set>
 
 #include "cli/program.hpp"
 
-// What is typed is taken for what was meant, or refused with what is wrong.
 namespace kinemend::test {
 namespace {
 

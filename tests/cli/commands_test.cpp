@@ -1,6 +1,6 @@
+// Tests of `info`, `compare`, `corrupt`, `convert`, `methods` and `synth` from the command line.
 #include "cli/program.hpp"
 
-// info, compare, corrupt, convert, methods and synth.
 namespace kinemend::test {
 namespace {
 

@@ -1,8 +1,8 @@
+// Tests of presets and configuration files, and of which setting overrides which.
 #include <fmt/format.h>
 
 #include "cli/program.hpp"
 
-// Presets, configuration files, and which of them holds.
 namespace kinemend::test {
 namespace {
 

@@ -1,3 +1,4 @@
+// Tests of `kinemend convert`: from each format to others and back.
 #include <cmath>
 #include <map>
 #include <sstream>

@@ -1,6 +1,6 @@
+// The ending of an output names the format that is written.
 #include "cli/program.hpp"
 
-// The ending of an output names the format that is written.
 namespace kinemend::test {
 namespace {
 
@@ -27,7 +27,7 @@ class Endings : public Program {
 };
 
 TEST_F(Endings, OfFormatsThatAreNotWrittenAreRefusedByEveryCommand) {
-  for (const char* output : {"out.fbx", "out.png", "out.usd", "out.bvhh", "out.C3D.zip"}) {
+  for (const char* output : {"out.obj", "out.png", "out.usd", "out.bvhh", "out.C3D.zip"}) {
     for (const std::vector<std::string>& words :
          std::vector<std::vector<std::string>>{{"clean", "walk.bvh"},
                                                {"fill", "walk.bvh"},
@@ -36,16 +36,17 @@ TEST_F(Endings, OfFormatsThatAreNotWrittenAreRefusedByEveryCommand) {
                                                {"synth", "walk"},
                                                {"clean", "walk.bvh", "--dry-run"},
                                                {"view", "walk.bvh"}})
-      expect_refused(words, output, ".bvh, .amc, .asf, .c3d, .trc, .tsv, .csv, .glb, .vrm, .gltf");
+      expect_refused(words, output,
+                     ".bvh, .amc, .asf, .c3d, .trc, .tsv, .csv, .glb, .vrm, .gltf, .fbx");
     expect_refused({"plot", "walk.bvh"}, output, "only .svg");
   }
   expect_refused({"plot", "walk.bvh"}, "out.bvh", "only .svg");
 }
 
 TEST_F(Endings, AreRefusedBeforeTheInputIsRead) {
-  const Ran ran = run({"clean", "absent.bvh", "-o", "out.fbx"});
+  const Ran ran = run({"clean", "absent.bvh", "-o", "out.obj"});
   EXPECT_EQ(ran.code, 2);
-  EXPECT_THAT(ran.err, HasSubstr("out.fbx"));
+  EXPECT_THAT(ran.err, HasSubstr("out.obj"));
 }
 
 TEST_F(Endings, ThatAreAbsentKeepTheFormatOfTheInput) {

@@ -1,8 +1,8 @@
+// Feet whose names mean nothing, feet of several people, and feet that never stand.
 #include <sstream>
 
 #include "cli/program.hpp"
 
-// Feet whose names mean nothing, feet of several people, and feet that never stand.
 namespace kinemend::test {
 namespace {
 

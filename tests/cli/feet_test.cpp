@@ -1,6 +1,6 @@
+// Tests of the feet flags and of files of contacts, from the command line.
 #include "cli/program.hpp"
 
-// Feet from the command line.
 namespace kinemend::test {
 namespace {
 

@@ -1,6 +1,7 @@
+// Tests of files: inputs that cannot be read (3), outputs that cannot be written (4), and the files
+// that a run leaves on the disk.
 #include "cli/program.hpp"
 
-// Inputs that cannot be read (3), outputs that cannot be written (4), and what stays on the disk.
 namespace kinemend::test {
 namespace {
 

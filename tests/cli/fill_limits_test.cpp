@@ -1,3 +1,4 @@
+// Tests of the limits of `fill`: the expected error of a gap, and unlabelled points.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -5,7 +6,6 @@
 #include "cli/plate.hpp"
 #include "cli/program.hpp"
 
-// Limits of what is filled: the expected error, and unlabelled points.
 namespace kinemend::test {
 namespace {
 

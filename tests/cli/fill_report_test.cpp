@@ -1,6 +1,6 @@
+// Tests of the text report of `kinemend fill`, and of gaps outside of the range.
 #include "cli/program.hpp"
 
-// What `kinemend fill` says, and which gaps it fills.
 namespace kinemend::test {
 namespace {
 

@@ -1,6 +1,6 @@
+// Tests of `kinemend fill`: gaps of a side file, refusals, the report as JSON, and streams.
 #include "cli/program.hpp"
 
-// Filling from the command line.
 namespace kinemend::test {
 namespace {
 

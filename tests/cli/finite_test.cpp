@@ -1,9 +1,9 @@
+// Law: no output holds a number that is not finite. A gap that a format cannot hold is the value it
+// was held by.
 #include <cctype>
 
 #include "cli/program.hpp"
 
-// Law: no output holds a number that is not finite. A gap that a format cannot hold is the value it
-// was held by.
 namespace kinemend::test {
 namespace {
 

@@ -1,9 +1,9 @@
+// Law: a frame has the number that its file gives it, wherever one is printed, written or read.
 #include <fmt/format.h>
 
 #include "cli/plate.hpp"
 #include "cli/program.hpp"
 
-// A frame has the number that its file gives it, wherever one is printed, written or read.
 namespace kinemend::test {
 namespace {
 

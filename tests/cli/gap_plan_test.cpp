@@ -1,6 +1,6 @@
+// Tests of the gap plan: what a run writes, another applies to the bit.
 #include "cli/program.hpp"
 
-// Gap plans from the command line.
 namespace kinemend::test {
 namespace {
 

@@ -1,9 +1,9 @@
+// Help, manual page and completions list every option that the parser accepts.
 #include <regex>
 #include <set>
 
 #include "cli/program.hpp"
 
-// Help, manual page and completions know everything that the parser knows.
 namespace kinemend::test {
 namespace {
 

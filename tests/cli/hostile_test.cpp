@@ -1,7 +1,7 @@
+// Bad input gives one line with file and line, exit code 3, little memory, and no output.
 #include "cli/program.hpp"
 #include "kinemend/experimental/random.hpp"
 
-// Bad input: one line with file and line, exit code 3, little memory, nothing written.
 namespace kinemend::test {
 namespace {
 

@@ -1,3 +1,5 @@
+// JSON from outside that is nested deeply enough to exhaust the stack is refused, and such a record
+// of a batch is made again.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -5,8 +7,6 @@
 
 #include "cli/program.hpp"
 
-// JSON from outside that is nested deeply enough to exhaust the stack of code that walks through
-// it.
 namespace kinemend::test {
 namespace {
 

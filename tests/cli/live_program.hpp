@@ -1,3 +1,5 @@
+// Runs the program in the background and talks to it over sockets; nothing here looks at a clock: a
+// missing answer is waited for until the time limit of the test program.
 #pragma once
 
 #include <arpa/inet.h>
@@ -11,8 +13,6 @@
 
 #include "program.hpp"
 
-// The program while it runs, and sockets of this machine. Nothing here looks at a clock: what does
-// not come is waited for until the test program's own time limit.
 namespace kinemend::test {
 
 /// A descriptor that bytes come from.

@@ -1,7 +1,7 @@
+// Tests of the names of joints and markers as people type them.
 #include "cli/plate.hpp"
 #include "cli/program.hpp"
 
-// Joints and markers by names as people type them.
 namespace kinemend::test {
 namespace {
 

@@ -1,6 +1,6 @@
+// Tests of reports that are pages: `--report FILE.html` for each command.
 #include "cli/program.hpp"
 
-// Reports that are pages: --report FILE.html.
 namespace kinemend::test {
 namespace {
 

@@ -1,3 +1,4 @@
+// A small TRC take with a gap and a spike, for tests of the program.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Tests of `kinemend plot`: each kind of picture, for one take and for two.
 #include "cli/program.hpp"
 
 namespace kinemend::test {

@@ -1,3 +1,5 @@
+// Runs the program in a folder of its own and returns its exit code, its output and the memory that
+// it needed.
 #pragma once
 
 #include <fcntl.h>
@@ -16,7 +18,6 @@
 #include <string>
 #include <vector>
 
-// Runs the program in a folder of its own and tells what came of it.
 namespace kinemend::test {
 
 namespace fs = std::filesystem;

@@ -1,3 +1,4 @@
+// Networks of Mall et al. from the command line: gaps filled by one, and streams cleaned by one.
 #include <cmath>
 
 #include "cli/program.hpp"
@@ -5,7 +6,6 @@
 #include "learned/papers/filter_support.hpp"
 #include "learned/papers/random_filter_model.hpp"
 
-// Networks of Mall et al. from the command line: gaps filled by one, and streams cleaned by one.
 namespace kinemend::test {
 namespace {
 

@@ -1,7 +1,7 @@
+// The JSON of every command fits docs/report.schema.json.
 #include "cli/program.hpp"
 #include "report/json_schema.hpp"
 
-// What every command says as JSON is what docs/report.schema.json states.
 namespace kinemend::test {
 namespace {
 

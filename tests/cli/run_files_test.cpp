@@ -1,6 +1,6 @@
+// No output of a run replaces a file that the run reads or another of its outputs.
 #include "cli/program.hpp"
 
-// No output of a run replaces a file that the run reads or another of its outputs.
 namespace kinemend::test {
 namespace {
 

@@ -1,3 +1,4 @@
+// Tests of `kinemend stream`: pipes, TCP and UDP, lost and late frames, and slow clients.
 #include "live_program.hpp"
 
 namespace kinemend::test {

@@ -1,10 +1,10 @@
+// Tests of the standard streams: pipes, closed pipes and terminals.
 #include <pty.h>
 
 #include <cstring>
 
 #include "cli/program.hpp"
 
-// Standard streams: pipes, closed pipes, terminals.
 namespace kinemend::test {
 namespace {
 

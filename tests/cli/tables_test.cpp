@@ -1,3 +1,4 @@
+// Tests of tables of other programs on the command line.
 #include "cli/program.hpp"
 
 namespace kinemend::test {

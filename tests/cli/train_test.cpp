@@ -1,8 +1,8 @@
+// Tests of `kinemend train`: models of every method are trained, shown and used for cleaning.
 #include <signal.h>
 
 #include "cli/program.hpp"
 
-// Training models, looking at them and cleaning with them.
 namespace kinemend::test {
 namespace {
 

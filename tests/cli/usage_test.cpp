@@ -1,7 +1,6 @@
+// A command line that makes no sense gives one line on standard error, exit code 2, and no output.
 #include "cli/program.hpp"
 
-// What a user gets for a command line that makes no sense: one line on standard error, exit code 2,
-// and nothing written.
 namespace kinemend::test {
 namespace {
 
@@ -102,7 +101,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{{"convert", "a.bvh", "-o", "c.xyz"},
              "c.xyz: .xyz files are not written; the endings that are written: .bvh, .amc, .asf, "
              ".c3d, "
-             ".trc, .tsv, .csv, .glb, .vrm, .gltf. A name without an ending keeps the format of "
+             ".trc, .tsv, .csv, .glb, .vrm, .gltf, .fbx. A name without an ending keeps the format "
+             "of "
              "the input"},
         Case{{"synth", "walk", "-o", "c.bvh", "--duration-s", "0"},
              "--duration-s: 0 is outside 0.1 to 600 s"},

@@ -1,10 +1,10 @@
+// Tests of who may ask the server of `kinemend view`.
 #include "cli/view_access.hpp"
 
 #include <gtest/gtest.h>
 
 #include "cli/program.hpp"
 
-// Who may ask the server of `kinemend view`.
 namespace kinemend::cli {
 namespace {
 

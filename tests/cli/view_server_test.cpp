@@ -1,3 +1,5 @@
+// Tests of `kinemend view` with requests that no page sends, as bytes on the socket of the running
+// program.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,8 +10,6 @@
 
 #include "cli/live_program.hpp"
 
-// What `kinemend view` does with requests that no page sends: the program runs, and bytes are
-// written to its socket.
 namespace kinemend::test {
 namespace {
 

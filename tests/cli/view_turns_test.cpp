@@ -1,10 +1,10 @@
+// Tests of which run of the page of `kinemend view` stops for a newer one.
 #include "cli/view_turns.hpp"
 
 #include <gtest/gtest.h>
 
 #include "kinemend/error.hpp"
 
-// Which run of the page of `kinemend view` is given up.
 namespace kinemend::cli {
 namespace {
 

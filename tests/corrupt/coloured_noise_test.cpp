@@ -1,3 +1,4 @@
+// Tests of coloured noise: its spectrum follows the formula and is the same at every rate.
 #include "corrupt/coloured_noise.hpp"
 
 #include <gmock/gmock.h>

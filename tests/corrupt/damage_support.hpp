@@ -1,3 +1,4 @@
+// Damages clips and measures the errors, for tests of damages.
 #pragma once
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Tests of the damages that lose samples: lengths, places and held values.
 #include <gmock/gmock.h>
 
 #include <map>

@@ -1,3 +1,4 @@
+// Tests of takes that are shown as captured at a lower rate.
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Tests of the times of noise events, by the statistics of a Poisson process.
 #include "corrupt/track_errors.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Tests of the damages that throw single samples off.
 #include <gtest/gtest.h>
 
 #include "corrupt/damage_support.hpp"

@@ -1,3 +1,4 @@
+// Tests of noise of positions: its size, and the bones that keep their lengths.
 #include <gmock/gmock.h>
 
 #include <cstdio>

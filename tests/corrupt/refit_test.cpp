@@ -1,3 +1,4 @@
+// Tests of the refit of rotations to positions, against other rotations nearby and at random.
 #include "corrupt/refit.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of noise and bias of rotations, by the deviation and the correlation of the errors.
 #include <gtest/gtest.h>
 
 #include <numeric>

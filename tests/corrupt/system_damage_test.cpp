@@ -1,3 +1,4 @@
+// Tests of the damage `system` on joints and markers, in every family and unit.
 #include <gmock/gmock.h>
 
 #include <cmath>

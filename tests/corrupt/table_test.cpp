@@ -1,3 +1,4 @@
+// Laws that every damage in the table keeps.
 #include <gmock/gmock.h>
 
 #include <set>

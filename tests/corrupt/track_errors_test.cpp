@@ -1,3 +1,4 @@
+// Tests of the errors of single tracks, by their sizes, spectra and correlations.
 #include "corrupt/track_errors.hpp"
 
 #include <gmock/gmock.h>

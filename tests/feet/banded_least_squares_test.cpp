@@ -1,3 +1,4 @@
+// Tests of the banded least-squares solver, against a dense one.
 #include "feet/banded_least_squares.hpp"
 
 #include <gtest/gtest.h>

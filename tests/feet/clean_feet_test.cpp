@@ -1,3 +1,5 @@
+// Tests of `clean_feet` on walks that slide, jitter and sink, and on takes that it must leave
+// alone.
 #include <gmock/gmock.h>
 
 #include <algorithm>

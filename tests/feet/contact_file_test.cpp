@@ -1,3 +1,4 @@
+// Tests of files of contacts: read, written, and refused with the line.
 #include <gmock/gmock.h>
 
 #include "feet/support.hpp"

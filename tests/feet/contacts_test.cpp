@@ -1,3 +1,4 @@
+// Tests of contacts with the floor, against the footfalls of the gait generator.
 #include <gmock/gmock.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Tests of feet on real takes: CMU walks, and skeletons of other dialects.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
+// Knees do not pop where feet are held: the largest second difference of their angles is hardly
+// above that of the take.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "feet/support.hpp"
 
-// Feet are held and knees do not pop: the largest second difference of their angles is hardly above
-// that of the take.
 namespace kinemend {
 namespace {
 

@@ -1,3 +1,4 @@
+// Tests of the leg solver: targets within and out of reach, and joints of one or two channels.
 #include "feet/leg_solver.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Tests of legs that are found in the skeletons of many programs.
 #include <gmock/gmock.h>
 
 #include "feet/support.hpp"

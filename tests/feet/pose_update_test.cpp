@@ -1,3 +1,4 @@
+// Tests of the pose update, against the minimum of its cost.
 #include "feet/pose_update.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Clips, tracks and settings that the tests of feet share.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of curves through gaps, against SciPy's splines and PCHIP.
 #include "fill/curves.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Tests of cycles, on a motion of known period.
 #include "fill/cycles.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Gaps made in real takes are filled, and the errors of the methods are compared.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +11,6 @@
 #include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
 
-// Gaps made in real takes, and how far what fills them is from what was there.
 namespace kinemend {
 namespace {
 

@@ -1,3 +1,4 @@
+// Tests of gaps of joints: each method, the channels of a joint, and the rules that refuse a gap.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Laws that every method of filling gaps keeps, for joints and for markers.
 #include <gmock/gmock.h>
 #include <tbb/global_control.h>
 
@@ -13,7 +14,6 @@
 #include "kinemend/experimental/synth.hpp"
 #include "motion/clips.hpp"
 
-// What holds for every method of filling gaps, of joints and of markers.
 namespace kinemend::fill {
 namespace {
 

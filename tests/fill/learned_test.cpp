@@ -1,3 +1,4 @@
+// Tests of gaps that a model is asked to fill, with models that give a fixed answer.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -9,7 +10,6 @@
 #include "kinemend/experimental/gap_plan.hpp"
 #include "motion/clips.hpp"
 
-// What becomes of the gaps that a model is asked to fill, with models that say a fixed thing.
 namespace kinemend::fill {
 namespace {
 

@@ -1,3 +1,4 @@
+// Makes gaps in takes that have none, and compares the promised errors with the real ones.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include "kinemend/fill.hpp"
 #include "kinemend/gaps.hpp"
 
-// Gaps made in takes that have none, and what becomes of what is promised of them.
 namespace kinemend::fill {
 
 /// One filled gap: what was promised, what became of it, and what a spline would have made.

@@ -1,3 +1,4 @@
+// Synthetic takes of markers on body segments, for tests of filling.
 #pragma once
 
 #include <cmath>

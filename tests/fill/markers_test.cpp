@@ -1,3 +1,4 @@
+// Tests of gaps of markers: each method on a take that it fills exactly, and the choice of `auto`.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

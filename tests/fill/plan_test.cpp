@@ -1,3 +1,4 @@
+// Tests of gap plans: what a run says of its gaps is read back and applied.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include "kinemend/experimental/gap_plan.hpp"
 #include "motion/clips.hpp"
 
-// Gap plans: what a run says of its gaps, read back and applied.
 namespace kinemend::fill {
 namespace {
 

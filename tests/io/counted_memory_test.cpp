@@ -1,3 +1,4 @@
+// Tests of the counted memory of the tests themselves.
 #include "counting_allocation.hpp"
 
 #include "hostile.hpp"

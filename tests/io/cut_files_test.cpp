@@ -1,3 +1,5 @@
+// A text file that was cut off in its last line, as by a full disk, is read up to there; other
+// short lines are still errors.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -7,7 +9,6 @@
 #include "io/support.hpp"
 #include "io/text/cut_text.hpp"
 
-// A text file that was cut off in its last line, as by a full disk.
 namespace kinemend {
 namespace {
 

@@ -1,3 +1,5 @@
+// Tests of files that are written whole or not at all, and of formats that are recognised by
+// content.
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -140,15 +142,16 @@ TEST(Formats, AreFoundByContentThenByName) {
             "take.BVH:1: expected HIERARCHY, found \"garbage\"");
   EXPECT_EQ(
       message_of([] { read_joints(std::string("garbage"), "take"); }, ErrorKind::unreadable_input),
-      "take:1: not a motion file of a known format (bvh, amc, asf, c3d, trc, tsv, csv)");
+      "take:1: not a motion file of a known format (bvh, amc, asf, c3d, trc, tsv, csv, "
+      "glb, gltf, fbx)");
   EXPECT_EQ(message_of([] { read_joints(std::string(), "take"); }, ErrorKind::unreadable_input),
             "take:1: the file is empty");
   ReadOptions options;
-  options.format = "fbx";
+  options.format = "obj";
   EXPECT_EQ(read_error(text, options, ErrorKind::usage),
-            "unknown format \"fbx\"; the formats are: " + format_names());
-  EXPECT_EQ(message_of([] { write_take(Take{}, "fbx"); }, ErrorKind::usage),
-            "unknown format \"fbx\"; the formats are: " + format_names());
+            "unknown format \"obj\"; the formats are: " + format_names());
+  EXPECT_EQ(message_of([] { write_take(Take{}, "obj"); }, ErrorKind::usage),
+            "unknown format \"obj\"; the formats are: " + format_names());
   ASSERT_NE(format_of_path("a/b.Bvh"), nullptr);
   EXPECT_EQ(format_of_path("a/b.Bvh")->name, "bvh");
   EXPECT_EQ(format_of_path("bvh"), nullptr);

@@ -1,3 +1,4 @@
+// Laws that hold for any bytes, whatever the format. A new fixture is cut and patched everywhere.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -7,7 +8,6 @@
 #include <filesystem>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "counted_memory.hpp"
@@ -16,7 +16,6 @@
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/io.hpp"
 
-/// Laws that hold for any bytes, whatever the format. A new fixture is cut and patched everywhere.
 namespace kinemend::test {
 
 inline constexpr std::size_t memory_allowed = 50u << 20;

@@ -1,10 +1,10 @@
+// Numbers without a blank before the minus sign, as some programs write them, are split.
 #include <gmock/gmock.h>
 
 #include "io/acclaim/acclaim.hpp"
 #include "io/support.hpp"
 #include "io/text/number.hpp"
 
-// Some programs write no blank before a minus sign.
 namespace kinemend {
 namespace {
 

@@ -1,3 +1,4 @@
+// Tells whether a reader repaired a file in a way that changes the bytes that are written.
 #pragma once
 
 #include "kinemend/error.hpp"

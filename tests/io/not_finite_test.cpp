@@ -1,3 +1,5 @@
+// Law: no output holds a number that is not finite; a value that was not finite in the input is
+// missing.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -8,7 +10,6 @@
 #include "io/c3d/c3d_support.hpp"
 #include "io/support.hpp"
 
-// Law: no output holds a number that is not finite. What was not finite in the input is missing.
 namespace kinemend {
 namespace {
 

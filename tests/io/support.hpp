@@ -1,3 +1,4 @@
+// Fixtures, clips and error messages that the tests of readers and writers share.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// A live session survives any bytes, in bounded memory.
 #include "kinemend/experimental/random.hpp"
 #include "live_run.hpp"
 

@@ -1,3 +1,4 @@
+// Tests of lines that arrive in pieces of any size.
 #include "live/line_splitter.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Law: a live session gives what each method makes of the whole file, however the bytes arrive.
 #include "kinemend/stream.hpp"
 #include "live_run.hpp"
 

@@ -1,3 +1,4 @@
+// Tests of the headers of live streams: where they end, how long they may be, and their errors.
 #include "live/live_header.hpp"
 
 #include <gmock/gmock.h>

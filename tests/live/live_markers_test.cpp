@@ -1,3 +1,4 @@
+// Tests of live streams of markers: lines of numbers come in, and lines of JSON go out.
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>

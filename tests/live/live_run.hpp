@@ -1,3 +1,4 @@
+// Runs a live session and keeps its output.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -14,7 +15,6 @@
 #include "kinemend/methods.hpp"
 #include "registry/takes.hpp"
 
-// A live session and all that came out of it.
 namespace kinemend::test {
 
 struct LiveRun {

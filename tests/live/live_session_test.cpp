@@ -1,3 +1,4 @@
+// Tests of live sessions: frames that are lost, late, doubled, malformed or out of order.
 #include <nlohmann/json.hpp>
 
 #include "kinemend/error.hpp"

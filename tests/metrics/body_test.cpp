@@ -1,3 +1,4 @@
+// Tests of foot slide, and of the joints that count as feet.
 #include <gtest/gtest.h>
 
 #include "kinemend/error.hpp"

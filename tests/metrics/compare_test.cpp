@@ -1,3 +1,4 @@
+// Tests of the comparison of two clips, against each figure alone.
 #include <gmock/gmock.h>
 
 #include <limits>

@@ -1,3 +1,4 @@
+// Tests of the comparison of marker takes: fits, lags, and samples that one take lacks.
 #include <gtest/gtest.h>
 
 #include <cmath>

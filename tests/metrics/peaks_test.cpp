@@ -1,3 +1,4 @@
+// Tests of peak speeds and of the noise in them, by random draws.
 #include "metrics/peaks.hpp"
 
 #include <gtest/gtest.h>

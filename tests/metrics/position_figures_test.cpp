@@ -1,3 +1,4 @@
+// Tests of the error figures of positions, by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>

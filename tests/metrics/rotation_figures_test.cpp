@@ -1,3 +1,4 @@
+// Tests of the error figures of rotations, by hand.
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Tests of calibration poses in real takes: found where they are, and nowhere else.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Tests of work on the frames behind a calibration pose.
 #include "motion/calibration.hpp"
 
 #include <gtest/gtest.h>

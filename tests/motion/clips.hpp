@@ -1,3 +1,4 @@
+// Small skeletons and clips in closed form, for tests.
 #pragma once
 
 #include <cmath>

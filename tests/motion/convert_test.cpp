@@ -1,3 +1,4 @@
+// Tests of conversions to other rates, axes, units and kinds.
 #include "kinemend/experimental/convert.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Tests of side files of gaps.
 #include <gmock/gmock.h>
 
 #include <string>

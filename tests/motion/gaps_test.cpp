@@ -1,3 +1,4 @@
+// Tests of marking gaps of joints by name.
 #include "kinemend/gaps.hpp"
 
 #include <gmock/gmock.h>

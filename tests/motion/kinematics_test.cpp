@@ -1,3 +1,4 @@
+// Tests of forward kinematics, against sums of angles and products of matrices.
 #include "kinemend/experimental/kinematics.hpp"
 
 #include <gtest/gtest.h>

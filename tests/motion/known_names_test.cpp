@@ -1,3 +1,4 @@
+// Tests of names and patterns, of subjects, and of frame numbers.
 #include "kinemend/skeleton.hpp"
 
 #include <gmock/gmock.h>

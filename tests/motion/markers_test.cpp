@@ -1,3 +1,4 @@
+// Tests of takes of markers: names, samples, rules and units.
 #include "kinemend/take.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of skeletons: rules, channels, and the guessed unit.
 #include "kinemend/skeleton.hpp"
 
 #include <gmock/gmock.h>

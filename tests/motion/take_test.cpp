@@ -1,3 +1,4 @@
+// Tests of takes of joints: rules, slices, and leading calibration frames.
 #include "kinemend/take.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Tests of the view of a take as a set of tracks.
 #include "kinemend/take_view.hpp"
 
 #include <gtest/gtest.h>

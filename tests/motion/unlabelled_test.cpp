@@ -1,3 +1,4 @@
+// Tests of names that are no labels.
 #include "motion/unlabelled.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of matrix products in both precisions: any shape, and the same bits everywhere.
 #include "nn/gemm.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Tests of half-precision numbers, against Python's struct module and the bits themselves.
 #include "nn/half.hpp"
 
 #include <gtest/gtest.h>

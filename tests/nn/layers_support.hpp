@@ -1,3 +1,4 @@
+// The fixture of layers by LibTorch, and float matrices for tests.
 #pragma once
 
 #include <gtest/gtest.h>

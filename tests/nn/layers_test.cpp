@@ -1,3 +1,5 @@
+// Tests of dense and convolutional layers and of activations, against LibTorch and the math
+// library.
 #include "nn/layers.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Tests of LSTM layers, against LibTorch and frame by frame.
 #include "nn/recurrent_layers.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Tests of tensor files, against the bytes of the reference writer, and of bad ones.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// Tests of feet as the last step of the pipeline, after every method.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -5,7 +6,6 @@
 #include <cmath>
 #include <memory>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "kinemend/clean.hpp"
@@ -16,7 +16,6 @@
 #include "kinemend/experimental/train.hpp"
 #include "kinemend/methods.hpp"
 
-// Feet as the last step of the pipeline.
 namespace kinemend::test {
 namespace {
 

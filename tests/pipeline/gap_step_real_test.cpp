@@ -1,8 +1,6 @@
 // Real takes with gaps: filling them changes nothing that was measured, and rests on no spike.
 #include <gtest/gtest.h>
 
-#include <variant>
-
 #include "kinemend/clean.hpp"
 #include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"

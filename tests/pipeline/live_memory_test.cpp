@@ -1,3 +1,4 @@
+// Law: a live filter of any method allocates no memory once it is warm.
 #include "counting_allocation.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Streams of markers give the same as the method gives for the whole take.
 #include <gtest/gtest.h>
 
 #include "kinemend/error.hpp"

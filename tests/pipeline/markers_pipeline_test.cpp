@@ -1,3 +1,4 @@
+// Tests of the pipeline on markers: strength, limits, selection, range, gaps and report.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// Tests of the pipeline on joints: strength, limits, selection, range and report.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// The law that a repair is not blended with what it repaired.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,7 +12,6 @@
 #include "kinemend/rotation.hpp"
 #include "kinemend/take.hpp"
 
-// The law that a repair is not blended with what it repaired.
 namespace kinemend::test {
 
 inline constexpr double spike_deg = 60;

@@ -1,3 +1,4 @@
+// Streams of joints give the same as each live method gives for the whole take.
 #include "kinemend/stream.hpp"
 
 #include <gtest/gtest.h>

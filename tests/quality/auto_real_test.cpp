@@ -4,7 +4,6 @@
 
 #include <map>
 #include <memory>
-#include <variant>
 
 #include "kinemend/experimental/train.hpp"
 #include "kinemend/methods.hpp"

@@ -1,10 +1,10 @@
+// Gaps made in real takes are filled within bounds of error, and promised errors hold.
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <numeric>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "fill/made_gaps.hpp"
@@ -14,7 +14,6 @@
 #include "kinemend/io.hpp"
 #include "quality/gapped_markers.hpp"
 
-// Gaps made in takes that have none, filled again.
 namespace kinemend::quality {
 namespace {
 

@@ -1,3 +1,4 @@
+// Points of real takes with gaps made in them.
 #pragma once
 
 #include <algorithm>
@@ -5,7 +6,6 @@
 #include <filesystem>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "fill/made_gaps.hpp"

@@ -1,3 +1,4 @@
+// Makes clips of which only some frames were measured.
 #pragma once
 
 #include <cstddef>

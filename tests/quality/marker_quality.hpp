@@ -1,3 +1,4 @@
+// Damages and cleans markers, for tests of quality.
 #pragma once
 
 #include <string>

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
-#include <variant>
 
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/io.hpp"

@@ -1,3 +1,4 @@
+// Damages and cleans clips and measures the error, for tests of quality.
 #pragma once
 
 #include <algorithm>

@@ -7,7 +7,6 @@
 #include <functional>
 #include <memory>
 #include <ostream>
-#include <variant>
 
 #include "counting_allocation.hpp"
 #include "kinemend/check.hpp"

@@ -1,3 +1,4 @@
+// Finds real takes of the CMU database by name.
 #pragma once
 
 #include <filesystem>

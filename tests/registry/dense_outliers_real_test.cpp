@@ -4,7 +4,6 @@
 
 #include <memory>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "kinemend/clean.hpp"

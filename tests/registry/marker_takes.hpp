@@ -1,3 +1,4 @@
+// Marker takes with known ground truth.
 #pragma once
 
 #include <cmath>
@@ -11,7 +12,6 @@
 #include "kinemend/take.hpp"
 #include "rotation/random_rotations.hpp"
 
-// Marker takes whose truth is known.
 namespace kinemend::test {
 
 /// Markers on a synthetic body, two on each joint that carries a bone, in millimetres, all

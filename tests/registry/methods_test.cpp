@@ -1,3 +1,4 @@
+// Tests of the table of methods: names, options, and cleaners made from them.
 #include "kinemend/methods.hpp"
 
 #include <gmock/gmock.h>

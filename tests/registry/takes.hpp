@@ -1,3 +1,4 @@
+// Small takes with every kind of joint, known in closed form at any time.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,7 +12,6 @@
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/take.hpp"
 
-// Small takes with every kind of joint, known in closed form at any time.
 namespace kinemend::test {
 
 /// hips (position, ZXY), spine (YXZ), arm (XYZ), hinge (X), saddle (Z X), fixed (no channels), prop

@@ -1,3 +1,4 @@
+// Tests of the rows of a batch and of sums over them.
 #include "kinemend/experimental/batch_rows.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Checks JSON by the part of JSON Schema that docs/report.schema.json uses.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 #include <string>
 #include <vector>
 
-// Enough of JSON Schema for docs/report.schema.json.
 namespace kinemend::test {
 
 class JsonSchema {

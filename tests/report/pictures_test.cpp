@@ -1,3 +1,4 @@
+// Tests of drawings of whole takes.
 #include "kinemend/experimental/pictures.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Tests of reports as findings, JSON and text.
 #include "kinemend/report.hpp"
 
 #include <gmock/gmock.h>

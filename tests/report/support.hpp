@@ -1,3 +1,4 @@
+// Counts parts of texts, for tests of reports.
 #pragma once
 
 #include <cstddef>

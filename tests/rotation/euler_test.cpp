@@ -1,3 +1,4 @@
+// Tests of Euler angles in every order, against SciPy and at gimbal lock.
 #include <gmock/gmock.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Tests of the laws of rotations: group, exponential and logarithm, angles, and slerp.
 #include <gtest/gtest.h>
 
 #include <limits>

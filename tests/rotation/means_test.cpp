@@ -1,3 +1,4 @@
+// Tests of means of rotations, by brute force and against NumPy.
 #include <gtest/gtest.h>
 
 #include <map>

@@ -1,9 +1,9 @@
+// Draws random vectors and rotations.
 #pragma once
 
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/rotation.hpp"
 
-// Random vectors and rotations.
 namespace kinemend::test {
 
 /// Each coordinate normal, of that deviation.

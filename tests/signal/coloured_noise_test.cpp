@@ -1,3 +1,4 @@
+// Tests of the precision and evidence of coloured noise, against dense matrices.
 #include "signal/coloured_noise.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of filled samples of channels, against SciPy and NumPy.
 #include <gtest/gtest.h>
 
 #include "kinemend/error.hpp"

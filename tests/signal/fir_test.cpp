@@ -1,3 +1,4 @@
+// Tests of the Gaussian and the weighted mean, against SciPy and Blender.
 #include <gtest/gtest.h>
 
 #include "kinemend/error.hpp"

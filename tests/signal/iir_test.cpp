@@ -1,3 +1,4 @@
+// Tests of Butterworth filters, against their closed form and SciPy.
 #include <gtest/gtest.h>
 
 #include <complex>

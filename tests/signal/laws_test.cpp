@@ -1,3 +1,4 @@
+// Laws that every filter of channels keeps.
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
@@ -5,7 +6,6 @@
 
 #include "signal/support.hpp"
 
-// What holds for every filter of the room.
 namespace kinemend::test {
 namespace {
 

@@ -1,3 +1,4 @@
+// Tests of leave-one-out predictions and of the smoothers that they choose.
 #include "signal/leave_one_out.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of running medians, against SciPy, and of sorting networks.
 #include <gtest/gtest.h>
 
 #include "signal/sorting_network.hpp"

@@ -1,3 +1,4 @@
+// Tests of selection by rank on each instruction set, against sorting.
 #include "signal/order_statistics.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Reference values and channels for tests of filters.
 #pragma once
 
 #include <algorithm>

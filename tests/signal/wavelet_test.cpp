@@ -1,3 +1,4 @@
+// Tests of wavelet filters, transform and shrinkage, against matrices and published tables.
 #include <gtest/gtest.h>
 
 #include <complex>

@@ -1,3 +1,4 @@
+// Tests of synthetic gait: standing feet, and angles and speeds as published.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,3 +1,4 @@
+// Tests of synthetic gestures and jumps, by their kinematics.
 #include <gtest/gtest.h>
 
 #include "synth/measure.hpp"

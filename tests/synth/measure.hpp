@@ -1,3 +1,4 @@
+// Makes synthetic motions and measures them, for tests.
 #pragma once
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Tests of artificial takes: valid, repeatable and continuous, with options within their ranges.
 #include <gtest/gtest.h>
 
 #include "kinemend/error.hpp"

@@ -1,3 +1,4 @@
+// Tests of the training of Mall et al.'s networks: it resumes to the same result, and it learns.
 #include "filter_training.hpp"
 
 #include <gtest/gtest.h>

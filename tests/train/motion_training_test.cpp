@@ -1,3 +1,4 @@
+// Tests of the training of `learned`, on small networks.
 #include "motion_training.hpp"
 
 #include <gtest/gtest.h>

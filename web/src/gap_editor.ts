@@ -1,33 +1,10 @@
 // The gap plan as a table: a row for each gap, with its method and verdict to choose.
 
 import { button, choice, element, figure, grouped, toggle } from './dom';
-import { GapPreview, type GapCurves } from './gap_preview';
+import { GapPreview } from './gap_preview';
 import { oneTabStop } from './roving';
+import type { GapCurves, GapPlan, PlannedGap, Session } from './served';
 import type { Take } from './take';
-import type { Session } from './view';
-
-/** As `kinemend.gap-plan/1` has it (docs/methods/gap-plan.md). */
-export interface PlannedGap {
-  name: string;
-  quantity: string;
-  first_frame: number;
-  last_frame: number;
-  length_frames: number;
-  length_s: number;
-  verdict: string;
-  method: string;
-  donor: string;
-  filled_by: string;
-  evidence: string[];
-  expected_error: number | null;
-  unit: string;
-  reason: string;
-  previews?: { method: string; filled: boolean; distance: number | null; reason: string }[];
-}
-export interface GapPlan {
-  schema: string;
-  gaps: PlannedGap[];
-}
 
 const mostRows = 300;
 

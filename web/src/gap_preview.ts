@@ -3,16 +3,8 @@
 import uPlot from 'uplot';
 import { frameSteps } from './curves';
 import { button, colour, describeCanvas, element, figure, isolated } from './dom';
-import type { PlannedGap } from './gap_editor';
+import type { GapCurves, PlannedGap } from './served';
 import type { Take } from './take';
-
-/** As cli/view_session.cpp writes it; frames count from 0. */
-export interface GapCurves {
-  first: number;
-  last: number;
-  axes: string[];
-  curves: { method: string; filled: boolean; reason: string; distance: number | null; expected_error: number | null; values: (number | null)[][] }[];
-}
 
 type Curve = GapCurves['curves'][number];
 

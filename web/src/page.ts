@@ -7,7 +7,8 @@ import { jsonOf } from './codec';
 import { element } from './dom';
 import type { ReportDocument, TakeData } from './report';
 import { showTake } from './take_page';
-import { startView, type Session } from './view';
+import type { Session } from './served';
+import { startView } from './view';
 
 async function start(): Promise<void> {
   const page = document.getElementById('page') as HTMLElement;

@@ -3,32 +3,16 @@
 import { jsonOf } from './codec';
 import { button, choice, element } from './dom';
 import { ContactEditor } from './contact_editor';
-import { GapEditor, type GapPlan } from './gap_editor';
-import type { GapCurves } from './gap_preview';
+import { GapEditor } from './gap_editor';
 import type { Sight } from './line_editor';
 import { MissingEditor } from './missing_editor';
 import { field, optionControl, showProblem, type Option, type Value } from './option_control';
 import type { ReportDocument, TakeData } from './report';
 import { SaveDialog, type Saved } from './save_dialog';
+import type { GapCurves, GapPlan, Session } from './served';
 import { showTake, type Shown } from './take_page';
 import { themeButton } from './theme';
 
-/** What the page of `kinemend view` holds before there is a take: cli/view_session.cpp writes it. */
-export interface Session {
-  input: string;
-  other: string;
-  kind: 'joints' | 'markers';
-  cleaned: string;
-  filled: string;
-  contacts: string;
-  plan: string;
-  gaps: string;
-  with_gaps: boolean;
-  methods: { name: string; summary: string; options: Option[] }[];
-  fill_methods: { name: string; summary: string; joints: boolean; markers: boolean }[];
-  /** `values`: what a preset sets of the controls; `options`: of the options of methods. */
-  presets: { name: string; summary: string; values: Record<string, Value>; options: Record<string, Record<string, Value>> }[];
-}
 /** What a run is asked for, as the server reads it. */
 interface Asked {
   command: 'clean' | 'fill';

@@ -28,8 +28,7 @@ AmcRows::AmcRows(const SourceText& text, std::size_t begin, const AmcLayout& lay
     : text_(text),
       position_(text.bytes.data() + begin),
       end_(text.bytes.data() + text.bytes.size()),
-      plain_begin_(text.bytes.data() + std::min<std::size_t>(plain_number_lead, text.bytes.size())),
-      plain_end_(end_ - std::min<std::ptrdiff_t>(plain_number_reach, end_ - text.bytes.data())),
+      plain_places_(text.bytes.data(), end_),
       last_end_(position_),
       layout_(layout),
       is_angle_(is_angle),
@@ -193,8 +192,8 @@ void AmcRows::read_bone(const AmcBone& bone, const char* p, double* values, Toke
 
 double AmcRows::read_value(const char*& p) {
   PlainNumber plain;
-  if (p >= plain_begin_ && p < plain_end_ && read_plain_number(p, plain) &&
-      is_space(p[plain.length])) [[likely]] {
+  if (plain_places_.holds(p) && read_plain_number(p, plain) && is_space(p[plain.length]))
+      [[likely]] {
     p += plain.length;
     most_decimals_ = std::max(most_decimals_, plain.decimals);
     return plain.value;

@@ -61,8 +61,7 @@ class AmcRows {
   SourceText text_;
   const char* position_;
   const char* end_;
-  const char* plain_begin_;  // from here to `plain_end_`, `read_plain_number` may be asked
-  const char* plain_end_;
+  PlainPlaces plain_places_;
   const char* last_end_;
   const AmcLayout& layout_;
   const std::vector<std::uint8_t>& is_angle_;

@@ -143,6 +143,17 @@ std::vector<SourceFact> facts_of(const GltfDocument& document) {
   return facts;
 }
 
+// Those that turn or move the same joints as the one that was read.
+void name_animations(const GltfDocument& document, SourceInfo& source) {
+  const GltfModel& model = document.model;
+  if (document.animation == GltfTrack::none) return;
+  const std::vector<std::size_t> joints = gltf_joints(model, document.animation);
+  for (std::size_t a = 0; a < model.animations.size(); ++a) {
+    if (moves_something(model, a, joints)) source.animations.push_back(name_of_animation(model, a));
+  }
+  source.animation = name_of_animation(model, document.animation);
+}
+
 void check_joint_depth(const GltfFile& file, const Skeleton& skeleton, std::size_t most) {
   std::vector<std::size_t> depths;
   for (const std::int32_t parent : skeleton.parents) {
@@ -168,6 +179,7 @@ TakeResult read_gltf_file(std::string bytes, std::string_view name, const ReadOp
   check_joint_depth(document->file, motion.take.skeleton, options.max_depth);
   GltfNotes(*document, options.strict, result.diagnostics).about(motion);
   motion.take.source = {std::string(name), format, document, facts_of(*document)};
+  name_animations(*document, motion.take.source);
   result.take = std::move(motion.take);
   return result;
 }

@@ -6,13 +6,7 @@
 namespace kinemend {
 
 MotionRows::MotionRows(const char* begin, const char* end, CommaStyle commas)
-    : begin_(begin),
-      end_(end),
-      position_(begin),
-      last_end_(begin),
-      plain_starts_(
-          std::max<std::ptrdiff_t>(0, end - begin - plain_number_lead - plain_number_reach + 1)),
-      commas_(commas) {}
+    : end_(end), position_(begin), last_end_(begin), plain_places_(begin, end), commas_(commas) {}
 
 const char* MotionRows::skip(const char* p) const {
   p = skip_space(p, end_);
@@ -63,7 +57,8 @@ std::size_t MotionRows::read(double* values, std::size_t count, TokenSpan* token
   for (; i < count; ++i) {
     PlainNumber number;
     // A number ends with white space, not with any control character.
-    if (may_be_plain(p) && read_plain_number(p, number) && is_space(p[number.length])) [[likely]] {
+    if (plain_places_.holds(p) && read_plain_number(p, number) && is_space(p[number.length]))
+        [[likely]] {
       last_end = p + number.length;
       if constexpr (keep_tokens) tokens[i] = {p, last_end};
       values[i] = number.value;

@@ -48,16 +48,10 @@ class MotionRows {
   bool read_joined(const char* p, NumberToken& token);
   const char* skip(const char* p) const;
 
-  bool may_be_plain(const char* p) const {
-    return static_cast<std::size_t>(p - begin_ - plain_number_lead) <
-           static_cast<std::size_t>(plain_starts_);
-  }
-
-  const char* begin_;
   const char* end_;
   const char* position_;
   const char* last_end_;
-  std::ptrdiff_t plain_starts_;  ///< places with room around them for `read_plain_number`
+  PlainPlaces plain_places_;
   CommaStyle commas_;
   unsigned most_decimals_ = 0;
   std::size_t gaps_ = 0;

@@ -14,7 +14,7 @@ namespace kinemend {
 
 namespace {
 
-constexpr std::string_view first_word = "Format Version";
+constexpr std::string_view motive_first_word = "Format Version";
 constexpr std::size_t most_rows_above_axes = 12;
 
 bool is_marker(const std::string& type) { return type == "Marker"; }
@@ -33,7 +33,7 @@ class MotiveReader {
   CsvHeader read() {
     // It can be left out of an export.
     HeadLines first = lines_;
-    if (const Cells facts = first.take_cells(); !facts.empty() && facts[0] == first_word) {
+    if (const Cells facts = first.take_cells(); !facts.empty() && facts[0] == motive_first_word) {
       read_facts(facts);
       lines_ = first;
     }
@@ -156,7 +156,8 @@ class MotiveReader {
 bool starts_as_motive_export(std::string_view text) {
   text.remove_prefix(after_byte_order_mark(text));
   const std::string_view line = line_from(text, 0);
-  if (line.substr(line.substr(0, 1) == "\"" ? 1 : 0, first_word.size()) == first_word) return true;
+  if (line.substr(line.substr(0, 1) == "\"" ? 1 : 0, motive_first_word.size()) == motive_first_word)
+    return true;
   // Without the line of facts: the row of types.
   if (line.empty() || std::string_view(",;\t").find(line[0]) == std::string_view::npos)
     return false;

@@ -118,8 +118,7 @@ CellRows::CellRows(std::string_view text, std::size_t begin, CellStyle style)
       end_(text.data() + text.size()),
       line_(text.data() + begin),
       next_line_(line_),
-      plain_starts_(
-          std::max<std::ptrdiff_t>(0, end_ - begin_ - plain_number_lead - plain_number_reach + 1)),
+      plain_places_(begin_, end_),
       style_(std::move(style)) {}
 
 bool CellRows::next() {
@@ -193,7 +192,7 @@ CellRow CellRows::read_separated(const Output& out) {
     }
     PlainNumber number;
     const char* next = nullptr;
-    if (i < out.count && may_be_plain(p) && read_plain_number<separator>(p, number) &&
+    if (i < out.count && plain_places_.holds(p) && read_plain_number<separator>(p, number) &&
         (p[number.length] == separator || is_line_end(p[number.length]))) [[likely]] {
       next = p + number.length;
       out.put(i, number.value, {p, next});

@@ -80,16 +80,11 @@ class CellRows {
   Cell find_cell(const char* p) const;
   double value_of(TokenSpan token, std::size_t column, CellRow& row);
 
-  bool may_be_plain(const char* p) const {
-    return static_cast<std::size_t>(p - begin_ - plain_number_lead) <
-           static_cast<std::size_t>(plain_starts_);
-  }
-
   const char* begin_;
   const char* end_;
   const char* line_;
   const char* next_line_;
-  std::ptrdiff_t plain_starts_;  ///< places with room around them for `read_plain_number`
+  PlainPlaces plain_places_;
   CellStyle style_;
   std::size_t not_finite_ = 0;
   const char* first_not_finite_ = nullptr;

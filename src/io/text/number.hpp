@@ -1,6 +1,7 @@
 // Reads and writes numbers as text, correctly rounded and fast.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -188,6 +189,22 @@ inline DigitGroups join_digits(std::uint64_t first, std::uint64_t second) {
 /// Bytes that must be readable before and after the start of a token for `read_plain_number`.
 inline constexpr std::ptrdiff_t plain_number_lead = 8;
 inline constexpr std::ptrdiff_t plain_number_reach = 32;
+
+/// The places of a text with that much room around them.
+class PlainPlaces {
+ public:
+  PlainPlaces(const char* begin, const char* end)
+      : first_(begin + std::min<std::ptrdiff_t>(plain_number_lead, end - begin)),
+        count_(std::max<std::ptrdiff_t>(
+            0, end - begin - plain_number_lead - plain_number_reach + 1)) {}
+  bool holds(const char* p) const {
+    return static_cast<std::size_t>(p - first_) < static_cast<std::size_t>(count_);
+  }
+
+ private:
+  const char* first_;
+  std::ptrdiff_t count_;
+};
 
 struct PlainNumber {
   double value = 0;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <variant>
 #include <vector>
 
 #include "base/spool.hpp"

@@ -121,7 +121,7 @@ MotionSample random_damage(const TrainingSequences& sequences, const BodyMirror&
   const double pace = random_pace(random) * sequences.rate_hz / rate_hz;
   PoseMatrix poses = random_stretch(sequences, pace, sample_frames(sampling, rate_hz), random);
   const std::size_t channels = poses.channels;
-  const RecurrentForm form{random.chance(0.5), random.chance(0.5)};
+  const MotionForm form{random.chance(0.5), random.chance(0.5)};
   const std::vector<float> shown =
       in_form(std::vector<float>(poses.values.begin(), poses.values.end()), form, mirror);
   poses.values.assign(shown.begin(), shown.end());

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kinemend/experimental/random.hpp"
-#include "learned/core/recurrent_forms.hpp"
+#include "learned/core/motion_forms.hpp"
 #include "learned/core/training_sequences.hpp"
 #include "learned/corrector/motion_steps.hpp"
 

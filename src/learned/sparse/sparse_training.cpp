@@ -10,7 +10,6 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <variant>
 
 #include "base/file_bytes.hpp"
 #include "base/parallel.hpp"

@@ -1,3 +1,5 @@
+// The parts of cleaners that do not depend on a method: names of actions, the spectrum of found
+// noise, and cleaning in place.
 #include "kinemend/cleaner.hpp"
 
 #include <cmath>

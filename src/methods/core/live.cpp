@@ -1,3 +1,4 @@
+// Pushes a take through a live filter frame by frame and collects the tracks that changed.
 #include "methods/core/live.hpp"
 
 namespace kinemend {

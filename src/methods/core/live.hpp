@@ -1,3 +1,5 @@
+// Methods that go through a take from its first frame to its last: causal ones, track by track, and
+// the offline run of any live filter.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +10,6 @@
 
 #include "methods/core/pieces.hpp"
 
-// Methods that go through a take from its first frame to its last: causal ones, track by track, and
-// the offline run of any live filter.
 namespace kinemend {
 
 /// Cleans a take by the live filter of a cleaner, so that live and offline are the same: pushes

@@ -1,3 +1,5 @@
+// Cuts tracks at long gaps, bridges short ones by cubics, lines or geodesics, and joins cleaned
+// pieces again.
 #include "methods/core/pieces.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Tracks as filters see them: pieces without long gaps, of rotations and of positions alike.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +13,6 @@
 #include "base/progress.hpp"
 #include "kinemend/cleaner.hpp"
 
-// Tracks as filters see them: pieces without long gaps, of rotations and of positions alike.
 namespace kinemend {
 
 /// A stretch of a track with its gaps bridged. Of a track whose gaps are cut it starts and ends

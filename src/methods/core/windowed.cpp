@@ -1,3 +1,5 @@
+// Keeps the last frames of a stream, gives each one when its window is complete, and forgets the
+// oldest.
 #include "methods/core/windowed.hpp"
 
 #include <algorithm>

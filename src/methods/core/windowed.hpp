@@ -1,3 +1,7 @@
+// Methods with a window: a frame's result depends on `half` frames on either side of it, and on
+// nothing else. Such a method states how it filters a piece, which offline runs use, and a step
+// that takes one sample and gives the filtered one of `half` samples before. `windowed_filter` does
+// the rest of its live form: steps where nothing is missing, pieces at gaps and at the ends.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +13,6 @@
 
 #include "methods/core/pieces.hpp"
 
-// Methods with a window: a frame's result depends on `half` frames on either side of it, and on
-// nothing else. Such a method states how it filters a piece, which offline runs use, and a step
-// that takes one sample and gives the filtered one of `half` samples before. `windowed_filter` does
-// the rest of its live form: steps where nothing is missing, pieces at gaps and at the ends.
 namespace kinemend {
 
 /// The last samples of a track, one behind the other. Takes memory only when it is made.

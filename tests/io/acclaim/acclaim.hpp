@@ -1,3 +1,4 @@
+// Fixtures and small skeletons for the tests of ASF and AMC.
 #pragma once
 
 #include <gtest/gtest.h>

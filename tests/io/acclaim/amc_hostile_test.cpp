@@ -1,3 +1,4 @@
+// Bytes of ASF and AMC files that are cut, patched or moved are read or refused, in bounded memory.
 #include <fmt/format.h>
 
 #include "acclaim.hpp"

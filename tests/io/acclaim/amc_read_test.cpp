@@ -1,3 +1,4 @@
+// Tests of the AMC reader: units, rates, frames, and the skeleton that belongs to a file.
 #include <stdlib.h>
 
 #include <fstream>

@@ -1,3 +1,5 @@
+// Real AMC files come back to the byte, and their joints stand where BVH and C3D files of the same
+// takes put them.
 
 #include "acclaim.hpp"
 #include "kinemend/experimental/kinematics.hpp"

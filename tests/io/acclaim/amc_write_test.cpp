@@ -1,3 +1,4 @@
+// Tests of the AMC writer: into the text of the source, and from any clip.
 #include <fmt/format.h>
 
 #include <map>

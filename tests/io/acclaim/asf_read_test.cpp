@@ -1,3 +1,4 @@
+// Tests of the ASF reader: the hierarchy, axes, lengths and limits, and errors with their line.
 #include "acclaim.hpp"
 #include "kinemend/experimental/kinematics.hpp"
 

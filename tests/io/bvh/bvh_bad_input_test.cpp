@@ -1,3 +1,4 @@
+// A bad BVH file is refused with one line that names the place.
 #include <map>
 
 #include "io/motion/motion_lines.hpp"

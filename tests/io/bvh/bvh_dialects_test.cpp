@@ -1,3 +1,4 @@
+// Tests of the BVH reader on the layouts and repairs of many programs.
 #include "io/bvh/bvh_document.hpp"
 #include "io/bvh/bvh_hierarchy.hpp"
 #include "io/support.hpp"

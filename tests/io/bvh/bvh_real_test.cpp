@@ -1,3 +1,4 @@
+// Real BVH files come back to the byte, and changed ones read back without jumps.
 #include <cmath>
 #include <set>
 

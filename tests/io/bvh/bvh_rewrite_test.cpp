@@ -1,3 +1,4 @@
+// Tests of changed takes that are written into the text of their BVH file.
 #include <cmath>
 
 #include "io/support.hpp"

@@ -1,3 +1,4 @@
+// Tests of BVH in a plain layout: what is written reads back the same.
 #include <cmath>
 #include <limits>
 

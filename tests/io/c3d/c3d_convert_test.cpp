@@ -1,3 +1,4 @@
+// Tests of conversions of C3D files: what they keep, change, and name as lost.
 #include "c3d_law.hpp"
 
 namespace kinemend {

@@ -1,3 +1,4 @@
+// The law of conversions of C3D files: they keep everything in the file that they do not concern.
 #pragma once
 
 #include <array>
@@ -10,7 +11,6 @@
 #include "c3d_support.hpp"
 #include "kinemend/experimental/convert.hpp"
 
-/// What every conversion of a C3D file owes to all that is in it.
 namespace kinemend::test {
 
 /// A conversion, and what it may change.

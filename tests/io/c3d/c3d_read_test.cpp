@@ -1,3 +1,4 @@
+// Tests of the C3D reader on fixtures of every encoding, with their faults.
 #include <cmath>
 #include <map>
 

@@ -1,3 +1,5 @@
+// Tests of real C3D files: they come back to the byte, and one recording reads equal in every
+// encoding.
 #include <algorithm>
 #include <cctype>
 #include <cmath>

@@ -1,3 +1,4 @@
+// Fixtures and analog samples for the tests of C3D.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -6,7 +7,6 @@
 #include <fstream>
 #include <sstream>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "io/c3d/c3d_analog.hpp"

@@ -1,3 +1,4 @@
+// Tests of the C3D writer: in place where the bytes can hold the change, else as a new file.
 #include <cmath>
 #include <cstring>
 

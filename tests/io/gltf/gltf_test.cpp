@@ -1,3 +1,4 @@
+// Tests of the glTF writer: the nodes, animations and skins of a written file are evaluated again.
 #include <cstring>
 #include <nlohmann/json.hpp>
 

@@ -1,3 +1,5 @@
+// Tests of sines and cosines of half angles, to the last digits, and of the rotations made from
+// them.
 #include "io/motion/half_angles.hpp"
 
 #include <gtest/gtest.h>

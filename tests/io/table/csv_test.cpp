@@ -1,3 +1,4 @@
+// Tests of CSV tables of markers and joints, from this project and from other programs.
 #include <gmock/gmock.h>
 
 #include <map>

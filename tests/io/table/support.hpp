@@ -1,3 +1,4 @@
+// Fixtures and text replacement that the tests of tables share.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -6,7 +7,6 @@
 
 #include "io/support.hpp"
 
-// What the tests of TRC and CSV files share.
 namespace kinemend::test {
 
 inline std::string trc_fixture(const std::string& name) {

@@ -1,3 +1,4 @@
+// Bytes of TRC files that are cut, patched or moved are read or refused, in bounded memory.
 #include "io/hostile.hpp"
 
 namespace kinemend {

@@ -1,3 +1,4 @@
+// Tests of the TRC reader: its dialects, missing samples, rates and repairs.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// Real TRC files are read to the last sample and come back to the byte.
 #include "io/support.hpp"
 
 namespace kinemend {

@@ -1,3 +1,4 @@
+// Tests of the TRC writer: only changed samples get new digits.
 #include <fmt/format.h>
 
 #include "io/hostile.hpp"

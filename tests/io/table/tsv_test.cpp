@@ -1,3 +1,4 @@
+// Tests of TSV tables: reading, writing, and bytes that are cut, patched or moved.
 #include <gmock/gmock.h>
 
 #include <map>

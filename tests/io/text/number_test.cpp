@@ -1,3 +1,4 @@
+// Tests of numbers as text, against the C library.
 #include "io/text/number.hpp"
 
 #include <gtest/gtest.h>

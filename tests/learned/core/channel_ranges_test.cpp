@@ -1,3 +1,4 @@
+// Tests of the quantiles of channels over many takes.
 #include "learned/core/channel_ranges.hpp"
 
 #include <gtest/gtest.h>

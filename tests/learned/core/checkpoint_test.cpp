@@ -1,3 +1,4 @@
+// Trainings that are interrupted and resumed give the same bytes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +13,6 @@
 #include "kinemend/experimental/train.hpp"
 #include "learned/core/training_stages.hpp"
 
-// Trainings that are broken off and go on.
 namespace kinemend {
 namespace {
 

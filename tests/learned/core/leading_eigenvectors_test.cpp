@@ -1,3 +1,4 @@
+// Tests of leading eigenvectors, against a full solver.
 #include "learned/core/leading_eigenvectors.hpp"
 
 #include <gtest/gtest.h>

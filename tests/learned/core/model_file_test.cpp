@@ -1,3 +1,4 @@
+// Tests of model files: layout, checksum, versions, and the models that ship.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

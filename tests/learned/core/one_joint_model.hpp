@@ -1,3 +1,4 @@
+// A model of one joint with the tensors of a fixture.
 #pragma once
 
 #include <fstream>

@@ -1,3 +1,5 @@
+// Tests of the path of a take through the methods with a learned model, with filters of known
+// effect.
 #include "learned/core/prior_cleaning.hpp"
 
 #include <gmock/gmock.h>
@@ -17,7 +19,6 @@
 #include "registry/marker_takes.hpp"
 #include "registry/takes.hpp"
 
-// The way of a take through the methods with a learned model, with filters whose effect is known.
 namespace kinemend::test {
 namespace {
 

@@ -1,3 +1,4 @@
+// Tests of how far a learned model may change a part of a take.
 #include "learned/core/prior_hold.hpp"
 
 #include <gtest/gtest.h>

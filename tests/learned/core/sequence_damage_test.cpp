@@ -1,3 +1,4 @@
+// Tests of damage on sequences of channels, for training.
 #include "learned/core/sequence_damage.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of the table of learned methods and of what all trainings share.
 #include "kinemend/experimental/train.hpp"
 
 #include <gmock/gmock.h>

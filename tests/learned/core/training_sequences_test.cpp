@@ -1,3 +1,4 @@
+// Tests of the input of trainings: takes in memory or in a file, and the sequences from them.
 #include "learned/core/training_sequences.hpp"
 
 #include <gtest/gtest.h>
@@ -5,7 +6,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "kinemend/error.hpp"

@@ -1,3 +1,4 @@
+// Random bases, and bases as Eigen matrices, for tests of `example`.
 #pragma once
 
 #include <Eigen/Core>

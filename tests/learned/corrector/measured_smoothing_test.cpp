@@ -1,3 +1,4 @@
+// Tests of joining the result of the network with that of measured noise.
 #include "learned/corrector/measured_smoothing.hpp"
 
 #include <gtest/gtest.h>

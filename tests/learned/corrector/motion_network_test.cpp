@@ -1,3 +1,4 @@
+// Tests of the network of `learned` and the parts before and after it, against LibTorch.
 #include "learned/corrector/motion_network.hpp"
 
 #include <gmock/gmock.h>

@@ -1,10 +1,10 @@
+// Tests of the samples that the network of `learned` is trained on.
 #include "learned/corrector/motion_samples.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
 #include <vector>
 
 #include "kinemend/experimental/synth.hpp"

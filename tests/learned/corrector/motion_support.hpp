@@ -1,3 +1,4 @@
+// A small network of `learned` and a take, from the fixture that LibTorch made.
 #pragma once
 
 #include <string>

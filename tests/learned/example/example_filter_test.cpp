@@ -1,3 +1,4 @@
+// Tests of the filter of `example`, against its objective and the paper's own iteration.
 #include "learned/example/example_filter.hpp"
 
 #include <gmock/gmock.h>

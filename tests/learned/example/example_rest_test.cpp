@@ -1,3 +1,4 @@
+// Tests of how `example` treats noise, strange motion, and the motion outside of its bases.
 #include "learned/core/example_rest.hpp"
 #include "learned/example/example_filter.hpp"
 

@@ -1,3 +1,4 @@
+// Tests of singular spectrum analysis, against the whole trajectory matrix and a full solver.
 #include "learned/example/mssa.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Tests of the convolution with patterns, against the sum over all windows.
 #include "learned/example/pattern_convolution.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of the distance from patterns: by windows and by frequencies it is the same.
 #include "learned/example/pattern_penalty.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Random linear dynamics and motion from them, for tests.
 #pragma once
 
 #include <Eigen/Core>

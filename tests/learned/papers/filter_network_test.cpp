@@ -1,3 +1,4 @@
+// Tests of the networks of Mall et al. 2017, against LibTorch.
 #include "learned/papers/filter_network.hpp"
 
 #include <gtest/gtest.h>

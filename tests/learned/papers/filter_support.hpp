@@ -1,3 +1,4 @@
+// A network of Mall et al. 2017 with a constant output, for tests.
 #pragma once
 
 #include <cmath>

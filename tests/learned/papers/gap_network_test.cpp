@@ -1,3 +1,4 @@
+// Tests of gaps that a network fills, with networks of known output.
 #include "learned/papers/gap_network.hpp"
 
 #include <gtest/gtest.h>

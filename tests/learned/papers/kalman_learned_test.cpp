@@ -1,7 +1,7 @@
+// Tests of the method `kalman-learned` and its training, on synthetic walks.
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <variant>
 #include <vector>
 
 #include "kinemend/error.hpp"

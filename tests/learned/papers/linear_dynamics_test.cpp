@@ -1,3 +1,4 @@
+// Tests of learned linear dynamics, on motion made by known matrices.
 #include "learned/papers/linear_dynamics.hpp"
 
 #include <gtest/gtest.h>

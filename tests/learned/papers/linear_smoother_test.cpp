@@ -1,3 +1,4 @@
+// Tests of the linear smoother, against the conditional expectation in dense algebra.
 #include "learned/papers/linear_smoother.hpp"
 
 #include <gtest/gtest.h>

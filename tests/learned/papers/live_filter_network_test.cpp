@@ -1,3 +1,4 @@
+// Tests of a network of Mall et al. 2017 on a stream, beside its result on whole takes.
 #include "learned/papers/live_filter_network.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,6 @@
 #include "kinemend/experimental/random.hpp"
 #include "learned/papers/random_filter_model.hpp"
 
-// What a network of the paper makes of a stream, beside what it makes of whole takes.
 namespace kinemend {
 namespace {
 

@@ -1,3 +1,4 @@
+// Tests of predicted filters, against their equations and numeric derivatives.
 #include "learned/papers/predicted_filter.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Small networks of Mall et al. 2017 with random weights, for tests.
 #pragma once
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Tests of batch orthogonal matching pursuit, against pursuit by its definition.
 #include "learned/sparse/batch_omp.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Tests of coordinate descent for sparse codes, against the exact solver.
 #include "learned/sparse/descent_solver.hpp"
 
 #include <gmock/gmock.h>

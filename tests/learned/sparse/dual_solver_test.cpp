@@ -1,3 +1,4 @@
+// Tests of the exact solver of sparse codes, against coordinate descent and optimality conditions.
 #include "learned/sparse/dual_solver.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Tests of K-SVD, on signals of a known dictionary.
 #include "learned/sparse/ksvd.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,5 @@
+// Tests of the prior of `sparse`: local coordinates, points, parts of the body, its file, and the
+// filter.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <memory>
-#include <variant>
 #include <vector>
 
 #include "kinemend/clean.hpp"

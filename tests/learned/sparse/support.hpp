@@ -1,3 +1,4 @@
+// Random signals and dictionaries for tests of sparse codes.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// Tests of the method `wiener`: posterior, mixture, filter, guard, outliers and prior.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>

@@ -1,3 +1,4 @@
+// Tests of moments and directions of windows.
 #include "learned/wiener/window_moments.hpp"
 
 #include <gtest/gtest.h>

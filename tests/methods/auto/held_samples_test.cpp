@@ -1,3 +1,4 @@
+// Tests of takes whose samples were held or interpolated from a lower rate.
 #include "methods/auto/held_samples.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of the noise that shows in distances between markers.
 #include "methods/auto/marker_distances.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of the frequencies of a take's noise.
 #include <gtest/gtest.h>
 
 #include <cmath>

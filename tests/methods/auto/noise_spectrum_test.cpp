@@ -1,3 +1,4 @@
+// Tests of the estimated colour and strength of noise, and of `auto` under such noise.
 #include "methods/auto/noise_spectrum.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of whitening, on noise of known covariance.
 #include "methods/auto/whitening.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of pieces: where gaps are bridged or cut, and how pieces go back into a track.
 #include "methods/core/pieces.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of the method `bilateral`, against Courty's algorithm and its symmetries.
 #include <gtest/gtest.h>
 
 #include <cmath>

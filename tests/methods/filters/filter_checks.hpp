@@ -1,3 +1,4 @@
+// Tracks and differences that the tests of orientation filters share.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +13,6 @@
 #include "registry/takes.hpp"
 #include "rotation/random_rotations.hpp"
 
-// What the tests of the orientation filters share.
 namespace kinemend::test {
 
 /// The rotations of a joint, frame by frame.

@@ -1,3 +1,5 @@
+// Tests of the methods `kalman`, `butterworth`, `weighted-mean`, `wavelet` and `one-euro`, against
+// their definitions on single axes.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Tests of the method `gaussian` and of the kernels of orientation filters.
 #include <gtest/gtest.h>
 
 #include <array>

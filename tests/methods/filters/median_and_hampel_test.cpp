@@ -1,3 +1,4 @@
+// Tests of the methods `median` and `hampel` on spikes and steps.
 #include <gtest/gtest.h>
 
 #include <cmath>

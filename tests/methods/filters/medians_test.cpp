@@ -1,3 +1,4 @@
+// Tests of medoids and medians of rotations and points, by brute force.
 #include "methods/filters/medians.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// Tests of the method `nonlocal`, against Dean's filter, and of its causal form.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Tests of the codec of motion in pages: samples come back within half a quantum.
 #include "report/page/codec.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// Tests of the lines that a page draws between markers.
 #include "report/page/links.hpp"
 
 #include <gtest/gtest.h>

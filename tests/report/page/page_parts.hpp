@@ -1,3 +1,4 @@
+// Takes a page apart, independently of how it was put together.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,7 +11,6 @@
 #include <string_view>
 #include <vector>
 
-// What a page holds, taken apart independently of how it was put together.
 namespace kinemend::test {
 
 using PageJson = nlohmann::ordered_json;

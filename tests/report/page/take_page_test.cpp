@@ -1,3 +1,4 @@
+// Tests of whole pages, by the parts that they hold.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Finds which tracks change places in a mirror and turns values into that form.
-#include "learned/core/recurrent_forms.hpp"
+#include "learned/core/motion_forms.hpp"
 
 #include <algorithm>
 #include <string>
@@ -64,7 +64,7 @@ BodyMirror mirror_of(const BodyLayout& layout) {
   return mirror;
 }
 
-std::vector<float> in_form(const std::vector<float>& values, RecurrentForm form,
+std::vector<float> in_form(const std::vector<float>& values, MotionForm form,
                            const BodyMirror& mirror) {
   std::vector<float> result = form.is_mirrored ? mirrored(values, mirror) : values;
   return form.is_reversed ? backwards(result, 3 * mirror.partners.size()) : result;

@@ -18,14 +18,14 @@ struct BodyMirror {
 /// another, is its own.
 BodyMirror mirror_of(const BodyLayout& layout);
 
-struct RecurrentForm {
+struct MotionForm {
   bool is_mirrored = false;
   bool is_reversed = false;
 };
 
 /// Values (F x D) in that form; once more, and they are themselves. In the mirror exact where the
 /// references of the layout are symmetrical.
-std::vector<float> in_form(const std::vector<float>& values, RecurrentForm form,
+std::vector<float> in_form(const std::vector<float>& values, MotionForm form,
                            const BodyMirror& mirror);
 
 }  // namespace kinemend

@@ -1,4 +1,5 @@
-#include "learned/core/recurrent_forms.hpp"
+// Tests of motion in a mirror and backwards.
+#include "learned/core/motion_forms.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,5 @@
+#include "read_law.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return check_read_law(data, size, "fbx");
+}

@@ -1,0 +1,50 @@
+// Keeps an FBX file as it was read so that changed curves can be written back into it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "io/fbx/fbx_frames.hpp"
+#include "io/fbx/fbx_pose.hpp"
+#include "io/fbx/fbx_rig.hpp"
+#include "io/fbx/fbx_scene.hpp"
+#include "io/fbx/fbx_tree.hpp"
+#include "kinemend/take.hpp"
+
+namespace kinemend {
+
+/// A key whose value is not finite in the file, and was held from a neighbour.
+struct FbxMendedKey {
+  std::size_t curve = 0;
+  std::size_t key = 0;
+};
+
+/// An FBX file as it was read: its records, and what they mean.
+struct FbxDocument : SourceDocument {
+  FbxTree tree;
+  FbxScene scene;
+  FbxStack stack;
+  FbxMotion motion;  ///< of `stack`; empty where the file has no animation
+  FbxRig rig;
+  FbxFrames frames;
+  std::vector<FbxMendedKey> mended;
+
+  std::vector<double> channel_values() const override;
+};
+
+/// The take that the document holds, without its source. The same document gives the same bits.
+/// Markers where no model turns or has a child: see `holds_fbx_markers`.
+Take take_of_fbx(const FbxDocument& document);
+
+/// The curves that move the joints, each once, ascending.
+std::vector<std::size_t> fbx_joint_curves(const FbxMotion& motion, const FbxRig& rig);
+
+/// Whether the joints are points without rotation: nulls or markers with curves of translation
+/// alone, none of them below another.
+bool holds_fbx_markers(const FbxScene& scene, const FbxMotion& motion, const FbxRig& rig);
+
+/// Names the first model whose position overflows. Errors: `unreadable_input`.
+void check_fbx_take(const FbxDocument& document, const Take& take);
+
+}  // namespace kinemend

@@ -1,0 +1,453 @@
+// Lays out the records of a new FBX file: settings, definitions, models, curves and connections.
+#include "io/fbx/fbx_new_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "io/fbx/fbx_builder.hpp"
+#include "io/fbx/fbx_rig.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/skeleton.hpp"
+#include "kinemend/take.hpp"
+#include "rotation/component.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr double new_file_ticks = 46186158000.0;
+constexpr double new_file_degrees = 180 / std::numbers::pi;
+constexpr std::string_view animation_name = "Take 001";
+// The three go together with the footer; they say nothing of the time of writing, so that the same
+// take gives the same bytes.
+constexpr std::string_view creation_time = "1970-01-01 10:00:00:000";
+constexpr std::string_view file_id{
+    "\x28\xB3\x2A\xEB\xB6\x24\xCC\xC2\xBF\xC8\xB0\x2A\xA9\x2B\xFC\xF1", 16};
+
+// A model with its animated vectors, F values each, or none.
+struct NewFbxModel {
+  std::string name;
+  std::int32_t parent = -1;
+  bool is_limb = true;
+  Vec3 translation, rotation, pre_rotation;
+  std::int32_t order = 0;
+  std::vector<Vec3> translations, rotations;
+};
+
+struct NewFbxScene {
+  std::vector<NewFbxModel> models;
+  std::vector<std::int64_t> times;
+  double unit_cm = 1;
+  double rate_hz = 30;
+  bool z_up = false;
+};
+
+// Names are UTF-8 without the bytes that end a name.
+std::string fbx_name(const std::string& name, const std::string& otherwise) {
+  std::string clean;
+  for (const char c : name) {
+    if (static_cast<unsigned char>(c) >= 0x20) clean += c;
+  }
+  return clean.empty() ? otherwise : clean;
+}
+
+// The order of FBX that has these turns in this order; none for an axis that comes twice.
+std::optional<std::int32_t> order_with(RotationOrder turns) {
+  for (std::int32_t order = 0; order < 6; ++order) {
+    const RotationOrder factors = fbx_factors(order);
+    std::size_t next = 0;
+    for (const Axis axis : factors.axes) {
+      if (next < turns.count && turns.axes[next] == axis) ++next;
+    }
+    if (next == turns.count) return order;
+  }
+  return std::nullopt;
+}
+
+Vec3 degrees_of(const std::array<double, 3>& angles, RotationOrder order) {
+  Vec3 degrees;
+  for (std::size_t i = 0; i < order.count; ++i)
+    component_of(degrees, static_cast<std::size_t>(order.axes[i])) = new_file_degrees * angles[i];
+  return degrees;
+}
+
+std::vector<Vec3> angles_of(const Take& take, std::size_t joint, RotationOrder order) {
+  std::vector<Vec3> track;
+  std::array<double, 3> near{};
+  for (std::size_t f = 0; f < take.frame_count(); ++f) {
+    near = to_euler_near(take.rotation(f, joint), order, near);
+    track.push_back(degrees_of(near, order));
+  }
+  return track;
+}
+
+NewFbxModel model_of_joint(const Take& take, std::size_t joint) {
+  const Skeleton& skeleton = take.skeleton;
+  NewFbxModel model;
+  model.name = fbx_name(skeleton.names[joint], "joint");
+  model.parent = skeleton.parents[joint];
+  model.translation = skeleton.offsets[joint];
+  model.pre_rotation =
+      degrees_of(to_euler(skeleton.rest_rotations[joint], fbx_factors(0)), fbx_factors(0));
+  const RotationOrder turns = skeleton.rotation_order(joint);
+  model.order = turns.count == 0 ? 0 : order_with(turns).value_or(0);
+  bool is_fixed = true;
+  for (std::size_t f = 0; f < take.frame_count(); ++f)
+    is_fixed = is_fixed && take.rotation(f, joint) == Quat{};
+  if (turns.count > 0 || !is_fixed)
+    model.rotations = angles_of(take, joint, fbx_factors(model.order));
+  if (joint == 0) {
+    for (std::size_t f = 0; f < take.frame_count(); ++f)
+      model.translations.push_back(take.root_position(f));
+  }
+  return model;
+}
+
+double unit_cm_of(const Take& take) {
+  if (take.metres_per_unit > 0) return 100 * take.metres_per_unit;
+  const auto unit = guess_length_unit(take.skeleton);
+  return unit ? 100 * unit->metres : 1;
+}
+
+void add_end_sites(const Skeleton& skeleton, NewFbxScene& scene) {
+  for (const EndSite& site : skeleton.end_sites) {
+    NewFbxModel model;
+    const std::string& parent = skeleton.names[static_cast<std::size_t>(site.parent)];
+    model.name = fbx_name(site.name, fbx_name(parent, "joint") + "_end");
+    model.parent = site.parent;
+    model.translation = site.offset;
+    scene.models.push_back(std::move(model));
+  }
+}
+
+void add_joints(const Take& take, NewFbxScene& scene) {
+  for (std::size_t j = 0; j < take.joint_count(); ++j)
+    scene.models.push_back(model_of_joint(take, j));
+  for (std::size_t k = 0; k < take.translated_joints.size(); ++k) {
+    NewFbxModel& model = scene.models[static_cast<std::size_t>(take.translated_joints[k])];
+    for (std::size_t f = 0; f < take.frame_count(); ++f)
+      model.translations.push_back(take.position(f, k + 1));
+  }
+  add_end_sites(take.skeleton, scene);
+  scene.unit_cm = unit_cm_of(take);
+}
+
+// Missing samples stay where the marker was last, or will be first.
+std::vector<Vec3> held_points(const Take& take, std::size_t marker) {
+  std::vector<Vec3> track(take.frame_count());
+  std::size_t known = 0;
+  while (known < track.size() && !take.is_observed(known, marker)) ++known;
+  if (known == track.size()) return track;
+  Vec3 last = take.position(known, marker);
+  for (std::size_t f = 0; f < track.size(); ++f) {
+    if (take.is_observed(f, marker)) last = take.position(f, marker);
+    track[f] = last;
+  }
+  return track;
+}
+
+void add_markers(const Take& take, NewFbxScene& scene) {
+  constexpr double cm_of_unknown_unit = 0.1;
+  for (std::size_t m = 0; m < take.marker_count(); ++m) {
+    if (!take.holds_positions(m)) continue;
+    NewFbxModel model;
+    model.name = fbx_name(take.names[m], "marker");
+    model.is_limb = false;
+    model.translations = held_points(take, m);
+    if (!model.translations.empty()) model.translation = model.translations.front();
+    scene.models.push_back(std::move(model));
+  }
+  const double metres = metres_per_unit(take.unit);
+  // Files in millimetres say exactly a tenth of a centimetre.
+  scene.unit_cm = metres > 0 ? std::round(1e9 * metres) / 1e7 : cm_of_unknown_unit;
+}
+
+NewFbxScene scene_of(const Take& take) {
+  NewFbxScene scene;
+  if (take.has_joints()) {
+    add_joints(take, scene);
+  } else {
+    add_markers(take, scene);
+  }
+  scene.rate_hz = take.frame_rate_hz;
+  scene.z_up = guess_up_axis(take) == Axis::z;
+  for (std::size_t f = 0; f < take.frame_count(); ++f)
+    scene.times.push_back(std::llround(static_cast<double>(f) * new_file_ticks / scene.rate_hz));
+  return scene;
+}
+
+// FBX SDK, FbxTime::EMode, of the rates that have one; 14 is a custom rate.
+std::int32_t mode_of_rate(double rate_hz) {
+  constexpr std::array<std::pair<double, std::int32_t>, 11> modes{{{120, 1},
+                                                                   {100, 2},
+                                                                   {60, 3},
+                                                                   {50, 4},
+                                                                   {48, 5},
+                                                                   {30, 6},
+                                                                   {25, 10},
+                                                                   {24, 11},
+                                                                   {1000, 12},
+                                                                   {96, 15},
+                                                                   {72, 16}}};
+  for (const auto& [rate, mode] : modes) {
+    if (rate == rate_hz) return mode;
+  }
+  return 14;
+}
+
+class NewFbxWriter {
+ public:
+  explicit NewFbxWriter(const NewFbxScene& scene) : scene_(scene) {
+    for (const NewFbxModel& model : scene.models) {
+      limbs_ += model.is_limb ? 1 : 0;
+      tracks_ += (model.translations.empty() ? 0 : 1) + (model.rotations.empty() ? 0 : 1);
+    }
+  }
+
+  std::string write() {
+    write_head();
+    write_settings();
+    write_documents();
+    write_definitions();
+    file_.open("Objects");
+    write_models();
+    write_animation();
+    file_.close();
+    file_.open("Connections");
+    for (const Link& link : links_) write_link(link);
+    file_.close();
+    write_takes();
+    return std::move(file_).finish();
+  }
+
+ private:
+  struct Link {
+    std::int64_t from = 0;
+    std::int64_t to = 0;
+    std::string_view property;  // empty: of objects
+  };
+
+  std::int64_t stop() const { return scene_.times.empty() ? 0 : scene_.times.back(); }
+
+  static std::string object_name(std::string_view name, std::string_view type) {
+    std::string joined(name);
+    joined += std::string_view("\0\1", 2);
+    return joined += type;
+  }
+
+  void write_head() {
+    file_.open("FBXHeaderExtension");
+    file_.add("FBXHeaderVersion", 1003);
+    file_.add("FBXVersion", 7500);
+    file_.add("EncryptionType", 0);
+    file_.open("CreationTimeStamp");
+    constexpr std::array<std::pair<std::string_view, std::int32_t>, 8> stamp{{{"Version", 1000},
+                                                                              {"Year", 1970},
+                                                                              {"Month", 1},
+                                                                              {"Day", 1},
+                                                                              {"Hour", 10},
+                                                                              {"Minute", 0},
+                                                                              {"Second", 0},
+                                                                              {"Millisecond", 0}}};
+    for (const auto& [name, value] : stamp) file_.add(name, value);
+    file_.close();
+    file_.add("Creator", "Kinemend");
+    file_.close();
+    file_.open("FileId").raw(file_id).close();
+    file_.add("CreationTime", creation_time);
+    file_.add("Creator", "Kinemend");
+  }
+
+  void write_settings() {
+    file_.open("GlobalSettings");
+    file_.add("Version", 1000);
+    file_.open("Properties70");
+    file_.set_integer("UpAxis", "int", scene_.z_up ? 2 : 1);
+    file_.set_integer("UpAxisSign", "int", 1);
+    file_.set_integer("FrontAxis", "int", scene_.z_up ? 1 : 2);
+    file_.set_integer("FrontAxisSign", "int", scene_.z_up ? -1 : 1);
+    file_.set_integer("CoordAxis", "int", 0);
+    file_.set_integer("CoordAxisSign", "int", 1);
+    file_.set_number("UnitScaleFactor", "double", "Number", "", scene_.unit_cm);
+    file_.set_number("OriginalUnitScaleFactor", "double", "Number", "", scene_.unit_cm);
+    file_.set_time("TimeSpanStart", 0);
+    file_.set_time("TimeSpanStop", stop());
+    file_.set_integer("TimeMode", "enum", mode_of_rate(scene_.rate_hz));
+    file_.set_number("CustomFrameRate", "double", "Number", "", scene_.rate_hz);
+    file_.close();
+    file_.close();
+  }
+
+  void write_documents() {
+    file_.open("Documents");
+    file_.add("Count", 1);
+    file_.open("Document").id(next_id()).string("Scene").string("Scene");
+    file_.open("Properties70");
+    file_.property("SourceObject", "object", "", "").close();
+    file_.property("ActiveAnimStackName", "KString", "", "").string(animation_name).close();
+    file_.close();
+    file_.open("RootNode").id(0).close();
+    file_.close();
+    file_.close();
+    file_.open("References").close();
+  }
+
+  void define(std::string_view type, std::size_t count) {
+    file_.open("ObjectType").string(type);
+    file_.add("Count", static_cast<std::int32_t>(count));
+    file_.close();
+  }
+
+  void write_definitions() {
+    const std::size_t models = scene_.models.size(), curves = 3 * tracks_;
+    file_.open("Definitions");
+    file_.add("Version", 100);
+    file_.add("Count", static_cast<std::int32_t>(1 + models + limbs_ + 2 + tracks_ + curves));
+    define("GlobalSettings", 1);
+    define("Model", models);
+    if (limbs_ > 0) define("NodeAttribute", limbs_);
+    define("AnimationStack", 1);
+    define("AnimationLayer", 1);
+    if (tracks_ > 0) define("AnimationCurveNode", tracks_);
+    if (tracks_ > 0) define("AnimationCurve", curves);
+    file_.close();
+  }
+
+  void write_models() {
+    for (std::size_t m = 0; m < scene_.models.size(); ++m) {
+      ids_.push_back(next_id());
+      const NewFbxModel& model = scene_.models[m];
+      links_.push_back(
+          {ids_[m], model.parent < 0 ? 0 : ids_[static_cast<std::size_t>(model.parent)], {}});
+      if (model.is_limb) write_attribute(model, ids_[m]);
+      write_model(model, ids_[m]);
+    }
+  }
+
+  void write_attribute(const NewFbxModel& model, std::int64_t owner) {
+    const std::int64_t id = next_id();
+    file_.open("NodeAttribute").id(id).string(object_name(model.name, "NodeAttribute"));
+    file_.string("LimbNode");
+    file_.add("TypeFlags", "Skeleton");
+    file_.close();
+    links_.push_back({id, owner, {}});
+  }
+
+  void write_model(const NewFbxModel& model, std::int64_t id) {
+    file_.open("Model").id(id).string(object_name(model.name, "Model"));
+    file_.string(model.is_limb ? "LimbNode" : "Null");
+    file_.add("Version", 232);
+    file_.open("Properties70");
+    file_.set_integer("RotationActive", "bool", 1);
+    file_.set_integer("RotationOrder", "enum", model.order);
+    file_.set_vector("PreRotation", "Vector3D", "Vector", "", model.pre_rotation);
+    file_.set_integer("InheritType", "enum", 1);
+    file_.set_vector("Lcl Translation", "Lcl Translation", "", "A", model.translation);
+    file_.set_vector("Lcl Rotation", "Lcl Rotation", "", "A", model.rotation);
+    file_.set_vector("Lcl Scaling", "Lcl Scaling", "", "A", {1, 1, 1});
+    file_.close();
+    file_.add("Culling", "CullingOff");
+    file_.close();
+  }
+
+  void write_animation() {
+    const std::int64_t stack = next_id(), layer = next_id();
+    file_.open("AnimationStack").id(stack).string(object_name(animation_name, "AnimStack"));
+    file_.string("").open("Properties70");
+    for (const std::string_view name : {"LocalStart", "ReferenceStart"}) file_.set_time(name, 0);
+    for (const std::string_view name : {"LocalStop", "ReferenceStop"}) file_.set_time(name, stop());
+    file_.close();
+    file_.close();
+    file_.open("AnimationLayer").id(layer).string(object_name("BaseLayer", "AnimLayer"));
+    // Readers expect something within a layer.
+    file_.string("").open("Properties70");
+    file_.set_number("Weight", "Number", "", "A", 100);
+    file_.close();
+    file_.close();
+    links_.push_back({layer, stack, {}});
+    for (std::size_t m = 0; m < scene_.models.size(); ++m) {
+      const NewFbxModel& model = scene_.models[m];
+      write_track(model.translations, "T", "Lcl Translation", layer, ids_[m]);
+      write_track(model.rotations, "R", "Lcl Rotation", layer, ids_[m]);
+    }
+  }
+
+  void write_track(const std::vector<Vec3>& track, std::string_view letter,
+                   std::string_view property, std::int64_t layer, std::int64_t model) {
+    if (track.empty()) return;
+    constexpr std::array<std::string_view, 3> axes{"d|X", "d|Y", "d|Z"};
+    const std::int64_t node = next_id();
+    file_.open("AnimationCurveNode").id(node).string(object_name(letter, "AnimCurveNode"));
+    file_.string("").open("Properties70");
+    for (std::size_t a = 0; a < 3; ++a)
+      file_.set_number(axes[a], "Number", "", "A", component(track.front(), a));
+    file_.close();
+    file_.close();
+    links_.push_back({node, layer, {}});
+    links_.push_back({node, model, property});
+    for (std::size_t a = 0; a < 3; ++a) links_.push_back({write_curve(track, a), node, axes[a]});
+  }
+
+  std::int64_t write_curve(const std::vector<Vec3>& track, std::size_t axis) {
+    // Straight from key to key, with weights of a third (3333 / 9999 twice).
+    constexpr std::int32_t linear_flags = 24836;
+    constexpr float third_weights = std::bit_cast<float>(std::uint32_t{0x0D050D05});
+    std::vector<float> values;
+    values.reserve(track.size());
+    for (const Vec3& value : track) values.push_back(static_cast<float>(component(value, axis)));
+    const std::int64_t id = next_id();
+    file_.open("AnimationCurve").id(id).string(object_name("", "AnimCurve")).string("");
+    file_.open("Default").number(component(track.front(), axis)).close();
+    file_.add("KeyVer", 4008);
+    file_.open("KeyTime").array(std::span<const std::int64_t>(scene_.times)).close();
+    file_.open("KeyValueFloat").array(std::span<const float>(values)).close();
+    const std::array<std::int32_t, 1> flags{linear_flags};
+    const std::array<std::int32_t, 1> uses{static_cast<std::int32_t>(values.size())};
+    const std::array<float, 4> data{0, 0, third_weights, 0};
+    file_.open("KeyAttrFlags").array(std::span<const std::int32_t>(flags)).close();
+    file_.open("KeyAttrDataFloat").array(std::span<const float>(data)).close();
+    file_.open("KeyAttrRefCount").array(std::span<const std::int32_t>(uses)).close();
+    file_.close();
+    return id;
+  }
+
+  void write_link(const Link& link) {
+    file_.open("C").string(link.property.empty() ? "OO" : "OP").id(link.from).id(link.to);
+    if (!link.property.empty()) file_.string(link.property);
+    file_.close();
+  }
+
+  void write_takes() {
+    file_.open("Takes");
+    file_.add("Current", animation_name);
+    file_.open("Take").string(animation_name);
+    file_.add("FileName", "Take_001.tak");
+    file_.open("LocalTime").id(0).id(stop()).close();
+    file_.open("ReferenceTime").id(0).id(stop()).close();
+    file_.close();
+    file_.close();
+  }
+
+  std::int64_t next_id() { return ++last_id_; }
+
+  const NewFbxScene& scene_;
+  FbxBuilder file_;
+  std::vector<Link> links_;
+  std::vector<std::int64_t> ids_;  // of models
+  std::int64_t last_id_ = 1000000;
+  std::size_t limbs_ = 0, tracks_ = 0;
+};
+
+}  // namespace
+
+std::string new_fbx_file(const Take& take) {
+  take.validate();
+  const NewFbxScene scene = scene_of(take);
+  return NewFbxWriter(scene).write();
+}
+
+}  // namespace kinemend

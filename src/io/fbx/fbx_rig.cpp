@@ -1,0 +1,230 @@
+// Walks over the tree of models to find the joints among them.
+#include "io/fbx/fbx_rig.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "rotation/component.hpp"
+
+namespace kinemend {
+
+namespace {
+
+bool is_limb(const FbxModel& model) {
+  return model.kind == "LimbNode" || model.kind == "Limb" || model.kind == "Root";
+}
+
+// Cameras and lights are no bodies.
+bool is_onlooker(const FbxModel& model) {
+  return model.kind == "Camera" || model.kind == "CameraSwitcher" || model.kind == "Light";
+}
+
+class FbxRigBuilder {
+ public:
+  FbxRigBuilder(const FbxTree& tree, const FbxScene& scene, const FbxMotion& motion,
+                std::size_t max_depth)
+      : tree_(tree), scene_(scene), motion_(motion), max_depth_(max_depth) {}
+
+  FbxRig build() {
+    order_models();
+    find_animated();
+    mark_relatives();
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      if (is_joint(order_[i])) joint_[order_[i]] = true;
+    }
+    add_nodes();
+    return std::move(rig_);
+  }
+
+ private:
+  std::size_t count() const { return scene_.models.size(); }
+  std::int32_t parent_of(std::size_t model) const { return scene_.models[model].parent; }
+
+  // Depth first, in the order of the file. Models that are their own ancestors are left out.
+  void order_models() {
+    std::vector<std::vector<std::size_t>> children(count());
+    std::vector<std::pair<std::size_t, std::size_t>> open;  // model, depth
+    for (std::size_t m = count(); m-- > 0;) {
+      if (parent_of(m) < 0) {
+        open.emplace_back(m, 1);
+      } else {
+        children[static_cast<std::size_t>(parent_of(m))].push_back(m);
+      }
+    }
+    while (!open.empty()) {
+      const auto [model, depth] = open.back();
+      open.pop_back();
+      if (depth > max_depth_) {
+        throw tree_.error_at(tree_.records[scene_.models[model].record].begin,
+                             fmt::format("models are nested deeper than {}", max_depth_));
+      }
+      order_.push_back(model);
+      for (const std::size_t child : children[model]) open.emplace_back(child, depth + 1);
+    }
+  }
+
+  void find_animated() {
+    animated_.assign(count(), false);
+    moving_.assign(count(), false);
+    for (const FbxLayer& layer : motion_.layers) {
+      for (const auto& [key, vector] : layer.vectors) {
+        for (const std::int32_t curve : vector.curves) {
+          if (curve < 0) continue;
+          animated_[key / 3] = true;
+          if (!motion_.curves[static_cast<std::size_t>(curve)].is_constant())
+            moving_[key / 3] = true;
+        }
+      }
+    }
+  }
+
+  void mark_relatives() {
+    joint_.assign(count(), false);
+    above_.assign(count(), false);
+    below_.assign(count(), false);
+    for (std::size_t i = order_.size(); i-- > 0;) {
+      const std::size_t m = order_[i];
+      has_limbs_ = has_limbs_ || is_limb(scene_.models[m]);
+      if (parent_of(m) >= 0 && (is_limb(scene_.models[m]) || above_[m]))
+        above_[static_cast<std::size_t>(parent_of(m))] = true;
+    }
+    for (const std::size_t m : order_) {
+      if (parent_of(m) < 0) continue;
+      const auto p = static_cast<std::size_t>(parent_of(m));
+      const bool counts = is_limb(scene_.models[p]) || (!has_limbs_ && animated_[p]);
+      below_[m] = below_[p] || counts;
+    }
+  }
+
+  bool is_joint(std::size_t m) const {
+    const FbxModel& model = scene_.models[m];
+    const bool is_null = model.kind == "Null";
+    if (!has_limbs_) return (animated_[m] && !is_onlooker(model)) || (is_null && below_[m]);
+    return is_limb(model) || (moving_[m] && above_[m]) || (animated_[m] && is_null && below_[m]);
+  }
+
+  void add_nodes() {
+    std::vector<bool> needed(count(), false);
+    for (std::size_t i = order_.size(); i-- > 0;) {
+      const std::size_t m = order_[i];
+      needed[m] = needed[m] || joint_[m];
+      if (needed[m] && parent_of(m) >= 0) needed[static_cast<std::size_t>(parent_of(m))] = true;
+    }
+    std::vector<std::int32_t> node_of(count(), -1);
+    for (const std::size_t m : order_) {
+      if (!needed[m]) continue;
+      node_of[m] = static_cast<std::int32_t>(rig_.nodes.size());
+      const std::int32_t parent =
+          parent_of(m) < 0 ? -1 : node_of[static_cast<std::size_t>(parent_of(m))];
+      rig_.nodes.push_back(node_for(m, parent));
+    }
+  }
+
+  FbxRigNode node_for(std::size_t m, std::int32_t parent) {
+    const FbxModel& model = scene_.models[m];
+    FbxRigNode node;
+    node.model = m;
+    node.parent = parent;
+    if (parent >= 0) {
+      const FbxRigNode& above = rig_.nodes[static_cast<std::size_t>(parent)];
+      node.parent_joint = above.joint >= 0 ? above.joint : above.parent_joint;
+    }
+    node.order = fbx_factors(model.rotation_active ? model.rotation_order : 0);
+    if (model.rotation_active) {
+      node.pre = fbx_turn(model.pre_rotation, fbx_factors(0));
+      node.post = fbx_turn(model.post_rotation, fbx_factors(0));
+    }
+    find_turns(node);
+    if (joint_[m]) {
+      node.joint = static_cast<std::int32_t>(rig_.joints.size());
+      rig_.joints.push_back(rig_.nodes.size());
+    }
+    return node;
+  }
+
+  // Which of the model's turns have curves, and the constant turns behind these.
+  void find_turns(FbxRigNode& node) const {
+    std::array<bool, 3> has_curve{};
+    Vec3 constant = scene_.models[node.model].local[fbx_rotation];
+    std::size_t layers = 0;
+    for (const FbxLayer& layer : motion_.layers) {
+      const auto moved = layer.vectors.find(3 * node.model + fbx_translation);
+      if (moved != layer.vectors.end() && has_curves(moved->second))
+        node.has_translation_curves = true;
+      const auto turned = layer.vectors.find(3 * node.model + fbx_rotation);
+      if (turned == layer.vectors.end()) continue;
+      ++layers;
+      constant = turned->second.constant;
+      for (std::size_t a = 0; a < 3; ++a)
+        has_curve[a] = has_curve[a] || turned->second.curves[a] >= 0;
+    }
+    node.first_turn = 0;
+    node.end_turn = 3;
+    const auto turns = [&](std::size_t i) {
+      return has_curve[static_cast<std::size_t>(node.order.axes[i])];
+    };
+    const bool any = has_curve[0] || has_curve[1] || has_curve[2];
+    // Layers that are mixed give angles that no single axis explains.
+    const bool is_first = !motion_.layers.empty() && !motion_.layers.front().is_muted &&
+                          motion_.layers.front().vectors.contains(3 * node.model + fbx_rotation);
+    if (any && !(layers == 1 && is_first)) {
+      node.tail = conjugate(node.post);
+      return;
+    }
+    while (node.end_turn > 0 && !turns(node.end_turn - 1)) --node.end_turn;
+    while (node.first_turn < node.end_turn && !turns(node.first_turn)) ++node.first_turn;
+    if (!any) node.first_turn = node.end_turn = 3;
+    Vec3 behind;
+    for (std::size_t i = node.end_turn; i < 3; ++i) {
+      const auto axis = static_cast<std::size_t>(node.order.axes[i]);
+      component_of(behind, axis) = component(constant, axis);
+    }
+    node.tail = fbx_turn(behind, node.order) * conjugate(node.post);
+  }
+
+  static bool has_curves(const FbxAnimatedVector& vector) {
+    return std::any_of(vector.curves.begin(), vector.curves.end(),
+                       [](std::int32_t curve) { return curve >= 0; });
+  }
+
+  const FbxTree& tree_;
+  const FbxScene& scene_;
+  const FbxMotion& motion_;
+  std::size_t max_depth_;
+  FbxRig rig_;
+  std::vector<std::size_t> order_;
+  std::vector<bool> animated_;  // has curves
+  std::vector<bool> moving_;    // has curves that are not constant
+  std::vector<bool> joint_, above_, below_;
+  bool has_limbs_ = false;
+};
+
+}  // namespace
+
+FbxRig choose_fbx_rig(const FbxTree& tree, const FbxScene& scene, const FbxMotion& motion,
+                      std::size_t max_depth) {
+  return FbxRigBuilder(tree, scene, motion, max_depth).build();
+}
+
+bool moves_models(const FbxMotion& motion) { return !motion.curves.empty(); }
+
+RotationOrder fbx_factors(std::int64_t rotation_order) {
+  constexpr Axis x = Axis::x, y = Axis::y, z = Axis::z;
+  // The name of an order is the order in which the turns act; the product reads backwards.
+  constexpr std::array<std::array<Axis, 3>, 6> factors{
+      {{z, y, x}, {y, z, x}, {x, z, y}, {z, x, y}, {y, x, z}, {x, y, z}}};
+  const bool is_known = rotation_order >= 0 && rotation_order < 6;
+  return {factors[is_known ? static_cast<std::size_t>(rotation_order) : 0], 3};
+}
+
+Quat fbx_turn(Vec3 degrees, RotationOrder factors) {
+  constexpr double radians = std::numbers::pi / 180;
+  std::array<double, 3> angles{};
+  for (std::size_t i = 0; i < 3; ++i)
+    angles[i] = radians * component(degrees, static_cast<std::size_t>(factors.axes[i]));
+  return from_euler(angles, factors);
+}
+
+}  // namespace kinemend

@@ -1,0 +1,273 @@
+// Collects models, connections, takes and settings from the records of an FBX file.
+#include "io/fbx/fbx_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "io/fbx/fbx_properties.hpp"
+#include "io/fbx/fbx_values.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
+
+namespace kinemend {
+
+namespace {
+
+constexpr std::uint32_t least_version = 6000;
+// FBX SDK 2020, FbxTime: ticks of files whose header says so (TCDefinition, header 1004 on).
+constexpr double new_ticks_per_second = 141120000;
+constexpr std::int64_t old_ticks_definition = 127, least_header_with_definition = 1004;
+
+// FBX SDK, FbxTime::EMode; 0 is the default, 14 is CustomFrameRate.
+double fbx_rate_of_mode(std::int64_t mode, double custom_hz) {
+  constexpr double ntsc = 1000.0 / 1001;
+  switch (mode) {
+    case 1:
+      return 120;
+    case 2:
+      return 100;
+    case 3:
+      return 60;
+    case 4:
+      return 50;
+    case 5:
+      return 48;
+    case 8:
+    case 9:
+      return 30 * ntsc;
+    case 10:
+      return 25;
+    case 11:
+      return 24;
+    case 12:
+      return 1000;
+    case 13:
+      return 24 * ntsc;
+    case 14:
+      return is_usable_frame_rate(custom_hz) ? custom_hz : 30;
+    case 15:
+      return 96;
+    case 16:
+      return 72;
+    case 17:
+      return 60 * ntsc;
+    case 18:
+      return 120 * ntsc;
+    default:
+      return 30;
+  }
+}
+
+class FbxSceneReader {
+ public:
+  explicit FbxSceneReader(const FbxTree& tree) : tree_(tree) {}
+
+  FbxScene read() {
+    const std::uint32_t objects = tree_.child(no_fbx_record, "Objects");
+    if (tree_.version < least_version && tree_.version != 0) {
+      throw Error(ErrorKind::unreadable_input,
+                  fmt::format("{}: FBX version {}.{} is too old: 6.0 or later is needed",
+                              tree_.name, tree_.version / 1000, tree_.version % 1000 / 100));
+    }
+    if (objects == no_fbx_record) throw tree_.error_at(0, "the file has no record Objects");
+    read_template();
+    for_each_child(objects, [&](std::uint32_t record) { read_object(record); });
+    read_connections();
+    read_takes();
+    read_settings(objects);
+    return std::move(scene_);
+  }
+
+ private:
+  template <class Visit>
+  void for_each_child(std::uint32_t parent, Visit&& visit) const {
+    if (parent == no_fbx_record) return;
+    for (std::uint32_t child = tree_.records[parent].first_child; child != no_fbx_record;
+         child = tree_.records[child].next_sibling)
+      visit(child);
+  }
+
+  std::string_view name_of(std::uint32_t record) const {
+    return tree_.name_of(tree_.records[record]);
+  }
+
+  // Values of models that do not state their own: Definitions of version 7.
+  void read_template() {
+    const std::uint32_t definitions = tree_.child(no_fbx_record, "Definitions");
+    for_each_child(definitions, [&](std::uint32_t type) {
+      const FbxProperty* const of = tree_.property(tree_.records[type], 0);
+      if (of == nullptr || fbx_text(tree_, *of) != "Model") return;
+      const std::uint32_t found = tree_.child(type, "PropertyTemplate");
+      if (found != no_fbx_record) read_transform(found, template_);
+    });
+  }
+
+  void read_transform(std::uint32_t object, FbxModel& model) const {
+    for_each_fbx_property(tree_, object, [&](const FbxNamedProperty& p) {
+      const auto vector = [&](Vec3& v) { v = p.vector(v); };
+      if (p.name == "Lcl Translation") return vector(model.local[fbx_translation]);
+      if (p.name == "Lcl Rotation") return vector(model.local[fbx_rotation]);
+      if (p.name == "Lcl Scaling") return vector(model.local[fbx_scaling]);
+      if (p.name == "PreRotation") return vector(model.pre_rotation);
+      if (p.name == "PostRotation") return vector(model.post_rotation);
+      if (p.name == "RotationOffset") return vector(model.rotation_offset);
+      if (p.name == "RotationPivot") return vector(model.rotation_pivot);
+      if (p.name == "ScalingOffset") return vector(model.scaling_offset);
+      if (p.name == "ScalingPivot") return vector(model.scaling_pivot);
+      if (p.name == "RotationOrder") model.rotation_order = p.integer().value_or(0);
+      if (p.name == "RotationActive") model.rotation_active = p.integer().value_or(0) != 0;
+      if (p.name == "InheritType") model.inherit_type = p.integer().value_or(0);
+    });
+  }
+
+  // The id of an object: its number, or in version 6 its name.
+  std::int64_t id_of(const FbxProperty& property) const {
+    const std::string_view name = fbx_text(tree_, property);
+    if (!name.empty() || property.type == 'S') return fbx_id_of_name(name);
+    return fbx_integer(tree_, property).value_or(0);
+  }
+
+  void read_object(std::uint32_t index) {
+    const FbxRecord& record = tree_.records[index];
+    const FbxProperty* const first = tree_.property(record, 0);
+    if (first == nullptr) return;
+    const std::int64_t id = id_of(*first);
+    const bool has_number = first->type != 'S';
+    scene_.record_of_id.emplace(id, index);
+    const FbxProperty* const name = has_number ? tree_.property(record, 1) : first;
+    const FbxProperty* const kind = tree_.property(record, has_number ? 2 : 1);
+    if (name_of(index) == "Model") read_model(index, id, name, kind);
+    if (name_of(index) == "AnimationStack" && name != nullptr)
+      scene_.stacks.push_back({fbx_object_name(tree_, *name), id, index});
+  }
+
+  void read_model(std::uint32_t index, std::int64_t id, const FbxProperty* name,
+                  const FbxProperty* kind) {
+    FbxModel model = template_;
+    model.record = index;
+    if (name != nullptr) model.name = fbx_object_name(tree_, *name);
+    if (kind != nullptr) model.kind = fbx_text(tree_, *kind);
+    read_transform(index, model);
+    const auto place = static_cast<std::int32_t>(scene_.models.size());
+    if (scene_.model_of_id.emplace(id, place).second) scene_.models.push_back(std::move(model));
+  }
+
+  void read_connections() {
+    const std::uint32_t connections = tree_.child(no_fbx_record, "Connections");
+    for_each_child(connections, [&](std::uint32_t index) {
+      const FbxRecord& record = tree_.records[index];
+      if (record.property_count < 3) return;
+      const FbxProperty* const p = &tree_.properties[record.first_property];
+      FbxConnection link{id_of(p[1]), id_of(p[2]), {}};
+      if (record.property_count > 3) link.property = fbx_text(tree_, p[3]);
+      scene_.connections.push_back(link);
+      const auto child = scene_.model_of_id.find(link.from);
+      const auto parent = scene_.model_of_id.find(link.to);
+      if (fbx_text(tree_, p[0]) != "OO" || child == scene_.model_of_id.end() ||
+          parent == scene_.model_of_id.end() || child->second == parent->second)
+        return;
+      std::int32_t& known = scene_.models[static_cast<std::size_t>(child->second)].parent;
+      if (known < 0) known = parent->second;
+    });
+  }
+
+  void read_takes() {
+    const std::uint32_t takes = tree_.child(no_fbx_record, "Takes");
+    if (takes != no_fbx_record) {
+      if (const FbxProperty* const current = fbx_child_value(tree_, takes, "Current"))
+        scene_.active_stack = std::string(fbx_text(tree_, *current));
+    }
+    if (tree_.version >= 7000) {
+      read_active_stack();
+      return;
+    }
+    for_each_child(takes, [&](std::uint32_t index) {
+      const FbxProperty* const name = tree_.property(tree_.records[index], 0);
+      if (name_of(index) == "Take" && name != nullptr)
+        scene_.stacks.push_back({std::string(fbx_text(tree_, *name)), 0, index});
+    });
+  }
+
+  void read_active_stack() {
+    const std::uint32_t documents = tree_.child(no_fbx_record, "Documents");
+    for_each_child(documents, [&](std::uint32_t document) {
+      for_each_fbx_property(tree_, document, [&](const FbxNamedProperty& p) {
+        if (p.name == "ActiveAnimStackName" && !p.text().empty())
+          scene_.active_stack = std::string(p.text());
+      });
+    });
+  }
+
+  void read_settings(std::uint32_t objects) {
+    std::uint32_t settings = tree_.child(no_fbx_record, "GlobalSettings");
+    if (settings == no_fbx_record) settings = tree_.child(objects, "GlobalSettings");
+    std::int64_t mode = tree_.version < 7000 ? mode_of_version_6() : 0;
+    double custom_hz = 0;
+    if (settings != no_fbx_record) {
+      for_each_fbx_property(tree_, settings, [&](const FbxNamedProperty& p) {
+        if (p.name == "UpAxis") scene_.up_axis = p.integer().value_or(1);
+        if (p.name == "UnitScaleFactor") scene_.unit_cm = p.number().value_or(1);
+        if (p.name == "TimeMode") mode = p.integer().value_or(0);
+        if (p.name == "CustomFrameRate") custom_hz = p.number().value_or(0);
+      });
+    }
+    if (!(scene_.unit_cm > 1e-6 && scene_.unit_cm < 1e6)) scene_.unit_cm = 1;
+    scene_.frame_rate_hz = fbx_rate_of_mode(mode, custom_hz);
+    read_ticks();
+  }
+
+  // `FrameRate: "24"` of Version5, as the mode of that rate.
+  std::int64_t mode_of_version_6() const {
+    const std::uint32_t version5 = tree_.child(no_fbx_record, "Version5");
+    if (version5 == no_fbx_record) return 0;
+    const std::uint32_t settings = tree_.child(version5, "Settings");
+    if (settings == no_fbx_record) return 0;
+    const FbxProperty* const rate = fbx_child_value(tree_, settings, "FrameRate");
+    const std::string_view text = rate == nullptr ? std::string_view{} : fbx_text(tree_, *rate);
+    for (std::int64_t mode = 1; mode <= 18; ++mode) {
+      if (text == fmt::format("{}", fbx_rate_of_mode(mode, 0))) return mode;
+    }
+    return 0;
+  }
+
+  void read_ticks() {
+    const std::uint32_t header = tree_.child(no_fbx_record, "FBXHeaderExtension");
+    const bool is_new = tree_.version >= 8000;
+    std::int64_t definition = is_new ? 0 : old_ticks_definition;
+    if (header != no_fbx_record &&
+        (is_new ||
+         fbx_child_integer(tree_, header, "FBXHeaderVersion", 0) >= least_header_with_definition)) {
+      const std::uint32_t flags = tree_.child(header, "OtherFlags");
+      if (flags != no_fbx_record)
+        definition = fbx_child_integer(tree_, flags, "TCDefinition", definition);
+    }
+    if (definition != old_ticks_definition) scene_.ticks_per_second = new_ticks_per_second;
+  }
+
+  const FbxTree& tree_;
+  FbxScene scene_;
+  FbxModel template_;
+};
+
+}  // namespace
+
+Vec3 FbxNamedProperty::vector(Vec3 otherwise) const {
+  Vec3 v;
+  double* const parts[3] = {&v.x, &v.y, &v.z};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::optional<double> part = number(i);
+    if (!part || !(std::fabs(*part) <= largest_fbx_value)) return otherwise;
+    *parts[i] = *part;
+  }
+  return v;
+}
+
+std::int64_t fbx_id_of_name(std::string_view name) {
+  std::uint64_t hash = 14695981039346656037u;  // FNV-1a
+  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  return static_cast<std::int64_t>(hash);
+}
+
+FbxScene read_fbx_scene(const FbxTree& tree) { return FbxSceneReader(tree).read(); }
+
+}  // namespace kinemend

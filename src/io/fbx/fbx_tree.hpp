@@ -1,0 +1,104 @@
+// The records of an FBX file with the place of each in the bytes, binary or text.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemend/error.hpp"
+
+namespace kinemend {
+
+inline constexpr std::uint32_t no_fbx_record = 0xFFFFFFFF;
+
+/// One value of a record. Binary: the type code of the file (Y C B I F D L of numbers, S R of
+/// strings, f d l i b c of arrays). Text: N a number, W a bare word, S a string without its quotes,
+/// * the count of an array, A all numbers of an array.
+struct FbxProperty {
+  std::size_t begin = 0;   ///< binary: after the type code
+  std::uint32_t size = 0;  ///< bytes from there
+  char type = 0;
+};
+
+/// A named record with properties and children. Places are bytes of the file.
+struct FbxRecord {
+  std::size_t begin = 0;             ///< of its header or name
+  std::size_t end = 0;               ///< after its last byte
+  std::size_t properties_begin = 0;  ///< of the list of properties
+  std::size_t properties_end = 0;
+  std::uint32_t first_property = 0;  ///< in `FbxTree::properties`
+  std::uint32_t property_count = 0;
+  std::uint32_t parent = no_fbx_record;
+  std::uint32_t first_child = no_fbx_record;
+  std::uint32_t next_sibling = no_fbx_record;
+  std::uint32_t name_begin = 0;  ///< bytes after `begin`
+  std::uint32_t name_size = 0;
+};
+
+/// An FBX file as it was read: its bytes, and where its records are. Parents precede children.
+struct FbxTree {
+  std::string name;  ///< for messages
+  std::string bytes;
+  std::uint32_t version = 0;  ///< 7400
+  bool is_text = false;
+  bool is_big_endian = false;
+  std::size_t records_end = 0;  ///< binary: after the record that ends the top level
+  std::uint32_t first_root = no_fbx_record;
+  std::vector<FbxRecord> records;
+  std::vector<FbxProperty> properties;
+
+  bool has_wide_headers() const { return version >= 7500; }
+  std::string_view name_of(const FbxRecord& record) const {
+    return std::string_view(bytes).substr(record.begin + record.name_begin, record.name_size);
+  }
+  std::string_view text_of(const FbxProperty& property) const {
+    return std::string_view(bytes).substr(property.begin, property.size);
+  }
+  const FbxProperty* property(const FbxRecord& record, std::size_t index) const {
+    return index < record.property_count ? &properties[record.first_property + index] : nullptr;
+  }
+  /// The first child of that name; `no_fbx_record` when there is none. `parent`: or the top level.
+  std::uint32_t child(std::uint32_t parent, std::string_view child_name) const;
+  std::uint32_t first_child_of(std::uint32_t parent) const {
+    return parent == no_fbx_record ? first_root : records[parent].first_child;
+  }
+  /// An error with the byte, or with the line of a text.
+  Error error_at(std::size_t place, std::string_view message) const;
+};
+
+/// Reads the records of any FBX file, version 3 to 8. `max_depth`: deeper nesting is an error.
+/// Errors: `unreadable_input` with the byte or the line.
+FbxTree read_fbx_tree(std::string bytes, std::string_view name, std::size_t max_depth);
+
+/// Whether the bytes begin as a binary FBX file.
+bool is_binary_fbx(std::string_view bytes);
+
+/// The two forms, called by `read_fbx_tree`.
+void read_binary_fbx_records(FbxTree& tree, std::size_t max_depth);
+void read_text_fbx_records(FbxTree& tree, std::size_t max_depth);
+
+/// Appends records with the links between them, in the order in which they begin.
+class FbxRecordBuilder {
+ public:
+  explicit FbxRecordBuilder(FbxTree& tree) : tree_(tree) {}
+
+  std::size_t depth() const { return open_.size(); }
+  FbxRecord& top() { return tree_.records[open_.back().record]; }
+  /// Opens a record within the open one.
+  void open(const FbxRecord& record);
+  void close() { open_.pop_back(); }
+
+ private:
+  struct Level {
+    std::uint32_t record;
+    std::uint32_t last_child = no_fbx_record;
+  };
+  FbxTree& tree_;
+  std::vector<Level> open_;
+  std::uint32_t last_root_ = no_fbx_record;
+};
+
+}  // namespace kinemend

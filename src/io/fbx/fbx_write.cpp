@@ -1,0 +1,25 @@
+// Writes FBX: into the file that the take was read from, or as a new one.
+#include "io/fbx/fbx.hpp"
+#include "io/fbx/fbx_document.hpp"
+#include "io/fbx/fbx_new_file.hpp"
+#include "io/fbx/fbx_rewrite.hpp"
+
+namespace kinemend {
+
+namespace {
+
+std::string write_fbx_take(const Take& take) {
+  const auto* const document = dynamic_cast<const FbxDocument*>(take.source.document.get());
+  if (document == nullptr) return new_fbx_file(take);
+  const Take original = take_of_fbx(*document);
+  if (!fits_fbx_document(take, *document, original)) return new_fbx_file(take);
+  return rewrite_fbx(take, *document, original);
+}
+
+}  // namespace
+
+std::string write_fbx(const Take& clip) { return write_fbx_take(clip); }
+
+std::string write_fbx_markers(const Take& clip) { return write_fbx_take(clip); }
+
+}  // namespace kinemend
