@@ -132,7 +132,7 @@ std::string reassembled_gltf(const GltfFile& file, std::string json, const std::
   return out.append(chunks).append(rest);
 }
 
-std::string new_glb(std::string json, std::string_view binary) {
+std::string new_glb(std::string_view json, std::string_view binary) {
   std::string chunks;
   append_glb_chunk(chunks, glb_json, json, ' ');
   if (!binary.empty()) append_glb_chunk(chunks, glb_bin, binary, '\0');

@@ -44,6 +44,6 @@ Error gltf_error(const GltfFile& file, const char* section, std::size_t index,
 std::string reassembled_gltf(const GltfFile& file, std::string json,
                              const std::string* binary = nullptr);
 /// A new binary file of JSON and one binary chunk, which is left out where empty.
-std::string new_glb(std::string json, std::string_view binary);
+std::string new_glb(std::string_view json, std::string_view binary);
 
 }  // namespace kinemend

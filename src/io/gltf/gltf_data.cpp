@@ -45,19 +45,23 @@ std::string gltf_file_beside(const GltfFile& file, const GltfModel& model, std::
   return read_file(path);
 }
 
+// The text of a JSON string. No parser has looked at inline data, so it may be damaged.
+std::optional<std::string> unescaped(std::string_view quoted) {
+  if (quoted.find('\\') == quoted.npos) return std::string(quoted.substr(1, quoted.size() - 2));
+  const GltfJson parsed = GltfJson::parse(quoted, nullptr, false);
+  if (!parsed.is_string()) return std::nullopt;
+  return parsed.get<std::string>();
+}
+
 std::string gltf_data_in_text(const GltfFile& file, std::size_t buffer) {
   const std::string_view text = file.json_text();
   const auto element = json_element(text, "buffers", buffer);
   const auto uri = element ? json_member(text, *element, "uri") : std::nullopt;
   if (uri && uri->size >= 2) {
-    const std::string_view quoted = text.substr(uri->begin, uri->size);
     // Some writers escape every slash.
-    const bool is_escaped = quoted.find('\\') != quoted.npos;
-    const std::string plain =
-        is_escaped ? GltfJson::parse(quoted, nullptr, false).get<std::string>() : std::string();
-    auto data =
-        read_data_uri(is_escaped ? std::string_view(plain) : quoted.substr(1, quoted.size() - 2));
-    if (data) return std::move(data->bytes);
+    const auto plain = unescaped(text.substr(uri->begin, uri->size));
+    auto data = plain ? bytes_of_data_uri(*plain) : std::nullopt;
+    if (data) return std::move(*data);
   }
   throw gltf_error(file, "buffers", buffer, "its data are not base64");
 }

@@ -17,8 +17,14 @@ std::size_t after_json_blanks(std::string_view text, std::size_t at) {
 
 // Past the quote that ends the string that begins at `at`.
 std::size_t after_json_string(std::string_view text, std::size_t at) {
-  for (++at; at < text.size() && text[at] != '"'; ++at) at += text[at] == '\\' ? 1 : 0;
-  return std::min(at + 1, text.size());
+  // Strings of inline data are megabytes long: a search for the quote is fast.
+  for (std::size_t quote = text.find('"', at + 1); quote != text.npos;
+       quote = text.find('"', quote + 1)) {
+    std::size_t slashes = 0;
+    while (text[quote - 1 - slashes] == '\\') ++slashes;
+    if (slashes % 2 == 0) return quote + 1;
+  }
+  return text.size();
 }
 
 std::size_t after_json_brackets(std::string_view text, std::size_t at) {

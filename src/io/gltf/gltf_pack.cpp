@@ -53,8 +53,7 @@ class GltfPacker {
     if (same_container) {
       files.bytes = reassembled_gltf(file_, std::move(json), changed(0));
     } else {
-      files.bytes =
-          as_binary_ ? new_glb(std::move(json), binary_) : without_padding(std::move(json));
+      files.bytes = as_binary_ ? new_glb(json, binary_) : without_padding(std::move(json));
     }
     return files;
   }

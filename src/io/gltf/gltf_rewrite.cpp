@@ -382,8 +382,12 @@ class GltfRewriter {
 
   void replace_range(std::size_t accessor, const char* key, const std::vector<double>& values) {
     const std::string_view text = document_.file.json_text();
-    const auto element = json_element(text, "accessors", accessor);
-    const auto place = element ? json_member(text, *element, key) : std::nullopt;
+    if (accessor_texts_.empty()) {
+      const auto array = json_member(text, {"accessors"});
+      if (array) accessor_texts_ = json_elements(text, *array);
+    }
+    if (accessor >= accessor_texts_.size()) return;
+    const auto place = json_member(text, accessor_texts_[accessor], key);
     if (!place) return;
     const auto stated = GltfJson::parse(text.substr(place->begin, place->size), nullptr, false);
     bool is_same = stated.is_array() && stated.size() == values.size();
@@ -406,7 +410,8 @@ class GltfRewriter {
   GltfChanges changes_;
   GltfAdditions additions_;
   std::vector<std::size_t> accessor_uses_, sampler_uses_;
-  std::vector<std::size_t> written_;  // accessors
+  std::vector<std::size_t> written_;      // accessors
+  std::vector<ByteSpan> accessor_texts_;  // of the JSON; looked up once
   std::optional<std::size_t> new_times_;
 };
 

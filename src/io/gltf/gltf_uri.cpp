@@ -1,6 +1,7 @@
 // Decodes and encodes base64 and percent signs.
 #include "io/gltf/gltf_uri.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -22,21 +23,23 @@ constexpr std::array<std::uint8_t, 256> base64_values() {
   return values;
 }
 
-bool append_base64(std::string& out, std::string_view text) {
+bool decode_base64(std::string_view text, std::string& out) {
   constexpr auto values = base64_values();
   while (text.ends_with('=')) text.remove_suffix(1);
   if (text.size() % 4 == 1) return false;
-  out.reserve(text.size() / 4 * 3 + 3);
-  std::uint32_t bits = 0;
-  int count = 0;
-  for (const char c : text) {
-    const std::uint8_t value = values[static_cast<unsigned char>(c)];
-    if (value == no_base64_digit) return false;
-    bits = bits << 6 | value;
-    count += 6;
-    if (count < 8) continue;
-    count -= 8;
-    out += static_cast<char>(bits >> count & 0xFF);
+  out.resize(text.size() * 3 / 4);
+  std::size_t written = 0;
+  for (std::size_t i = 0; i < text.size(); i += 4) {
+    std::uint32_t bits = 0, bad = 0;
+    const std::size_t digits = std::min<std::size_t>(4, text.size() - i);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::uint8_t value = k < digits ? values[static_cast<unsigned char>(text[i + k])] : 0;
+      bad |= value & 0xC0u;
+      bits = bits << 6 | value;
+    }
+    if (bad != 0) return false;
+    for (std::size_t k = 0; k + 1 < digits; ++k)
+      out[written++] = static_cast<char>(bits >> (16 - 8 * k) & 0xFF);
   }
   return true;
 }
@@ -81,24 +84,25 @@ bool is_inside_folder(std::string_view path) {
 
 bool is_data_uri(std::string_view uri) { return uri.starts_with("data:"); }
 
-std::optional<DataUri> read_data_uri(std::string_view uri) {
+std::optional<std::string> bytes_of_data_uri(std::string_view uri) {
   constexpr std::string_view mark = ";base64,";
   const std::size_t comma = uri.find(',');
   if (comma == uri.npos || !uri.substr(0, comma + 1).ends_with(mark)) return std::nullopt;
-  DataUri data{uri.substr(0, comma + 1), {}};
-  if (!append_base64(data.bytes, uri.substr(comma + 1))) return std::nullopt;
-  return data;
+  std::string bytes;
+  if (!decode_base64(uri.substr(comma + 1), bytes)) return std::nullopt;
+  return bytes;
 }
 
 std::string base64_of(std::string_view bytes) {
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
+  std::string out((bytes.size() + 2) / 3 * 4, '=');
+  char* written = out.data();
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
     std::uint32_t bits = 0;
     for (std::size_t k = 0; k < 3; ++k)
-      bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      out += i + k <= bytes.size() ? base64_digits[bits >> (18 - 6 * k) & 63] : '=';
+      bits = bits << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k <= count; ++k) written[k] = base64_digits[bits >> (18 - 6 * k) & 63];
+    written += 4;
   }
   return out;
 }

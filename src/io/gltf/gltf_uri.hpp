@@ -9,13 +9,8 @@ namespace kinemend {
 
 /// Whether the bytes stand in the address itself.
 bool is_data_uri(std::string_view uri);
-/// The base64 content of such an address; none where it is not base64 or is damaged. `head`: the
-/// bytes up to the content, which a writer keeps.
-struct DataUri {
-  std::string_view head;
-  std::string bytes;
-};
-std::optional<DataUri> read_data_uri(std::string_view uri);
+/// The base64 content of such an address; none where it is not base64 or is damaged.
+std::optional<std::string> bytes_of_data_uri(std::string_view uri);
 std::string base64_of(std::string_view bytes);
 
 /// The relative path that an address names, percent-decoded; none for an address that leaves the

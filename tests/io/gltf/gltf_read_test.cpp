@@ -257,6 +257,14 @@ TEST(GltfReader, EscapedSlashesAndOddSpellingsOfTheTextAreRead) {
   }
 }
 
+TEST(GltfReader, InlineDataThatIsNoJsonStringIsRefused) {
+  std::string text = read_file(scene_path("plain.gltf"));
+  text.insert(text.find("base64,") + 7, "\\q");
+  EXPECT_NE(message_of([&] { read_take(text, "take.gltf"); }, ErrorKind::unreadable_input)
+                .find("its data are not base64"),
+            std::string::npos);
+}
+
 TEST(GltfReader, TimesThatGoBackAreRefused) {
   const std::string message = message_of(
       [] {
