@@ -40,6 +40,9 @@ Take take_of_fbx(const FbxDocument& document);
 /// The curves that move the joints, each once, ascending.
 std::vector<std::size_t> fbx_joint_curves(const FbxMotion& motion, const FbxRig& rig);
 
+/// Whether some curve of the joints is not constant.
+bool moves_joints(const FbxMotion& motion, const FbxRig& rig);
+
 /// Whether the joints are points without rotation: nulls or markers with curves of translation
 /// alone, none of them below another.
 bool holds_fbx_markers(const FbxScene& scene, const FbxMotion& motion, const FbxRig& rig);

@@ -18,7 +18,7 @@ namespace kinemend {
 namespace {
 
 // How many takes are tried to find one that moves something.
-constexpr std::size_t tried_stacks = 32;
+constexpr std::size_t tried_stacks = 64;
 
 class FbxReader {
  public:
@@ -81,13 +81,17 @@ class FbxReader {
     for (const FbxStack& stack : stacks) {
       if (++tried > tried_stacks || take_stack(stack)) return;
     }
+    // None moves: the one that the file names, else the first.
+    if (!stacks.empty()) take_stack(named != stacks.end() ? *named : stacks.front());
   }
 
-  // True when the take moves something.
+  // True when the take moves a joint.
   bool take_stack(const FbxStack& stack) {
     document_.stack = stack;
     document_.motion = read_fbx_motion(tree(), document_.scene, stack);
-    return moves_models(document_.motion);
+    const FbxRig rig =
+        choose_fbx_rig(tree(), document_.scene, document_.motion, options_.max_depth);
+    return moves_joints(document_.motion, rig);
   }
 
   // Values that are not finite are held from the key before, else from the next.
@@ -138,8 +142,8 @@ class FbxReader {
   }
 
   void add_facts(Take& take) const {
-    const auto fact = [&](std::string name, std::string text) {
-      take.source.facts.push_back({std::move(name), printable(text)});
+    const auto fact = [&](const char* name, const std::string& text) {
+      take.source.facts.push_back({name, printable(text)});
     };
     if (!document_.scene.stacks.empty())
       fact("animations",

@@ -31,9 +31,7 @@ class FbxRigBuilder {
     order_models();
     find_animated();
     mark_relatives();
-    for (std::size_t i = 0; i < order_.size(); ++i) {
-      if (is_joint(order_[i])) joint_[order_[i]] = true;
-    }
+    for (const std::size_t m : order_) joint_[m] = is_joint(m);
     add_nodes();
     return std::move(rig_);
   }
@@ -207,8 +205,6 @@ FbxRig choose_fbx_rig(const FbxTree& tree, const FbxScene& scene, const FbxMotio
                       std::size_t max_depth) {
   return FbxRigBuilder(tree, scene, motion, max_depth).build();
 }
-
-bool moves_models(const FbxMotion& motion) { return !motion.curves.empty(); }
 
 RotationOrder fbx_factors(std::int64_t rotation_order) {
   constexpr Axis x = Axis::x, y = Axis::y, z = Axis::z;

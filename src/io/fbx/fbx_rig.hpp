@@ -39,9 +39,6 @@ struct FbxRig {
 FbxRig choose_fbx_rig(const FbxTree& tree, const FbxScene& scene, const FbxMotion& motion,
                       std::size_t max_depth);
 
-/// Whether a take moves any model of the file: some layer has a curve.
-bool moves_models(const FbxMotion& motion);
-
 /// The order of the turns of a model as factors of a product, and rotations of vectors in degrees.
 RotationOrder fbx_factors(std::int64_t rotation_order);
 Quat fbx_turn(Vec3 degrees, RotationOrder factors);

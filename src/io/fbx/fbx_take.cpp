@@ -303,6 +303,12 @@ std::vector<std::size_t> fbx_joint_curves(const FbxMotion& motion, const FbxRig&
   return curves;
 }
 
+bool moves_joints(const FbxMotion& motion, const FbxRig& rig) {
+  const std::vector<std::size_t> curves = fbx_joint_curves(motion, rig);
+  return std::any_of(curves.begin(), curves.end(),
+                     [&](std::size_t curve) { return !motion.curves[curve].is_constant(); });
+}
+
 bool holds_fbx_markers(const FbxScene& scene, const FbxMotion& motion, const FbxRig& rig) {
   for (const std::size_t n : rig.joints) {
     const FbxRigNode& node = rig.nodes[n];

@@ -244,5 +244,17 @@ TEST(FbxRead, AKeyThatIsNotFiniteIsHeldAndNotObserved) {
   EXPECT_EQ(write_take(clip, "fbx"), fbx_bytes(models));
 }
 
+TEST(FbxRead, LayersAreAddedToTheFirst) {
+  const Clip one = read_fbx_clip(fbx_bytes(fbx_walker()));
+  const Clip two = read_fbx_clip(fbx_bytes(fbx_walker(), fbx_forms[0], 2));
+  for (std::size_t f = 0; f < one.frame_count(); ++f) {
+    EXPECT_LT(norm(two.root_position(f) - 2 * one.root_position(f)), 1e-9);
+    for (std::size_t j = 0; j < 2; ++j) {
+      const Quat turn = one.rotation(f, j);
+      EXPECT_LT(angle_between(two.rotation(f, j), turn * turn), 1e-7);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kinemend

@@ -35,6 +35,7 @@ TakeResult read_as_fbx(const fs::path& path) {
 }
 
 TEST(RealFbx, RecordsComeBackToTheByte) {
+  if (!fs::exists(real_fbx)) GTEST_SKIP() << "the folder has no FBX files";
   std::size_t files = 0;
   for (const fs::path& path : real_fbx_files()) {
     SCOPED_TRACE(path);
@@ -56,6 +57,7 @@ TEST(RealFbx, RecordsComeBackToTheByte) {
 }
 
 TEST(RealFbx, TakesAreValidAndComeBackToTheByte) {
+  if (!fs::exists(real_fbx)) GTEST_SKIP() << "the folder has no FBX files";
   std::size_t files = 0;
   for (const fs::path& path : real_fbx_files()) {
     SCOPED_TRACE(path);
@@ -74,6 +76,7 @@ TEST(RealFbx, TakesAreValidAndComeBackToTheByte) {
 
 // The same scene, saved in several versions and forms, moves alike.
 TEST(RealFbx, VersionsOfASceneAgree) {
+  if (!fs::exists(real_fbx)) GTEST_SKIP() << "the folder has no FBX files";
   std::map<std::string, std::vector<fs::path>> scenes;
   for (const fs::path& path : real_fbx_files()) {
     const std::string name = path.filename().string();
