@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "base/quote.hpp"
@@ -77,12 +78,23 @@ class FbxReader {
                       stacks.empty() ? "none" : fmt::format("{}", fmt::join(stack_names(), ", "))));
     }
     if (named != stacks.end() && (take_stack(*named) || is_asked)) return;
-    std::size_t tried = 0;
-    for (const FbxStack& stack : stacks) {
-      if (++tried > tried_stacks || take_stack(stack)) return;
+    const FbxStack* whole = named != stacks.end() ? &*named : nullptr;
+    for (std::size_t i = 0; i < std::min(stacks.size(), tried_stacks); ++i) {
+      const std::optional<bool> moves = try_stack(stacks[i]);
+      if (moves.value_or(false)) return;
+      if (whole == nullptr && moves) whole = &stacks[i];
     }
-    // None moves: the one that the file names, else the first.
-    if (!stacks.empty()) take_stack(named != stacks.end() ? *named : stacks.front());
+    // None moves: the one that the file names, else the first that can be read.
+    if (!stacks.empty()) take_stack(whole != nullptr ? *whole : stacks.front());
+  }
+
+  // `take_stack` for a take that nobody asked for: nothing for a damaged one.
+  std::optional<bool> try_stack(const FbxStack& stack) {
+    try {
+      return take_stack(stack);
+    } catch (const Error&) {
+      return std::nullopt;
+    }
   }
 
   // True when the take moves a joint.

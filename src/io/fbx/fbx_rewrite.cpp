@@ -218,9 +218,12 @@ class FbxRewriter {
     for (std::size_t f = 0; f < frames(); ++f) {
       const std::size_t from = same_frames_ ? f : 0;
       const Vec3 step = position(take_, f, point) - original_.position(from, point);
-      const Vec3 value = source_translation(f, joint) + bases_[joint] * step;
+      const Vec3 source = source_translation(f, joint);
+      const Vec3 moved = source + bases_[joint] * step;
+      // Below a model of nearly no size, no translation reaches the place.
+      const bool is_usable = norm(moved) <= largest_fbx_value;
       for (std::size_t axis = 0; axis < 3; ++axis)
-        set(*vector, axis, joint, f, component(value, axis));
+        set(*vector, axis, joint, f, component(is_usable ? moved : source, axis));
     }
   }
 
