@@ -216,7 +216,7 @@ Outcome try_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress&
     outcome.code = static_cast<int>(error.kind());
     outcome.error = error.what();
     // What the library says of settings does not name the take.
-    if (error.kind() == ErrorKind::usage)
+    if (error.kind() == ErrorKind::usage && !outcome.error.starts_with(input_name(job.input)))
       outcome.error = fmt::format("{}: {}", input_name(job.input), error.what());
   } catch (const std::bad_alloc&) {
     outcome.code = static_cast<int>(ErrorKind::unreadable_input);

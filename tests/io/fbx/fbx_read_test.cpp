@@ -245,8 +245,8 @@ TEST(FbxRead, AKeyThatIsNotFiniteIsHeldAndNotObserved) {
 }
 
 TEST(FbxRead, LayersAreAddedToTheFirst) {
-  const Clip one = read_fbx_clip(fbx_bytes(fbx_walker()));
-  const Clip two = read_fbx_clip(fbx_bytes(fbx_walker(), fbx_forms[0], 2));
+  const Take one = read_fbx_clip(fbx_bytes(fbx_walker()));
+  const Take two = read_fbx_clip(fbx_bytes(fbx_walker(), fbx_forms[0], 2));
   for (std::size_t f = 0; f < one.frame_count(); ++f) {
     EXPECT_LT(norm(two.root_position(f) - 2 * one.root_position(f)), 1e-9);
     for (std::size_t j = 0; j < 2; ++j) {
