@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 #include <signal.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <array>
@@ -23,6 +22,7 @@
 #include "commands.hpp"
 #include "json.hpp"
 #include "kinemend/experimental/text.hpp"
+#include "kinemend/experimental/threads.hpp"
 #include "kinemend/experimental/version.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/io.hpp"
@@ -298,9 +298,9 @@ Model trained_model(Training& training, ProgressLine& progress) {
 
 int run_train(const Arguments& arguments) {
   Training training = training_of(arguments);
-  std::optional<tbb::global_control> limit;
+  std::optional<ThreadLimit> limit;
   if (const auto jobs = static_cast<std::size_t>(arguments.whole("jobs")); jobs > 0)
-    limit.emplace(tbb::global_control::max_allowed_parallelism, jobs);
+    limit.emplace(jobs);
   const auto begin = std::chrono::steady_clock::now();
   ProgressLine progress;
   const StopRequest stop_request;

@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <numeric>
@@ -11,6 +10,7 @@
 #include "fill/marker_takes.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/synth.hpp"
+#include "kinemend/experimental/threads.hpp"
 #include "motion/clips.hpp"
 
 // What holds for every method of filling gaps, of joints and of markers.
@@ -249,7 +249,7 @@ TEST_P(Laws, ResultDoesNotDependOnTheNumberOfThreads) {
   hold([&](const auto& take) {
     auto clip = damaged(take), other = damaged(take);
     fill_by(clip, method());
-    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    const ThreadLimit one(1);
     fill_by(other, method());
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
       for (const std::string& name : take.names)
