@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-// Sockets of `kinemend stream`: plain POSIX, non-blocking.
+// Sockets of `kinemend stream`, which never block.
 namespace kinemend::cli {
 
 /// Closes its descriptor on destruction.

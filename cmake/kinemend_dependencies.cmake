@@ -40,7 +40,15 @@ target_include_directories(kinemend_highway SYSTEM PUBLIC ${foreign_headers})
 add_library(hwy::hwy ALIAS kinemend_highway)
 
 if(EMSCRIPTEN)
+  # Neither threads nor pictures of a page: what the module answers with is JSON.
   add_library(Threads::Threads INTERFACE IMPORTED GLOBAL)
+  add_library(ZLIB::ZLIB INTERFACE IMPORTED GLOBAL)
+elseif(KINEMEND_DEVELOPER)
+  # Tests need GoogleTest compiled for the same standard library.
+  find_package(Threads REQUIRED)
+  find_package(ZLIB REQUIRED)
+  set(INSTALL_GTEST OFF CACHE BOOL "" FORCE)
+  add_subdirectory(/usr/src/googletest ${PROJECT_BINARY_DIR}/googletest EXCLUDE_FROM_ALL)
 else()
   find_package(Threads REQUIRED)
   set(ZLIB_USE_STATIC_LIBS ON)

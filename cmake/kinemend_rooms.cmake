@@ -121,6 +121,10 @@ function(kinemend_library)
   add_library(kinemend::kinemend ALIAS kinemend)
   target_link_libraries(kinemend INTERFACE ${KINEMEND_ROOMS})
 
+  # For another system the program alone is built.
+  if(KINEMEND_FOREIGN)
+    return()
+  endif()
   add_library(kinemend_shared SHARED)
   foreach(room ${KINEMEND_ROOMS})
     target_sources(kinemend_shared PRIVATE $<TARGET_OBJECTS:${room}>)

@@ -75,7 +75,7 @@ class StandardThreads {
 
  private:
   std::size_t threads_before_;
-  bool used_before_;
+  [[maybe_unused]] bool used_before_;
 };
 
 }  // namespace kinemend
