@@ -108,7 +108,7 @@ function(kinemend_embed_models folder)
   set(script ${PROJECT_SOURCE_DIR}/cmake/embed_models.cmake)
   set(output ${PROJECT_BINARY_DIR}/embedded_models.cpp)
   add_custom_command(OUTPUT ${output}
-    COMMAND ${CMAKE_COMMAND} -DFOLDER=${PROJECT_SOURCE_DIR}/models -DOUTPUT=${output} -P ${script}
+    COMMAND ${CMAKE_COMMAND} -DFOLDER=${PROJECT_SOURCE_DIR}/models -DNAMES=${KINEMEND_MODELS} -DOUTPUT=${output} -P ${script}
     DEPENDS ${script} ${PROJECT_SOURCE_DIR}/cmake/bytes_literal.cmake ${models} COMMENT "Models that ship" VERBATIM)
   target_sources(kinemend_${room} PRIVATE ${output})
   set_source_files_properties(${output} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
