@@ -37,6 +37,10 @@ endforeach()
 target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
 add_library(kinemend_highway STATIC ${PROJECT_SOURCE_DIR}/cmake/highway_dispatch.cpp)
 target_include_directories(kinemend_highway SYSTEM PUBLIC ${foreign_headers})
+if(EMSCRIPTEN)
+  # The vectors of WebAssembly in Highway 1.0 know no doubles; the compiler finds the instructions for emulated ones.
+  target_compile_definitions(kinemend_highway PUBLIC HWY_COMPILE_ONLY_EMU128)
+endif()
 add_library(hwy::hwy ALIAS kinemend_highway)
 
 if(EMSCRIPTEN)
