@@ -16,7 +16,11 @@ DEMO := build/demo_takes
 # Each target installs the sections of packages.txt that it needs.
 need = @tools/install_packages packages.txt
 
-.PHONY: help setup build demo deb deb-test install-test test test-all asan asan-build asan-test lint format page bench bench-quick \
+# The program for Windows, and what runs it here.
+WINDOWS := $(BUILD)/windows/cli/kinemend.exe
+WINE ?= /usr/lib/wine/wine64
+
+.PHONY: help setup build windows windows-test libcxx wasm wasm-test demo deb deb-test install-test test test-all asan asan-build asan-test lint format page bench bench-quick \
   papers papers-quick pictures fuzz soak nightly clean FORCE
 
 help: ## this list
@@ -52,6 +56,32 @@ $(BUILD)/$(PRESET)/.packaged: FORCE
 	$(need) core package
 	@cmake --preset $(PRESET) >/dev/null
 	cmake --build --preset $(PRESET) -j $(JOBS) --target kinemend_cli kinemend_cli_texts kinemend_shared
+
+windows: ## the program for 64-bit Windows by MinGW-w64: build/windows/cli/kinemend.exe, which needs no library beside it
+	$(need) core windows
+	@cmake --preset windows >/dev/null
+	cmake --build --preset windows -j $(JOBS) --target kinemend_cli
+	tools/windows_test --libraries-only $(WINDOWS)
+
+windows-test: build windows ## run it under Wine: files, streams, view and batch, and the same bytes as the program here on twenty takes
+	$(need) core windows wine
+	tools/windows_test $(WINDOWS) --through $(WINE)
+	tools/compare_programs $(BUILD)/$(PRESET)/cli/kinemend $(WINDOWS) --through $(WINE)
+
+libcxx: ## compile the library with Clang and libc++ as on macOS, with the threads of the standard library, and test it
+	$(need) core test sanitize libcxx
+	@cmake --preset libcxx >/dev/null
+	cmake --build --preset libcxx -j $(JOBS)
+	ctest --preset libcxx -j $(JOBS)
+
+wasm: export NODE_PATH := /usr/share/nodejs
+wasm: ## the module for JavaScript by Emscripten: build/wasm/wasm/kinemend.mjs and kinemend_module.wasm
+	$(need) core wasm
+	@cmake --preset wasm >/dev/null
+	cmake --build --preset wasm -j $(JOBS) --target kinemend_module
+
+wasm-test: build wasm ## the module in Node writes the same bytes as the program on twenty takes
+	tools/compare_programs $(BUILD)/$(PRESET)/cli/kinemend tools/wasm_program
 
 deb: $(BUILD)/$(PRESET)/.packaged ## the Debian packages kinemend and libkinemend-dev, in build/deb
 	tools/make_deb $(BUILD)/$(PRESET)
@@ -132,6 +162,7 @@ nightly: ## what continuous integration leaves out: sanitisers, packages in a fr
 	$(need)
 	tools/lint --includers
 	$(MAKE) asan ASAN=asan-all
+	$(MAKE) libcxx windows-test
 	$(MAKE) fuzz soak test-all deb-test install-test bench-quick
 
 clean: ## remove everything that was built

@@ -1,11 +1,11 @@
 // Cleaners on whole takes in memory, one thread. Items are frames.
 #include <benchmark/benchmark.h>
-#include <tbb/global_control.h>
 
 #include <cmath>
 #include <string>
 
 #include "kinemend/experimental/random.hpp"
+#include "kinemend/experimental/threads.hpp"
 #include "kinemend/methods.hpp"
 
 namespace {
@@ -35,7 +35,7 @@ Take noisy_clip(std::size_t joints, std::size_t frames, double rate_hz) {
 }
 
 void run(benchmark::State& state, const Cleaner& cleaner, const Take& input) {
-  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const ThreadLimit one_thread(1);
   Take clip = input;
   for (auto _ : state) {
     state.PauseTiming();

@@ -1,7 +1,6 @@
 // A take of 31 joints and 10,000 frames at 120 Hz with one degree of noise, cleaned as a whole; and
 // the same skeleton live. The first argument of a cleaning benchmark is the number of threads.
 #include <benchmark/benchmark.h>
-#include <tbb/global_control.h>
 
 #include <cmath>
 #include <cstdint>
@@ -10,6 +9,7 @@
 #include "kinemend/clean.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/experimental/representation.hpp"
+#include "kinemend/experimental/threads.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/stream.hpp"
 
@@ -53,8 +53,7 @@ void count_frames(benchmark::State& state, std::size_t frames) {
 }
 
 void clean_take(benchmark::State& state, const std::string& method) {
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(state.range(0)));
+  const ThreadLimit control(static_cast<std::size_t>(state.range(0)));
   const Take& clip = long_take();
   const auto cleaner = make_cleaner(method);
   for (auto _ : state) benchmark::DoNotOptimize(clean_take(clip, *cleaner).take.rotations.data());
@@ -63,8 +62,7 @@ void clean_take(benchmark::State& state, const std::string& method) {
 
 // The cleaner alone, without copy, blend and report.
 void cleaner_alone(benchmark::State& state, const std::string& method) {
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(state.range(0)));
+  const ThreadLimit control(static_cast<std::size_t>(state.range(0)));
   const auto cleaner = make_cleaner(method);
   Take clip = long_take();
   for (auto _ : state) {

@@ -1,9 +1,6 @@
 // kinemend batch: cleans whole trees of takes; it can be stopped and resumed at any moment.
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -28,6 +25,7 @@
 #include "kinemend/experimental/content_hash.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/experimental/text.hpp"
+#include "kinemend/experimental/threads.hpp"
 #include "kinemend/experimental/version.hpp"
 #include "kinemend/io.hpp"
 #include "method_options.hpp"
@@ -338,18 +336,15 @@ std::vector<std::string> inputs_of(const Arguments& arguments) {
 }
 
 std::vector<Done> do_all(const std::vector<BatchItem>& items, const Batch& batch) {
-  std::optional<tbb::global_control> limit;
-  if (batch.plan.threads > 0) {
-    limit.emplace(tbb::global_control::max_allowed_parallelism,
-                  static_cast<std::size_t>(batch.plan.threads));
-  }
+  std::optional<ThreadLimit> limit;
+  if (batch.plan.threads > 0) limit.emplace(static_cast<std::size_t>(batch.plan.threads));
   std::vector<Done> done(items.size());
   std::vector<double> sizes(items.size());
   std::transform(items.begin(), items.end(), sizes.begin(), size_of);
   ProgressBar bar(items.size(), std::accumulate(sizes.begin(), sizes.end(), 0.0));
   Sayer sayer(batch, bar);
   std::atomic<std::size_t> next{0};
-  tbb::parallel_for(0, tbb::this_task_arena::max_concurrency(), [&](int) {
+  on_every_thread([&] {
     for (std::size_t i = next++; i < items.size(); i = next++) {
       done[i] = try_item(items[i], batch);
       sayer.say_of(done[i]);

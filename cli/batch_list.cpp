@@ -2,7 +2,6 @@
 #include "batch_list.hpp"
 
 #include <fmt/format.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <charconv>
@@ -12,6 +11,7 @@
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/content_hash.hpp"
+#include "kinemend/experimental/wildcards.hpp"
 #include "kinemend/io.hpp"
 
 namespace kinemend::cli {
@@ -61,8 +61,7 @@ void add_folder(const fs::path& folder, const fs::path& output, const std::strin
     const std::string name = path.filename().string();
     if (is_skeleton(path)) {
       items.push_back({path.string(), path.lexically_relative(folder).generic_string(), true});
-    } else if ((pattern.empty() || fnmatch(pattern.c_str(), name.c_str(), 0) == 0) &&
-               looks_like_take(path)) {
+    } else if ((pattern.empty() || matches_wildcards(pattern, name)) && looks_like_take(path)) {
       items.push_back({path.string(), path.lexically_relative(folder).generic_string(), false});
     }
   }

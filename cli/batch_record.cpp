@@ -2,13 +2,9 @@
 // processes that ended.
 #include "batch_record.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <chrono>
 #include <cstdint>
@@ -41,8 +37,6 @@ int maker_of(const std::string& name) {
   std::from_chars(name.data() + start.size(), name.data() + name.size(), process);
   return process;
 }
-
-bool is_running(int process) { return ::kill(process, 0) == 0 || errno == EPERM; }
 
 }  // namespace
 
@@ -135,25 +129,12 @@ std::vector<fs::path> missing_folders(const fs::path& folder) {
 TakeLock::TakeLock(const std::string& folder, const std::string& name) {
   const fs::path path = fs::path(folder) / records_folder / "lock";
   make_folder(path.parent_path());
-  descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) return;
   // Each take locks one byte of the file, chosen by a hash of its name.
   constexpr std::uint64_t places = std::uint64_t{1} << 40;
   std::uint64_t place = 0;
   const std::string digits = content_hash(name).substr(0, 16);
   std::from_chars(digits.data(), digits.data() + digits.size(), place, 16);
-  struct flock lock {};
-  lock.l_type = F_WRLCK;
-  lock.l_whence = SEEK_SET;
-  lock.l_start = static_cast<off_t>(place % places);
-  lock.l_len = 1;
-  // On a file system without locks the takes are not locked.
-  while (::fcntl(descriptor_, F_OFD_SETLKW, &lock) != 0 && errno == EINTR) {
-  }
-}
-
-TakeLock::~TakeLock() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  lock_.emplace(path, place % places);
 }
 
 void write_record(const std::string& folder, const std::string& name, const BatchRecord& record) {
@@ -175,7 +156,7 @@ void remove_leftovers(const std::string& folder) {
   for (fs::recursive_directory_iterator entries(folder, error), end; !error && entries != end;
        entries.increment(error)) {
     const int process = maker_of(entries->path().filename().string());
-    if (process == 0 || is_running(process)) continue;
+    if (process == 0 || platform::process_is_running(process)) continue;
     std::error_code ignored;
     const auto age = fs::file_time_type::clock::now() - entries->last_write_time(ignored);
     if (!ignored && age > old) fs::remove(entries->path(), ignored);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kinemend/experimental/batch_rows.hpp"
+#include "platform/system.hpp"
 
 namespace kinemend::cli {
 
@@ -52,12 +53,9 @@ std::vector<std::filesystem::path> missing_folders(const std::filesystem::path& 
 class TakeLock {
  public:
   TakeLock(const std::string& folder, const std::string& name);
-  ~TakeLock();
-  TakeLock(const TakeLock&) = delete;
-  TakeLock& operator=(const TakeLock&) = delete;
 
  private:
-  int descriptor_ = -1;
+  std::optional<platform::FileLock> lock_;
 };
 
 /// Removes temporary files that a killed run may have left: files of this program in `folder` and

@@ -1,11 +1,8 @@
 // Appends rows under a lock, merges them with those of earlier runs, and adds up the records.
 #include "batch_summary.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <map>
@@ -17,6 +14,7 @@
 #include "batch_record.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
+#include "platform/system.hpp"
 
 namespace kinemend::cli {
 
@@ -52,11 +50,8 @@ void append_row(const std::string& folder, const Shard& shard, const BatchRow& r
   const std::string path = rows_path(folder, shard);
   // `write_rows` rewrites the file under the same lock.
   const TakeLock lock(folder, rows_name(shard));
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  const ssize_t count = file < 0 ? -1 : ::write(file, line.data(), line.size());
-  const int error = errno;
-  if (file >= 0) ::close(file);
-  if (count == static_cast<ssize_t>(line.size())) return;
+  const int error = platform::append_to_file(path, line);
+  if (error == 0) return;
   throw Error(ErrorKind::cannot_write, fmt::format("{}: {}", path, std::strerror(error)));
 }
 

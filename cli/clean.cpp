@@ -1,9 +1,6 @@
 // kinemend clean: reads takes, cleans them, writes them, says what was done.
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <atomic>
 #include <mutex>
@@ -15,6 +12,7 @@
 #include "clean_plan.hpp"
 #include "clean_take.hpp"
 #include "commands.hpp"
+#include "kinemend/experimental/threads.hpp"
 #include "kinemend/report.hpp"
 #include "method_options.hpp"
 #include "takes.hpp"
@@ -91,11 +89,8 @@ class Announcer {
 };
 
 void clean_all(const CleanPlan& plan, Announcer& announcer) {
-  std::optional<tbb::global_control> limit;
-  if (plan.threads > 0) {
-    limit.emplace(tbb::global_control::max_allowed_parallelism,
-                  static_cast<std::size_t>(plan.threads));
-  }
+  std::optional<ThreadLimit> limit;
+  if (plan.threads > 0) limit.emplace(static_cast<std::size_t>(plan.threads));
   if (plan.jobs.size() == 1) {
     Outcome outcome;
     {
@@ -106,9 +101,8 @@ void clean_all(const CleanPlan& plan, Announcer& announcer) {
     return announcer.take(0, std::move(outcome));
   }
   // Each worker takes the next job in order, so that the first takes are announced first.
-  const int workers = tbb::this_task_arena::max_concurrency();
   std::atomic<std::size_t> next{0};
-  tbb::parallel_for(0, workers, [&](int) {
+  on_every_thread([&] {
     for (std::size_t i = next++; i < plan.jobs.size(); i = next++)
       announcer.take(i, try_take(plan.jobs[i], plan));
   });

@@ -2,7 +2,6 @@
 #include "clean_take.hpp"
 
 #include <fmt/format.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -14,6 +13,7 @@
 #include "kinemend/check.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/pictures.hpp"
+#include "kinemend/experimental/threads.hpp"
 #include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"
@@ -95,8 +95,8 @@ CleanOutcome clean_in_place(Take& take, const std::string& input, const CleanPla
   outcome.swaps = prepare(take, plan);
   if (is_reported(plan)) outcome.leftovers = leftovers_of(find_beyond_cleaning(take), plan, input);
   const CleanSettings settings = settings_for(take, plan, progress);
-  CleanResult result = tbb::this_task_arena::isolate(
-      [&] { return clean_take(std::move(take), *plan.cleaner, settings); });
+  CleanResult result;
+  run_isolated([&] { result = clean_take(std::move(take), *plan.cleaner, settings); });
   take = std::move(result.take);
   outcome.report = std::move(result.report);
   if (is_reported(plan) && is_unchanged(outcome)) {

@@ -6,23 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "commands.hpp"
-
 namespace kinemend::cli {
-
-const std::vector<Command>& commands() {
-  static const std::vector<Command> table = [] {
-    std::vector<Command> list = {clean_command(),    batch_command(),      fill_command(),
-                                 stream_command(),   info_command(),       check_command(),
-                                 contacts_command(), compare_command(),    plot_command(),
-                                 view_command(),     methods_command(),    train_command(),
-                                 models_command(),   convert_command(),    corrupt_command(),
-                                 synth_command(),    completion_command(), man_command()};
-    list.push_back(help_command(list));
-    return list;
-  }();
-  return table;
-}
 
 const Command* find_command(std::string_view name) {
   for (const Command& command : commands()) {

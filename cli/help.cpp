@@ -2,7 +2,6 @@
 #include "help.hpp"
 
 #include <fmt/format.h>
-#include <sys/utsname.h>
 
 #include <string_view>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/experimental/version.hpp"
+#include "platform/console.hpp"
 #include "terminal.hpp"
 #include "topics.hpp"
 
@@ -150,8 +150,7 @@ std::string version_text() {
   const std::string compiler =
       fmt::format("GCC {}.{}.{}", __GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__);
 #endif
-  utsname machine{};
-  const bool is_known = uname(&machine) == 0;
+  const platform::SystemNames names = platform::system_names();
   std::vector<std::string_view> models;
   for (const ShippedModel& model : shipped_models()) models.push_back(model.method);
   return fmt::format(
@@ -159,8 +158,7 @@ std::string version_text() {
       "built with {}, running on {} {}\n"
       "learned models: {}\n"
       "licence: Apache 2.0\n",
-      version(), compiler, is_known ? machine.sysname : "an unknown system",
-      is_known ? machine.machine : "",
+      version(), compiler, names.system.empty() ? "an unknown system" : names.system, names.machine,
       models.empty() ? "none" : fmt::format("{}", fmt::join(models, ", ")));
 }
 

@@ -2,14 +2,7 @@
 // longest when there are too many.
 #include "http_server.hpp"
 
-#include <arpa/inet.h>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <netinet/in.h>
-#include <netinet/tcp.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -23,6 +16,7 @@
 #include <utility>
 
 #include "kinemend/error.hpp"
+#include "platform/network.hpp"
 
 namespace kinemend::cli {
 
@@ -60,32 +54,31 @@ std::string head_of(const HttpReply& reply, bool keeps_alive) {
 }
 
 // Waits until the socket can be read or written; false: not before the deadline, or it has failed.
-bool wait_for(int socket, short events, Clock::time_point deadline) {
+bool wait_until(int socket, bool writing, Clock::time_point deadline) {
   while (true) {
     const auto left =
         std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
     if (left <= 0) return false;
-    pollfd waited{socket, events, 0};
-    const int ready = poll(&waited, 1, static_cast<int>(left));
+    platform::Awaited waited{socket, writing};
+    const int ready = platform::wait_for({&waited, 1}, static_cast<int>(left));
     if (ready > 0) return true;
     if (ready < 0 && errno != EINTR) return false;
   }
 }
 
 int made_listener(int port) {
-  const int listener = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  const int listener = platform::open_socket(AF_INET, SOCK_STREAM, 0);
   if (listener < 0) return -1;
-  const int yes = 1;
-  setsockopt(listener, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  platform::let_address_be_reused(listener);
   sockaddr_in place{};
   place.sin_family = AF_INET;
   place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   place.sin_port = htons(static_cast<std::uint16_t>(port));
-  if (bind(listener, reinterpret_cast<const sockaddr*>(&place), sizeof place) == 0 &&
-      listen(listener, SOMAXCONN) == 0)
+  if (platform::bind_socket(listener, reinterpret_cast<const sockaddr*>(&place), sizeof place) &&
+      platform::listen_on(listener))
     return listener;
   const int reason = errno;
-  close(listener);
+  platform::close_socket(listener);
   errno = reason;
   return -1;
 }
@@ -120,7 +113,7 @@ class HttpServer::Connections {
 
   void remove(Place place) {
     const std::lock_guard lock(mutex_);
-    ::close(place->socket);
+    platform::close_socket(place->socket);
     entries_.erase(place);
     changed_.notify_all();
   }
@@ -141,7 +134,7 @@ class HttpServer::Connections {
     const std::lock_guard lock(mutex_);
     is_stopping_ = true;
     for (const Entry& entry : entries_) {
-      if (entry.at != At::answering) shutdown(entry.socket, SHUT_RDWR);
+      if (entry.at != At::answering) platform::shut_down(entry.socket);
     }
   }
 
@@ -158,7 +151,7 @@ class HttpServer::Connections {
         oldest = entry;
     }
     if (oldest == entries_.end()) return false;
-    shutdown(oldest->socket, SHUT_RDWR);
+    platform::shut_down(oldest->socket);
     return true;
   }
 
@@ -233,25 +226,26 @@ class HttpServer::Connection {
   // Appends at most `most` bytes; false: none before the deadline, or the client is gone.
   bool receive(std::size_t most, Clock::time_point deadline) {
     char bytes[16384];
-    while (wait_for(socket_, POLLIN, deadline)) {
-      const ssize_t got = recv(socket_, bytes, std::min(most, sizeof bytes), 0);
+    while (wait_until(socket_, false, deadline)) {
+      const std::ptrdiff_t got =
+          platform::receive_some(socket_, bytes, std::min(most, sizeof bytes));
       if (got > 0) {
         received_.append(bytes, static_cast<std::size_t>(got));
         return true;
       }
-      if (got == 0 || (errno != EINTR && errno != EAGAIN)) return false;
+      if (got == 0 || !platform::must_wait(errno)) return false;
     }
     return false;
   }
 
   bool send(std::string_view bytes) {
     while (!bytes.empty()) {
-      const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+      const std::ptrdiff_t sent = platform::send_some(socket_, bytes);
       if (sent > 0) {
         bytes.remove_prefix(static_cast<std::size_t>(sent));
-      } else if (errno == EAGAIN) {
-        if (!wait_for(socket_, POLLOUT, Clock::now() + limits_.write_time)) return false;
-      } else if (errno != EINTR) {
+      } else if (!platform::must_wait(errno)) {
+        return false;
+      } else if (!wait_until(socket_, true, Clock::now() + limits_.write_time)) {
         return false;
       }
     }
@@ -265,7 +259,7 @@ class HttpServer::Connection {
     const auto deadline = Clock::now() + moment;
     const HttpReply reply{status, "text/plain", "refused\n"};
     if (!send(head_of(reply, false)) || !send(reply.body)) return false;
-    shutdown(socket_, SHUT_WR);
+    platform::shut_down_writing(socket_);
     received_.clear();
     while (receive(sizeof(char[16384]), deadline)) received_.clear();
     return false;
@@ -290,13 +284,14 @@ HttpServer::HttpServer(int port, HttpLimits limits)
                             errno == EACCES ? "it is reserved for the system"
                                             : "another program is using it"));
   }
-  if (pipe2(stop_ends_, O_CLOEXEC) == 0) return;
-  close(listener_);
+  if (platform::make_wake_ends(stop_ends_)) return;
+  platform::close_socket(listener_);
   throw Error(ErrorKind::cannot_write, "the system has no pipe left");
 }
 
 HttpServer::~HttpServer() {
-  for (const int end : {listener_, stop_ends_[0], stop_ends_[1]}) close(end);
+  platform::close_socket(listener_);
+  for (const int end : stop_ends_) platform::close_wake_end(end);
 }
 
 int HttpServer::port() const {
@@ -308,21 +303,20 @@ int HttpServer::port() const {
 
 void HttpServer::serve(const Admit& admit, const Answer& answer) {
   while (true) {
-    pollfd waited[2] = {{listener_, POLLIN, 0}, {stop_ends_[0], POLLIN, 0}};
-    if (poll(waited, 2, -1) < 0 && errno != EINTR) break;
-    if (waited[1].revents != 0) break;
-    const int socket = accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+    platform::Awaited waited[2] = {{listener_, false}, {stop_ends_[0], false}};
+    if (platform::wait_for(waited, -1) < 0 && errno != EINTR) break;
+    if (waited[1].is_ready) break;
+    const int socket = platform::accept_socket(listener_);
     if (socket < 0) {
       // Without a descriptor to spare the same connection would be offered again and again.
-      if (errno == EMFILE || errno == ENFILE) poll(waited + 1, 1, 100);
+      if (platform::is_out_of_sockets(errno)) platform::wait_for({waited + 1, 1}, 100);
       continue;
     }
     // Answers leave at once; they are written whole.
-    const int yes = 1;
-    setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+    platform::send_at_once(socket);
     const auto place = connections_->add(socket);
     if (!place) {
-      close(socket);
+      platform::close_socket(socket);
       continue;
     }
     try {
@@ -339,9 +333,6 @@ void HttpServer::serve(const Admit& admit, const Answer& answer) {
   connections_->wait_until_none();
 }
 
-void HttpServer::stop() {
-  const char byte = 0;
-  [[maybe_unused]] const ssize_t ignored = write(stop_ends_[1], &byte, 1);
-}
+void HttpServer::stop() { platform::wake(stop_ends_[1]); }
 
 }  // namespace kinemend::cli

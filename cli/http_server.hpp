@@ -56,7 +56,7 @@ class HttpServer {
 
   HttpLimits limits_;
   int listener_ = -1;
-  int stop_ends_[2] = {-1, -1};  // a pipe: a byte in it wakes the thread that accepts
+  int stop_ends_[2] = {-1, -1};  // a byte in the second wakes the thread that accepts
   std::shared_ptr<Connections> connections_;
 };
 

@@ -1,20 +1,16 @@
 // Waits for input, output, silence and signals with poll, and feeds the session as bytes arrive.
 #include "live_loop.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
-#include <csignal>
-#include <cstring>
 #include <vector>
 
+#include "platform/console.hpp"
+#include "platform/network.hpp"
 #include "terminal.hpp"
 
 namespace kinemend::cli {
@@ -27,47 +23,6 @@ using TimePoint = LiveClock::time_point;
 constexpr std::chrono::seconds between_attempts{1};
 /// Time that a client has to take the last frames.
 constexpr std::chrono::seconds last_patience{2};
-
-int signal_pipe_end = -1;
-
-extern "C" void tell_signal(int /*signal*/) {
-  const int error = errno;
-  const char byte = 0;
-  [[maybe_unused]] const ssize_t ignored = ::write(signal_pipe_end, &byte, 1);
-  errno = error;
-}
-
-/// While it lives, SIGINT and SIGTERM are written to a pipe as bytes. The same signal once more
-/// ends the program.
-class SignalPipe {
- public:
-  SignalPipe() {
-    int ends[2];
-    if (pipe(ends) != 0) throw Error(ErrorKind::cannot_write, std::strerror(errno));
-    read_end_ = Descriptor(ends[0]);
-    write_end_ = Descriptor(ends[1]);
-    fcntl(ends[1], F_SETFL, O_NONBLOCK);
-    signal_pipe_end = ends[1];
-    struct sigaction action {};
-    action.sa_handler = tell_signal;
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    sigaction(SIGINT, &action, &old_[0]);
-    sigaction(SIGTERM, &action, &old_[1]);
-  }
-  ~SignalPipe() {
-    sigaction(SIGINT, &old_[0], nullptr);
-    sigaction(SIGTERM, &old_[1], nullptr);
-    signal_pipe_end = -1;
-  }
-  SignalPipe(const SignalPipe&) = delete;
-  SignalPipe& operator=(const SignalPipe&) = delete;
-
-  int descriptor() const { return read_end_.number(); }
-
- private:
-  Descriptor read_end_, write_end_;
-  struct sigaction old_[2] = {};  ///< of SIGINT and SIGTERM
-};
 
 class LiveLoop {
  public:
@@ -123,34 +78,34 @@ class LiveLoop {
   enum Slot : std::size_t { signals, sender, listener, client, slot_count };
 
   void step() {
-    std::array<pollfd, slot_count> waits;
-    waits[signals] = {signals_.descriptor(), POLLIN, 0};
-    waits[sender] = {sender_descriptor(), sender_events(), 0};
-    waits[listener] = {input_ ? -1 : listener_.number(), POLLIN, 0};
-    waits[client] = {output_.descriptor(), POLLOUT, 0};
-    if (poll(waits.data(), waits.size(), timeout_ms()) < 0 && errno != EINTR)
-      throw Error(ErrorKind::unreadable_input, fmt::format("poll: {}", std::strerror(errno)));
-    if (waits[signals].revents != 0) {
-      char byte = 0;
-      was_told_ = ::read(signals_.descriptor(), &byte, 1) == 1;
+    std::array<platform::Awaited, slot_count> waits;
+    waits[signals].number = signals_.number();
+    waits[sender] = {sender_descriptor(), is_connecting_};
+    waits[listener].number = input_ ? -1 : listener_.number();
+    waits[client] = {output_.descriptor(), true};
+    if (platform::wait_for(waits, timeout_ms()) < 0 && errno != EINTR) {
+      throw Error(ErrorKind::unreadable_input,
+                  fmt::format("poll: {}", platform::words_of_error(errno)));
+    }
+    if (waits[signals].is_ready) {
+      was_told_ = signals_.take();
       ended_ = true;
       return;
     }
     // While the output is full nothing is read, which is no silence of the sender.
-    if (waits[sender].fd < 0 && plan_.source == LiveSource::standard)
+    if (waits[sender].number < 0 && plan_.source == LiveSource::standard)
       last_frame_ = LiveClock::now();
-    if (waits[client].revents != 0) output_.write_some();
-    if (waits[sender].revents != 0) receive();
-    if (waits[listener].revents != 0) accept_sender();
+    if (waits[client].is_ready) output_.write_some();
+    if (waits[sender].is_ready) receive();
+    if (waits[listener].is_ready) accept_sender();
     attend_to_time();
     tell_notes();
   }
 
   int sender_descriptor() const {
     if (plan_.source != LiveSource::standard) return input_.number();
-    return output_.is_full() ? -1 : STDIN_FILENO;
+    return output_.is_full() ? -1 : platform::standard_input;
   }
-  short sender_events() const { return is_connecting_ ? POLLOUT : POLLIN; }
 
   int timeout_ms() const {
     std::optional<TimePoint> next = output_.next_attempt();
@@ -215,9 +170,9 @@ class LiveLoop {
       return;
     }
     const bool standard = plan_.source == LiveSource::standard;
-    const int descriptor = standard ? STDIN_FILENO : input_.number();
-    const ssize_t count = ::read(descriptor, buffer_.data(), buffer_.size());
-    if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) return;
+    const int descriptor = standard ? platform::standard_input : input_.number();
+    const std::ptrdiff_t count = platform::receive_some(descriptor, buffer_.data(), buffer_.size());
+    if (count < 0 && platform::must_wait(errno)) return;
     if (plan_.source == LiveSource::udp) {
       // An error belongs to an earlier datagram; an empty datagram is ignored.
       if (count > 0) feed(static_cast<std::size_t>(count), true);
@@ -226,7 +181,7 @@ class LiveLoop {
     if (count > 0) return feed(static_cast<std::size_t>(count), false);
     if (standard && count < 0) {
       throw Error(ErrorKind::unreadable_input,
-                  fmt::format("standard input: {}", std::strerror(errno)));
+                  fmt::format("standard input: {}", platform::words_of_error(errno)));
     }
     sender_gone(count == 0);
   }
@@ -265,13 +220,13 @@ class LiveLoop {
       const double left = Seconds(end - LiveClock::now()).count();
       const bool waits = plan_.source == LiveSource::standard && !was_told_;
       if (output_.descriptor() < 0 || (!waits && left <= 0)) break;
-      std::array<pollfd, 2> fds;
-      fds[0] = {output_.descriptor(), POLLOUT, 0};
-      fds[1] = {signals_.descriptor(), POLLIN, 0};
+      std::array<platform::Awaited, 2> ends;
+      ends[0] = {output_.descriptor(), true};
+      ends[1].number = signals_.number();
       const int timeout = waits ? -1 : static_cast<int>(std::ceil(1000 * left));
-      if (poll(fds.data(), fds.size(), timeout) < 0 && errno != EINTR) break;
-      if (fds[0].revents != 0) output_.write_some();
-      if (fds[1].revents != 0) break;
+      if (platform::wait_for(ends, timeout) < 0 && errno != EINTR) break;
+      if (ends[0].is_ready) output_.write_some();
+      if (ends[1].is_ready) break;
     }
     output_.give_up();
   }
@@ -279,7 +234,7 @@ class LiveLoop {
   const LivePlan& plan_;
   LiveSession& session_;
   LiveOutput& output_;
-  SignalPipe signals_;
+  platform::SignalEnds signals_;
   Descriptor listener_, input_;
   bool is_connecting_ = false;
   std::optional<TimePoint> next_connection_;

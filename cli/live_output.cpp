@@ -3,15 +3,13 @@
 #include "live_output.hpp"
 
 #include <fmt/format.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <climits>
 #include <cmath>
-#include <cstring>
 
+#include "platform/console.hpp"
+#include "platform/network.hpp"
 #include "terminal.hpp"
 
 namespace kinemend::cli {
@@ -21,14 +19,6 @@ namespace {
 constexpr double least_s = 1e-6, buckets_per_factor = 50;  // of e
 constexpr std::chrono::seconds between_connections{1};
 constexpr std::size_t most_datagram = 60000;
-
-#ifdef MSG_NOSIGNAL
-constexpr int send_flags = MSG_NOSIGNAL;
-#else
-constexpr int send_flags = 0;
-#endif
-
-bool must_wait(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == EINTR; }
 
 // A piece of a header that fits a datagram, at the end of a line where there is one.
 std::string_view datagram_of(std::string_view text) {
@@ -112,7 +102,7 @@ void LiveOutput::drop_oldest() {
 int LiveOutput::descriptor() const {
   if (!is_connected_) return socket_.number();
   if (waiting_.empty()) return -1;
-  return kind_ == Kind::standard ? STDOUT_FILENO : socket_.number();
+  return kind_ == Kind::standard ? platform::standard_output : socket_.number();
 }
 
 std::optional<LiveClock::time_point> LiveOutput::next_attempt() const { return next_attempt_; }
@@ -148,27 +138,26 @@ void LiveOutput::write_some() {
   }
 }
 
-// A pipe that can be written to takes PIPE_BUF bytes without waiting for its reader.
 void LiveOutput::write_standard() {
   const std::string_view rest = std::string_view(waiting_.front().text).substr(offset_);
-  const ssize_t count =
-      ::write(STDOUT_FILENO, rest.data(), std::min<std::size_t>(rest.size(), PIPE_BUF));
+  const std::ptrdiff_t count = platform::write_some_out(rest);
   if (count >= 0) {
     offset_ += static_cast<std::size_t>(count);
     if (offset_ == waiting_.front().text.size()) written();
   } else if (errno == EPIPE) {
     throw ClosedPipe();
-  } else if (!must_wait(errno)) {
-    throw Error(ErrorKind::cannot_write, fmt::format("standard output: {}", std::strerror(errno)));
+  } else if (!platform::must_wait(errno)) {
+    throw Error(ErrorKind::cannot_write,
+                fmt::format("standard output: {}", platform::words_of_error(errno)));
   }
 }
 
 void LiveOutput::write_tcp() {
   while (!waiting_.empty()) {
     const std::string_view rest = std::string_view(waiting_.front().text).substr(offset_);
-    const ssize_t count = ::send(socket_.number(), rest.data(), rest.size(), send_flags);
+    const std::ptrdiff_t count = platform::send_some(socket_.number(), rest);
     if (count < 0) {
-      if (!must_wait(errno)) client_gone();
+      if (!platform::must_wait(errno)) client_gone();
       return;
     }
     offset_ += static_cast<std::size_t>(count);
@@ -182,8 +171,8 @@ void LiveOutput::write_udp() {
   while (!waiting_.empty()) {
     const std::string_view piece =
         datagram_of(std::string_view(waiting_.front().text).substr(offset_));
-    const ssize_t count = ::send(socket_.number(), piece.data(), piece.size(), send_flags);
-    if (count < 0 && must_wait(errno)) return;
+    const std::ptrdiff_t count = platform::send_some(socket_.number(), piece);
+    if (count < 0 && platform::must_wait(errno)) return;
     offset_ += piece.size();
     if (offset_ == waiting_.front().text.size()) written();
   }

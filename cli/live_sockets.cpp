@@ -1,24 +1,17 @@
 // Resolves addresses, and opens, connects and accepts non-blocking sockets.
 #include "live_sockets.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <netdb.h>
-#include <netinet/in.h>
-#include <netinet/tcp.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <memory>
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/text.hpp"
+#include "platform/network.hpp"
 
 namespace kinemend::cli {
 
@@ -40,32 +33,28 @@ Addresses addresses_of(const Address& address, Transport transport, bool passive
   hints.ai_flags = passive ? AI_PASSIVE : 0;
   addrinfo* list = nullptr;
   const char* const host = address.host.empty() ? nullptr : address.host.c_str();
+  platform::begin_sockets();
   const int code = getaddrinfo(host, address.port.c_str(), &hints, &list);
   if (code != 0) error = gai_strerror(code);
   return Addresses(code == 0 ? list : nullptr);
 }
 
-bool set_up(const Descriptor& socket) {
-  const int flags = fcntl(socket.number(), F_GETFL);
-  return flags >= 0 && fcntl(socket.number(), F_SETFL, flags | O_NONBLOCK) == 0 &&
-         fcntl(socket.number(), F_SETFD, FD_CLOEXEC) == 0;
-}
-
-void set_option(const Descriptor& socket, int level, int option) {
-  const int on = 1;
-  setsockopt(socket.number(), level, option, &on, sizeof on);
-}
-
 Descriptor open_socket(const addrinfo& info) {
-  Descriptor opened(socket(info.ai_family, info.ai_socktype, info.ai_protocol));
-  if (opened && !set_up(opened)) opened.close();
-  return opened;
+  return Descriptor(platform::open_socket(info.ai_family, info.ai_socktype, info.ai_protocol));
+}
+
+// True if connected, or if the connection goes on.
+bool connects(const Descriptor& socket, const addrinfo& info, Transport transport) {
+  if (!socket) return false;
+  if (transport == Transport::tcp) platform::send_at_once(socket.number());
+  return platform::connect_socket(socket.number(), info.ai_addr, info.ai_addrlen) ||
+         errno == EINPROGRESS;
 }
 
 }  // namespace
 
 void Descriptor::close() {
-  if (number_ >= 0) ::close(number_);
+  if (number_ >= 0) platform::close_socket(number_);
   number_ = -1;
 }
 
@@ -104,13 +93,13 @@ Descriptor listen_at(const Address& address, Transport transport) {
   for (const addrinfo* info = list.get(); info != nullptr; info = info->ai_next) {
     Descriptor opened = open_socket(*info);
     if (opened) {
-      set_option(opened, SOL_SOCKET, SO_REUSEADDR);
-      if (bind(opened.number(), info->ai_addr, info->ai_addrlen) == 0 &&
-          (transport == Transport::udp || listen(opened.number(), SOMAXCONN) == 0)) {
+      platform::let_address_be_reused(opened.number());
+      if (platform::bind_socket(opened.number(), info->ai_addr, info->ai_addrlen) &&
+          (transport == Transport::udp || platform::listen_on(opened.number()))) {
         return opened;
       }
     }
-    error = std::strerror(errno);
+    error = platform::words_of_error(errno);
   }
   throw Error(ErrorKind::unreadable_input, fmt::format("{}: {}", to_string(address), error));
 }
@@ -134,47 +123,35 @@ Descriptor begin_connection(const Address& address, Transport transport) {
   const Addresses list = addresses_of(address, transport, false, ignored);
   for (const addrinfo* info = list.get(); info != nullptr; info = info->ai_next) {
     Descriptor opened = open_socket(*info);
-    if (!opened) continue;
-    if (transport == Transport::tcp) set_option(opened, IPPROTO_TCP, TCP_NODELAY);
-    if (connect(opened.number(), info->ai_addr, info->ai_addrlen) == 0 || errno == EINPROGRESS)
-      return opened;
+    if (connects(opened, *info, transport)) return opened;
   }
   return {};
 }
 
-int connection_error(const Descriptor& socket) {
-  int error = 0;
-  socklen_t size = sizeof error;
-  return getsockopt(socket.number(), SOL_SOCKET, SO_ERROR, &error, &size) == 0 ? error : errno;
-}
+int connection_error(const Descriptor& socket) { return platform::socket_error(socket.number()); }
 
 Descriptor connect_to(const Address& address, Transport transport, std::string& error) {
   const Addresses list = addresses_of(address, transport, false, error);
   for (const addrinfo* info = list.get(); info != nullptr; info = info->ai_next) {
     Descriptor opened = open_socket(*info);
-    if (opened && transport == Transport::tcp) set_option(opened, IPPROTO_TCP, TCP_NODELAY);
-    const bool begun = opened && (connect(opened.number(), info->ai_addr, info->ai_addrlen) == 0 ||
-                                  errno == EINPROGRESS);
-    if (!begun) {
-      error = std::strerror(errno);
+    if (!connects(opened, *info, transport)) {
+      error = platform::words_of_error(errno);
       continue;
     }
-    pollfd waiting{opened.number(), POLLOUT, 0};
+    platform::Awaited waiting{opened.number(), true, false};
     int ready = 0;
     do {
-      ready = poll(&waiting, 1, connect_timeout_ms);
+      ready = platform::wait_for({&waiting, 1}, connect_timeout_ms);
     } while (ready < 0 && errno == EINTR);
     const int number = ready == 0 ? ETIMEDOUT : connection_error(opened);
     if (number == 0) return opened;
-    error = std::strerror(number);
+    error = platform::words_of_error(number);
   }
   return {};
 }
 
 Descriptor accept_from(const Descriptor& listener) {
-  Descriptor accepted(accept(listener.number(), nullptr, nullptr));
-  if (accepted && !set_up(accepted)) accepted.close();
-  return accepted;
+  return Descriptor(platform::accept_socket(listener.number()));
 }
 
 }  // namespace kinemend::cli

@@ -3,7 +3,6 @@
 #include "run_files.hpp"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -11,6 +10,7 @@
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/text.hpp"
+#include "platform/system.hpp"
 
 namespace kinemend::cli {
 
@@ -35,10 +35,7 @@ fs::path followed(fs::path path) {
 // what nobody can lose: streams, devices and pipes.
 std::string identity_of(const std::string& path) {
   if (path.empty() || path == "-") return "";
-  struct stat status {};
-  if (::stat(path.c_str(), &status) == 0) {
-    return S_ISREG(status.st_mode) ? fmt::format("{}:{}", status.st_dev, status.st_ino) : "";
-  }
+  if (const auto identity = platform::file_identity(path)) return *identity;
   std::error_code error;
   const fs::path absolute = followed(fs::absolute(path, error));
   const fs::path canonical = fs::weakly_canonical(absolute, error);

@@ -2,9 +2,7 @@
 // standard output was closed.
 #include "terminal.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -12,28 +10,15 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "platform/console.hpp"
+
 namespace kinemend::cli {
 
 namespace {
 
 bool is_colourful(int stream) {
   const char* no_color = std::getenv("NO_COLOR");
-  const char* terminal = std::getenv("TERM");
-  return isatty(stream) && !(no_color && *no_color) && terminal &&
-         std::strcmp(terminal, "dumb") != 0;
-}
-
-/// 0, or the error's number.
-int write_all(int stream, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t count = ::write(stream, text.data(), text.size());
-    if (count >= 0) {
-      text.remove_prefix(static_cast<std::size_t>(count));
-    } else if (errno != EINTR) {
-      return errno;
-    }
-  }
-  return 0;
+  return !(no_color && *no_color) && platform::understands_colours(stream);
 }
 
 bool out_was_closed = false;
@@ -52,34 +37,27 @@ void say_as(Paint paint, std::string_view kind, std::string_view text) {
 
 }  // namespace
 
-void open_standard_streams() {
-  out_was_closed = ::fcntl(STDOUT_FILENO, F_GETFD) == -1;
-  int opened = -1;
-  do {
-    opened = ::open("/dev/null", O_RDWR);
-  } while (opened >= 0 && opened <= STDERR_FILENO);
-  if (opened > STDERR_FILENO) ::close(opened);
-}
+void open_standard_streams() { out_was_closed = !platform::open_standard_streams(); }
 
 void check_out_is_open() {
   if (out_was_closed) throw Error(ErrorKind::cannot_write, "standard output: is closed");
 }
 
 void write_out(std::string_view text) {
-  const int error = write_all(STDOUT_FILENO, text);
+  const int error = platform::write_all(platform::standard_output, text);
   if (error == EPIPE) throw ClosedPipe();
   if (error != 0)
     throw Error(ErrorKind::cannot_write, fmt::format("standard output: {}", std::strerror(error)));
 }
 
-void write_err(std::string_view text) { write_all(STDERR_FILENO, text); }
+void write_err(std::string_view text) { platform::write_all(platform::standard_error, text); }
 
 void say(std::string_view text) { say_as(Paint::bold, "", text); }
 void say_warning(std::string_view text) { say_as(Paint::yellow, "warning: ", text); }
 void say_error(std::string_view text) { say_as(Paint::red, "", text); }
 
-Colours Colours::of_out() { return Colours(is_colourful(STDOUT_FILENO)); }
-Colours Colours::of_err() { return Colours(is_colourful(STDERR_FILENO)); }
+Colours Colours::of_out() { return Colours(is_colourful(platform::standard_output)); }
+Colours Colours::of_err() { return Colours(is_colourful(platform::standard_error)); }
 
 std::string Colours::paint(Paint paint, std::string_view text) const {
   return painted(paint, text, on_);
@@ -95,7 +73,7 @@ ProgressBar::ProgressBar(std::size_t total, double work)
     : total_(total),
       work_(work > 0 ? work : static_cast<double>(total)),
       start_(std::chrono::steady_clock::now()),
-      on_(total > 1 && isatty(STDERR_FILENO)) {
+      on_(total > 1 && platform::is_terminal(platform::standard_error)) {
   draw();
 }
 
@@ -124,7 +102,7 @@ void ProgressBar::draw() {
   write_err(fmt::format("{} {}/{} takes{}", bar_text(share), done_, total_, left));
 }
 
-ProgressLine::ProgressLine() : on_(isatty(STDERR_FILENO)) {}
+ProgressLine::ProgressLine() : on_(platform::is_terminal(platform::standard_error)) {}
 
 ProgressLine::~ProgressLine() { clear(); }
 
@@ -142,7 +120,8 @@ void ProgressLine::clear() {
 }
 
 LateProgressLine::LateProgressLine(bool wanted) {
-  if (wanted && isatty(STDERR_FILENO)) waiting_ = std::thread([this] { wait(); });
+  if (wanted && platform::is_terminal(platform::standard_error))
+    waiting_ = std::thread([this] { wait(); });
 }
 
 LateProgressLine::~LateProgressLine() {

@@ -3,14 +3,11 @@
 #include "kinemend/experimental/train.hpp"
 
 #include <fmt/format.h>
-#include <signal.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -22,11 +19,13 @@
 #include "commands.hpp"
 #include "json.hpp"
 #include "kinemend/experimental/text.hpp"
+#include "kinemend/experimental/threads.hpp"
 #include "kinemend/experimental/version.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/io.hpp"
 #include "method_options.hpp"
 #include "model_view.hpp"
+#include "platform/system.hpp"
 #include "run_files.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
@@ -231,38 +230,6 @@ std::string resuming_command(const Arguments& arguments) {
   return text;
 }
 
-/// While it lives, the first SIGINT or SIGTERM is only noted; a second one ends the program.
-class StopRequest {
- public:
-  StopRequest() {
-    struct sigaction action = {};
-    action.sa_handler = [](int number) { signal_ = number; };
-    action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
-    sigaction(SIGINT, &action, &old_[0]);
-    sigaction(SIGTERM, &action, &old_[1]);
-  }
-  ~StopRequest() {
-    sigaction(SIGINT, &old_[0], nullptr);
-    sigaction(SIGTERM, &old_[1], nullptr);
-  }
-  StopRequest(const StopRequest&) = delete;
-  StopRequest& operator=(const StopRequest&) = delete;
-
-  static bool came() { return signal_ != 0; }
-  /// Ends the program as the signal would have.
-  [[noreturn]] static void obey() {
-    const int number = signal_;
-    std::signal(number, SIG_DFL);
-    std::raise(number);
-    std::_Exit(128 + number);
-  }
-
- private:
-  static inline std::atomic<int> signal_ = 0;
-  static_assert(std::atomic<int>::is_always_lock_free);  // as handlers ask
-  struct sigaction old_[2] = {};
-};
-
 /// Tells the user how to continue a stopped training.
 void say_stopped(const Training& training, const Arguments& arguments) {
   if (!training.checkpoint.empty() && std::filesystem::exists(training.checkpoint)) {
@@ -280,11 +247,11 @@ void remove_checkpoint(const Training& training) {
 
 Model trained_model(Training& training, ProgressLine& progress) {
   training.settings.progress = [&](std::string_view stage, double done) {
-    if (StopRequest::came()) throw TrainingStopped();
+    if (platform::StopRequest::came()) throw TrainingStopped();
     if (!training.quiet) progress.show(stage, done);
   };
   TrainCheckpoint& checkpoint = training.settings.checkpoint;
-  checkpoint.stop = StopRequest::came;
+  checkpoint.stop = platform::StopRequest::came;
   if (!training.checkpoint.empty()) {
     checkpoint.keep = [&](const std::string& bytes) {
       write_file(training.checkpoint, bytes, true);
@@ -297,19 +264,19 @@ Model trained_model(Training& training, ProgressLine& progress) {
 
 int run_train(const Arguments& arguments) {
   Training training = training_of(arguments);
-  std::optional<tbb::global_control> limit;
+  std::optional<ThreadLimit> limit;
   if (const auto jobs = static_cast<std::size_t>(arguments.whole("jobs")); jobs > 0)
-    limit.emplace(tbb::global_control::max_allowed_parallelism, jobs);
+    limit.emplace(jobs);
   const auto begin = std::chrono::steady_clock::now();
   ProgressLine progress;
-  const StopRequest stop_request;
+  const platform::StopRequest stop_request;
   Model model;
   try {
     model = trained_model(training, progress);
   } catch (const TrainingStopped&) {
     progress.clear();
     say_stopped(training, arguments);
-    StopRequest::obey();
+    platform::StopRequest::obey();
   } catch (const Error& error) {
     // Takes and options that give no model need no checkpoint. A model that could not be written
     // does.

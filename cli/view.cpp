@@ -1,11 +1,7 @@
 // kinemend view: the page of a take, served to a browser of this machine, with controls.
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <unistd.h>
 
-#include <csignal>
 #include <filesystem>
 #include <set>
 #include <vector>
@@ -13,13 +9,12 @@
 #include "commands.hpp"
 #include "kinemend/experimental/page.hpp"
 #include "kinemend/io.hpp"
+#include "platform/system.hpp"
 #include "run_files.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 #include "view_server.hpp"
 #include "view_session.hpp"
-
-extern char** environ;
 
 namespace kinemend::cli {
 
@@ -76,25 +71,6 @@ ViewFiles files_of(const Arguments& arguments) {
   return files;
 }
 
-/// Opens an address with the desktop's own program; false where it could not be started.
-bool open_in_browser(const std::string& address) {
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    posix_spawn_file_actions_addopen(&files, stream, "/dev/null", O_RDWR, 0);
-  posix_spawnattr_t settings;
-  posix_spawnattr_init(&settings);
-  // The browser stays open when this program ends.
-  posix_spawnattr_setflags(&settings, POSIX_SPAWN_SETSID);
-  std::string program = "xdg-open", word = address;
-  char* words[] = {program.data(), word.data(), nullptr};
-  pid_t child = 0;
-  const int failed = posix_spawnp(&child, program.c_str(), &files, &settings, words, environ);
-  posix_spawnattr_destroy(&settings);
-  posix_spawn_file_actions_destroy(&files);
-  return failed == 0;
-}
-
 int run_view(const Arguments& arguments) {
   ViewFiles files = files_of(arguments);
   if (!has_report_page())
@@ -107,8 +83,6 @@ int run_view(const Arguments& arguments) {
   }
   // A missing file of gaps is an error now, not only once the page is open.
   if (files.with_gaps) read_file(files.gaps);
-  // Nothing waits for the child that opens the browser.
-  std::signal(SIGCHLD, SIG_IGN);
   ViewSession session(files);
   serve_view(
       static_cast<int>(arguments.whole("port")),
@@ -117,8 +91,10 @@ int run_view(const Arguments& arguments) {
       },
       [&](const std::string& address) {
         write_out(fmt::format("{}\nPress Ctrl-C to end.\n", address));
-        if (arguments.flag("open") && !open_in_browser(address))
-          say_warning("xdg-open was not found: open the address above in a browser");
+        if (arguments.flag("open") && !platform::open_in_browser(address)) {
+          say_warning(fmt::format("{} was not found: open the address above in a browser",
+                                  platform::browser_opener()));
+        }
       },
       [&] { session.stop(); });
   return 0;

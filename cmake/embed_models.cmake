@@ -1,8 +1,12 @@
 # Writes OUTPUT, a C++ source that holds the model files of FOLDER as bytes.
-#   cmake -DFOLDER=models -DOUTPUT=embedded_models.cpp -P embed_models.cmake
+#   cmake -DFOLDER=models -DNAMES=all -DOUTPUT=embedded_models.cpp -P embed_models.cmake
 include(${CMAKE_CURRENT_LIST_DIR}/bytes_literal.cmake)
 file(GLOB files ${FOLDER}/*.kmodel)
 list(SORT files)
+if(NOT NAMES STREQUAL "all")
+  string(REPLACE ";" "|" wanted "${NAMES}")
+  list(FILTER files INCLUDE REGEX "/(${wanted})\\.kmodel$")
+endif()
 set(text "// Made from models/*.kmodel by cmake/embed_models.cmake.\n#include \"learned/core/shipped_list.hpp\"\n\nnamespace kinemend {\n\nnamespace {\n\n")
 string(APPEND text "#pragma GCC diagnostic ignored \"-Woverlength-strings\"\n\nconstexpr EmbeddedModel table[] = {\n")
 set(count 0)

@@ -108,7 +108,7 @@ function(kinemend_embed_models folder)
   set(script ${PROJECT_SOURCE_DIR}/cmake/embed_models.cmake)
   set(output ${PROJECT_BINARY_DIR}/embedded_models.cpp)
   add_custom_command(OUTPUT ${output}
-    COMMAND ${CMAKE_COMMAND} -DFOLDER=${PROJECT_SOURCE_DIR}/models -DOUTPUT=${output} -P ${script}
+    COMMAND ${CMAKE_COMMAND} -DFOLDER=${PROJECT_SOURCE_DIR}/models -DNAMES=${KINEMEND_MODELS} -DOUTPUT=${output} -P ${script}
     DEPENDS ${script} ${PROJECT_SOURCE_DIR}/cmake/bytes_literal.cmake ${models} COMMENT "Models that ship" VERBATIM)
   target_sources(kinemend_${room} PRIVATE ${output})
   set_source_files_properties(${output} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
@@ -121,12 +121,16 @@ function(kinemend_library)
   add_library(kinemend::kinemend ALIAS kinemend)
   target_link_libraries(kinemend INTERFACE ${KINEMEND_ROOMS})
 
+  # For another system the program alone is built.
+  if(KINEMEND_FOREIGN)
+    return()
+  endif()
   add_library(kinemend_shared SHARED)
   foreach(room ${KINEMEND_ROOMS})
     target_sources(kinemend_shared PRIVATE $<TARGET_OBJECTS:${room}>)
   endforeach()
   set_target_properties(kinemend_shared PROPERTIES LINKER_LANGUAGE CXX)
-  target_link_libraries(kinemend_shared PRIVATE fmt::fmt TBB::tbb hwy::hwy ZLIB::ZLIB Threads::Threads)
+  target_link_libraries(kinemend_shared PRIVATE fmt::fmt $<$<BOOL:${KINEMEND_TBB}>:TBB::tbb> hwy::hwy ZLIB::ZLIB Threads::Threads)
   target_include_directories(kinemend_shared INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(kinemend_shared INTERFACE cxx_std_20)
   target_link_options(kinemend_shared PRIVATE -Wl,--as-needed)

@@ -66,8 +66,13 @@ function(kinemend_embed_page room)
   endif()
   set(output ${PROJECT_BINARY_DIR}/embedded_page.cpp)
   set(script ${PROJECT_SOURCE_DIR}/cmake/embed_page.cmake)
+  # The module for JavaScript is used by pages; it writes none.
+  set(parts -DSCRIPT=${folder}/page.js -DSTYLE=${folder}/page.css)
+  if(EMSCRIPTEN)
+    set(parts "")
+  endif()
   add_custom_command(OUTPUT ${output}
-    COMMAND ${CMAKE_COMMAND} -DSCRIPT=${folder}/page.js -DSTYLE=${folder}/page.css -DOUTPUT=${output} -P ${script}
+    COMMAND ${CMAKE_COMMAND} ${parts} -DOUTPUT=${output} -P ${script}
     DEPENDS ${script} ${PROJECT_SOURCE_DIR}/cmake/bytes_literal.cmake ${folder}/page.js ${folder}/page.css VERBATIM)
   target_sources(kinemend_${room} PRIVATE ${output})
   set_source_files_properties(${output} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

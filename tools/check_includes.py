@@ -41,7 +41,7 @@ USES = {
 
 # The room of every public header.
 PUBLIC = {header: room for room, headers in {
-    "base": "error random options pose_matrix version json_depth content_hash frame_rate text",
+    "base": "error random options pose_matrix version json_depth content_hash frame_rate text threads wildcards",
     "rotation": "rotation",
     "motion": "skeleton take take_view kinematics convert gaps frame_numbers subjects",
     "io": "io",
@@ -109,7 +109,8 @@ def check(root):
     for folder in PROGRAMS:
         for path in sources(root / folder):
             for name in INCLUDE.findall(path.read_text()):
-                if not name.startswith("kinemend/") and not (path.parent / name).exists():
+                own = (path.parent / name).exists() or (root / folder / name).exists()
+                if not name.startswith("kinemend/") and not own:
                     problems.append(f"{path.relative_to(root)}: a program sees include/ only, not {name}")
     return problems
 

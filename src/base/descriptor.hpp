@@ -1,9 +1,9 @@
 // Owns an open file and closes it.
 #pragma once
 
-#include <unistd.h>
-
 #include <utility>
+
+#include "base/platform/files.hpp"
 
 namespace kinemend {
 
@@ -14,11 +14,11 @@ class Descriptor {
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   ~Descriptor() {
-    if (number_ > STDERR_FILENO) ::close(number_);
+    if (number_ > platform::standard_error) platform::close_file(number_);
   }
   int get() const { return number_; }
   // What is left unwritten on some file systems shows only here.
-  bool close() { return ::close(std::exchange(number_, -1)) == 0; }
+  bool close() { return platform::close_file(std::exchange(number_, -1)); }
 
  private:
   int number_;

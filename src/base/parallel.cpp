@@ -1,18 +1,193 @@
-// Decides by the amount of work whether to use threads.
+// Spreads work over threads: those of oneTBB where the library is built with it, else a pool.
 #include "base/parallel.hpp"
 
+#ifdef KINEMEND_TBB
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+#endif
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+
+#include "base/thread_pool.hpp"
+#include "kinemend/experimental/threads.hpp"
 
 namespace kinemend {
 
-void for_each_parallel(std::size_t count, std::size_t samples,
-                       const std::function<void(std::size_t)>& work) {
+namespace {
+
+#ifdef KINEMEND_TBB
+std::atomic<bool> uses_pool{false};
+#else
+constexpr bool uses_pool = true;
+#endif
+
+void for_each_range_in_pool(std::size_t first, std::size_t last, std::size_t least,
+                            const RangeWork& work) {
+  constexpr std::size_t parts_per_thread = 4;  // so that an early end of one leaves work for others
+  if (first >= last) return;
+  const std::size_t count = last - first;
+  const std::size_t most_parts = std::max<std::size_t>(1, count / std::max<std::size_t>(1, least));
+  const std::size_t parts = std::min(most_parts, parts_per_thread * pool::thread_count());
+  pool::for_each_index(parts, [&](std::size_t i) {
+    work(first + count * i / parts, first + count * (i + 1) / parts);
+  });
+}
+
+void for_each_piece_in_pool(std::size_t slots, const std::function<bool(std::size_t)>& read,
+                            const PieceStages& stages) {
+  for (bool goes_on = true; goes_on;) {
+    std::size_t count = 0;
+    const std::size_t at_once = stages.write ? slots : 1;
+    while (count < at_once && (goes_on = read(count))) {
+      if (stages.choose) stages.choose(count);
+      ++count;
+    }
+    if (stages.write) pool::for_each_index(count, stages.write);
+    for (std::size_t slot = 0; slot < count; ++slot) stages.append(slot);
+  }
+}
+
+#ifdef KINEMEND_TBB
+void for_each_piece_in_tbb(std::size_t slots, const std::function<bool(std::size_t)>& read,
+                           const PieceStages& stages) {
+  using tbb::filter_mode;
+  using Slot = std::size_t*;
+  std::vector<std::size_t> numbers(slots);
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  std::size_t entered = 0;
+  const auto enter = [&](tbb::flow_control& control) -> Slot {
+    const Slot slot = &numbers[entered++ % slots];
+    if (read(*slot)) return slot;
+    control.stop();
+    return nullptr;
+  };
+  const auto append = [&](Slot slot) { stages.append(*slot); };
+  tbb::filter<void, Slot> chain(filter_mode::serial_in_order, enter);
+  const auto add = [&](filter_mode mode, const IndexWork& work) {
+    const auto step = [&work](Slot slot) {
+      work(*slot);
+      return slot;
+    };
+    if (work) chain = chain & tbb::filter<Slot, Slot>(mode, step);
+  };
+  add(filter_mode::serial_in_order, stages.choose);
+  add(filter_mode::parallel, stages.write);
+  const tbb::filter<Slot, void> last(filter_mode::serial_in_order, append);
+  tbb::this_task_arena::isolate([&] { tbb::parallel_pipeline(slots, chain & last); });
+}
+#endif
+
+void add_halves(std::size_t first, std::size_t last, std::size_t most,
+                std::vector<IndexRange>& ranges) {
+  if (last - first <= most) {
+    ranges.emplace_back(first, last);
+    return;
+  }
+  const std::size_t middle = first + (last - first) / 2;
+  add_halves(first, middle, most, ranges);
+  add_halves(middle, last, most, ranges);
+}
+
+}  // namespace
+
+struct ThreadLimit::Held {
+  explicit Held(std::size_t limit) : most(limit) { pool::add_limit(most); }
+  ~Held() { pool::remove_limit(most); }
+  Held(const Held&) = delete;
+  Held& operator=(const Held&) = delete;
+
+  std::size_t most;
+#ifdef KINEMEND_TBB
+  tbb::global_control control{tbb::global_control::max_allowed_parallelism, most};
+#endif
+};
+
+ThreadLimit::ThreadLimit(std::size_t most) : held_(std::make_unique<Held>(most)) {}
+ThreadLimit::~ThreadLimit() = default;
+
+std::size_t thread_count() {
+#ifdef KINEMEND_TBB
+  if (!uses_pool) return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+#endif
+  return pool::thread_count();
+}
+
+void for_each_index(std::size_t count, const IndexWork& work) {
+#ifdef KINEMEND_TBB
+  if (!uses_pool) return tbb::parallel_for(std::size_t{0}, count, work);
+#endif
+  pool::for_each_index(count, work);
+}
+
+void for_each_parallel(std::size_t count, std::size_t samples, const IndexWork& work) {
   constexpr std::size_t worth_threads = 4096;
   if (samples < worth_threads || count < 2) {
     for (std::size_t i = 0; i < count; ++i) work(i);
     return;
   }
-  tbb::parallel_for(std::size_t{0}, count, work);
+  for_each_index(count, work);
+}
+
+void for_each_range(std::size_t first, std::size_t last, std::size_t least, const RangeWork& work) {
+#ifdef KINEMEND_TBB
+  if (!uses_pool) {
+    return tbb::parallel_for(tbb::blocked_range<std::size_t>(first, last, least),
+                             [&](const auto& range) { work(range.begin(), range.end()); });
+  }
+#endif
+  for_each_range_in_pool(first, last, least, work);
+}
+
+bool work_is_cancelled() {
+#ifdef KINEMEND_TBB
+  if (!uses_pool) return tbb::is_current_task_group_canceling();
+#endif
+  return pool::is_cancelled();
+}
+
+void for_each_piece(std::size_t slots, const std::function<bool(std::size_t slot)>& read,
+                    const PieceStages& stages) {
+#ifdef KINEMEND_TBB
+  if (!uses_pool) return for_each_piece_in_tbb(slots, read, stages);
+#endif
+  for_each_piece_in_pool(slots, read, stages);
+}
+
+std::vector<IndexRange> halved_ranges(std::size_t first, std::size_t last, std::size_t most) {
+  std::vector<IndexRange> ranges;
+  if (first < last) add_halves(first, last, std::max<std::size_t>(1, most), ranges);
+  return ranges;
+}
+
+void on_every_thread(const std::function<void()>& work) {
+  for_each_index(thread_count(), [&](std::size_t) { work(); });
+}
+
+void run_isolated(const std::function<void()>& work) {
+#ifdef KINEMEND_TBB
+  if (!uses_pool) return tbb::this_task_arena::isolate(work);
+#endif
+  work();
+}
+
+StandardThreads::StandardThreads(std::size_t threads)
+    : threads_before_(pool::set_thread_count(threads)), used_before_(uses_pool) {
+#ifdef KINEMEND_TBB
+  uses_pool = true;
+#endif
+}
+
+StandardThreads::~StandardThreads() {
+#ifdef KINEMEND_TBB
+  uses_pool = used_before_;
+#endif
+  pool::set_thread_count(threads_before_);
 }
 
 }  // namespace kinemend

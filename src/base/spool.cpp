@@ -1,9 +1,7 @@
 // Writes and reads the records of a spool, and its file without a name.
 #include "base/spool.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cassert>
 #include <cerrno>
@@ -13,18 +11,16 @@
 #include <string>
 #include <system_error>
 
+#include "base/platform/files.hpp"
 #include "kinemend/error.hpp"
 
 namespace kinemend {
 
 namespace {
 
-std::string words_of(int number) {
-  return std::error_code(number, std::generic_category()).message();
-}
-
 [[noreturn]] void fail(ErrorKind kind, const std::string& folder, const char* what, int number) {
-  throw Error(kind, fmt::format("{}: temporary file: {}: {}", folder, what, words_of(number)));
+  throw Error(kind,
+              fmt::format("{}: temporary file: {}: {}", folder, what, platform::words_of(number)));
 }
 
 std::string temporary_folder() {
@@ -35,12 +31,9 @@ std::string temporary_folder() {
   fail(ErrorKind::cannot_write, named != nullptr ? named : "/tmp", "cannot be made", error.value());
 }
 
-// The name is removed at once; the file exists as long as it is open.
 int nameless_file(const std::string& folder) {
-  std::string name = folder + "/kinemend-XXXXXX";
-  const int descriptor = ::mkostemp(name.data(), O_CLOEXEC);
+  const int descriptor = platform::nameless_file(folder);
   if (descriptor < 0) fail(ErrorKind::cannot_write, folder, "cannot be made", errno);
-  ::unlink(name.c_str());
   return descriptor;
 }
 
@@ -63,9 +56,8 @@ std::size_t Spool::append(std::span<const std::byte> bytes) {
 void Spool::write_to_file(std::span<const std::byte> bytes) {
   if (!file_) file_ = std::make_unique<Descriptor>(nameless_file(temporary_folder()));
   for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t count = ::pwrite(file_->get(), bytes.data() + done, bytes.size() - done,
-                                   static_cast<off_t>(file_end_ + done));
-    if (count < 0 && errno == EINTR) continue;
+    const std::ptrdiff_t count = platform::write_at(file_->get(), file_end_ + done,
+                                                    bytes.data() + done, bytes.size() - done);
     if (count <= 0)
       fail(ErrorKind::cannot_write, temporary_folder(), "cannot be written",
            count < 0 ? errno : EIO);
@@ -83,9 +75,8 @@ void Spool::read(std::size_t record, std::size_t from, std::span<std::byte> byte
     return;
   }
   for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t count = ::pread(file_->get(), bytes.data() + done, bytes.size() - done,
-                                  static_cast<off_t>(entry.place + from + done));
-    if (count < 0 && errno == EINTR) continue;
+    const std::ptrdiff_t count = platform::read_at(file_->get(), entry.place + from + done,
+                                                   bytes.data() + done, bytes.size() - done);
     if (count <= 0)
       fail(ErrorKind::unreadable_input, temporary_folder(), "cannot be read",
            count < 0 ? errno : EIO);

@@ -1,10 +1,9 @@
 // Splits a range of frames into blocks that run in parallel.
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <cstddef>
+
+#include "base/parallel.hpp"
 
 namespace kinemend::feet {
 
@@ -12,8 +11,7 @@ namespace kinemend::feet {
 template <class Work>
 void for_blocks(std::size_t first, std::size_t end, const Work& work) {
   constexpr std::size_t least = 256;  // frames, a share of work
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(first, end, least),
-                    [&](const auto& block) { work(block.begin(), block.end()); });
+  for_each_range(first, end, least, work);
 }
 
 }  // namespace kinemend::feet

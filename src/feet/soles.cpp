@@ -1,12 +1,11 @@
 // Smooths heels and toes as much as their noise asks.
 #include "feet/soles.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "base/parallel.hpp"
 #include "base/quantiles.hpp"
 
 namespace kinemend::feet {
@@ -107,7 +106,7 @@ Soles find_soles(const LegMotion& motion, Up up, const ContactSettings& settings
     soles.has.push_back(motion.models[p / 2].has[p % 2] ? 1 : 0);
   soles.paces = paces_of(motion, up);
   soles.points.resize(soles.body.points);
-  tbb::parallel_for(std::size_t{0}, soles.body.points, [&](std::size_t p) {
+  for_each_index(soles.body.points, [&](std::size_t p) {
     soles.points[p] = quiet_sole_point(soles.body, p, up, settings);
   });
   return soles;

@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <numeric>
 
 #include "base/measure.hpp"
+#include "base/parallel.hpp"
 #include "fill/doubt.hpp"
 #include "kinemend/experimental/text.hpp"
 
@@ -101,7 +101,7 @@ class Rounds {
   void refine() {
     take_.begin_round();
     std::vector<std::uint8_t> gains(gaps_.size());
-    tbb::parallel_for(std::size_t{0}, gaps_.size(), [&](std::size_t g) {
+    for_each_index(gaps_.size(), [&](std::size_t g) {
       gains[g] = fillings_[g].made() && take_.gains(gaps_[g]) ? 1 : 0;
     });
     std::vector<std::size_t> again;
@@ -128,7 +128,7 @@ class Rounds {
   void try_gaps(const std::vector<std::size_t>& chosen) {
     take_.begin_round();
     std::vector<Filling> found(chosen.size());
-    tbb::parallel_for(std::size_t{0}, chosen.size(), [&](std::size_t i) {
+    for_each_index(chosen.size(), [&](std::size_t i) {
       if (check_) check_();
       const OpenGap& gap = gaps_[chosen[i]];
       found[i] = within_limit(take_, gap, fill_gap(take_, gap));

@@ -1,6 +1,5 @@
 // Fills gaps of joints: rotations, and the positions that joints have.
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <map>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "base/measure.hpp"
+#include "base/parallel.hpp"
 #include "fill/doubt.hpp"
 #include "fill/driver.hpp"
 #include "fill/joint_choice.hpp"
@@ -92,7 +92,7 @@ class JointTake : public GappedTake {
     frame_rate_hz = clip.frame_rate_hz;
     never_seen = "none of its samples is observed";
     rests_on_doubted = true;
-    tbb::parallel_for(std::size_t{0}, sources.size(), [&](std::size_t i) {
+    for_each_index(sources.size(), [&](std::size_t i) {
       tracks_[i] = sources[i].is_position ? position_track(clip, sources[i].index)
                                           : rotation_track(clip, sources[i].index);
     });

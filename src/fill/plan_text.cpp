@@ -1,4 +1,5 @@
 // Reads and writes the gap plan as a file.
+#include <fast_float/fast_float.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -194,9 +195,13 @@ double number_of(const Row& row, std::string_view column) {
   const std::string_view word = row.at(column);
   if (word.empty()) return 0;
   double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size() || !(value >= 0) ||
-      !std::isfinite(value)) {
+  const char* const last = word.data() + word.size();
+  const auto [end, error] = fast_float::from_chars(word.data(), last, value);
+  // As of a number that is too large, nothing is left of one that is too small.
+  const bool vanished =
+      value == 0 &&
+      word.substr(0, word.find_first_of("eE")).find_first_of("123456789") != word.npos;
+  if (error != std::errc() || end != last || !(value >= 0) || !std::isfinite(value) || vanished) {
     row.fail(fmt::format("expected a number from 0 as {}, found {}", column, quote(word)));
   }
   return value;

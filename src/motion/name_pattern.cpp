@@ -3,12 +3,12 @@
 #include "motion/name_pattern.hpp"
 
 #include <fmt/format.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/text.hpp"
+#include "kinemend/experimental/wildcards.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {
@@ -18,7 +18,7 @@ namespace {
 char small(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 bool is_meant(const std::string& name, const std::string& pattern) {
-  return name == pattern || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+  return name == pattern || matches_wildcards(pattern, name);
 }
 
 bool mark(const std::vector<std::string>& names, const std::string& pattern,

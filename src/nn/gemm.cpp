@@ -1,13 +1,11 @@
 // Packs panels of the second matrix and shares the rows of a product among threads.
 #include "nn/gemm.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cassert>
 #include <vector>
 
+#include "base/parallel.hpp"
 #include "nn/gemm_kernel.hpp"
 
 namespace kinemend::nn {
@@ -40,8 +38,8 @@ void multiply_packed(const BasicMatrixView<Real>& a, std::size_t first, std::siz
   } else {
     // Whole blocks, so that only the last task meets a remainder of rows.
     const std::size_t blocks = (c.rows + rows_per_task - 1) / rows_per_task;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks), [&](const auto& range) {
-      rows(range.begin() * rows_per_task, std::min(range.end() * rows_per_task, c.rows));
+    for_each_range(0, blocks, 1, [&](std::size_t first_block, std::size_t last_block) {
+      rows(first_block * rows_per_task, std::min(last_block * rows_per_task, c.rows));
     });
   }
 }

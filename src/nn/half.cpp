@@ -1,8 +1,9 @@
 // Converts between doubles and the bits of half-precision numbers, without help from the processor.
 #include "nn/half.hpp"
 
-#include <bit>
 #include <cmath>
+
+#include "base/bits.hpp"
 
 namespace kinemend {
 
@@ -16,7 +17,7 @@ constexpr std::uint64_t bias_difference = 1023 - 15;
 
 // Of a finite `size` from `least_normal` on. A carry out of the mantissa goes where it belongs.
 std::uint16_t normal_half(double size) {
-  const auto bits = std::bit_cast<std::uint64_t>(size);
+  const auto bits = bits_as<std::uint64_t>(size);
   const std::uint64_t is_odd = (bits >> dropped_bits) & 1;
   const std::uint64_t rounded = bits + ((std::uint64_t{1} << (dropped_bits - 1)) - 1) + is_odd;
   return static_cast<std::uint16_t>((rounded >> dropped_bits) - (bias_difference << 10));
@@ -45,7 +46,7 @@ double from_half(std::uint16_t half) {
     return sign != 0 ? -size : size;
   }
   const std::uint64_t wide_exponent = exponent == 31 ? 2047 : exponent + bias_difference;
-  return std::bit_cast<double>(sign | wide_exponent << 52 | mantissa << dropped_bits);
+  return bits_as<double>(sign | wide_exponent << 52 | mantissa << dropped_bits);
 }
 
 }  // namespace kinemend

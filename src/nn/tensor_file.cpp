@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
+#include "base/bits.hpp"
 #include "base/quote.hpp"
 #include "kinemend/error.hpp"
 #include "nn/half.hpp"
@@ -51,8 +51,8 @@ struct Half {
 template <class Number>
 struct Real {
   using Word = std::conditional_t<sizeof(Number) == 8, std::uint64_t, std::uint32_t>;
-  static double decode(Word word) { return static_cast<double>(std::bit_cast<Number>(word)); }
-  static Word encode(double value) { return std::bit_cast<Word>(static_cast<Number>(value)); }
+  static double decode(Word word) { return static_cast<double>(bits_as<Number>(word)); }
+  static Word encode(double value) { return bits_as<Word>(static_cast<Number>(value)); }
   static bool fits(double value) { return std::abs(value) <= std::numeric_limits<Number>::max(); }
 };
 template <class Number>

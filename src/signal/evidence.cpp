@@ -2,15 +2,14 @@
 // maximisation.
 #include "signal/evidence.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
+
+#include "base/parallel.hpp"
 
 namespace kinemend::signal {
 
@@ -34,7 +33,7 @@ std::vector<Channels> in_blocks(const Channels& channels, std::size_t group = 1)
 }
 
 void for_each_block(const std::vector<Channels>& blocks, const auto& work) {
-  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) { work(blocks[b]); });
+  for_each_index(blocks.size(), [&](std::size_t b) { work(blocks[b]); });
 }
 
 // -2 log p(y), less terms that all models share: y^T (I - A^-1) y / s + log |A| - (F - d)
@@ -126,7 +125,7 @@ ModelGrid::ModelGrid(std::size_t frames, double frame_rate_hz, const CutoffGrid&
   constexpr std::size_t orders[] = {1, 2, 3};
   models_ = models_of_orders(orders, cutoffs, frames, frame_rate_hz);
   factors_.resize(models_.size());
-  tbb::parallel_for(std::size_t{0}, models_.size(), [&](std::size_t m) {
+  for_each_index(models_.size(), [&](std::size_t m) {
     factors_[m] = factor_shared(frames_, models_[m].order, models_[m].strength);
   });
 }

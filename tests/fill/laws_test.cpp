@@ -1,6 +1,5 @@
 // Laws that every method of filling gaps keeps, for joints and for markers.
 #include <gmock/gmock.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <numeric>
@@ -12,6 +11,7 @@
 #include "fill/marker_takes.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/synth.hpp"
+#include "kinemend/experimental/threads.hpp"
 #include "motion/clips.hpp"
 
 namespace kinemend::fill {
@@ -249,7 +249,7 @@ TEST_P(Laws, ResultDoesNotDependOnTheNumberOfThreads) {
   hold([&](const auto& take) {
     auto clip = damaged(take), other = damaged(take);
     fill_by(clip, method());
-    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    const ThreadLimit one(1);
     fill_by(other, method());
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
       for (const std::string& name : take.names)

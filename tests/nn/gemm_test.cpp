@@ -3,12 +3,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "kinemend/experimental/threads.hpp"
 #include "random_values.hpp"
 
 namespace kinemend::nn {
@@ -168,7 +168,7 @@ TYPED_TEST(Gemm, GivesTheSameBitsWithAnyNumberOfThreads) {
     multiply({a.data(), 300, 250, 250}, {b.data(), 250, 90, 90}, {c.data(), 300, 90, 90});
   };
   product(several);
-  const tbb::global_control single(tbb::global_control::max_allowed_parallelism, 1);
+  const ThreadLimit single(1);
   product(one);
   EXPECT_EQ(several, one);
 }

@@ -1,6 +1,5 @@
 // Laws that every method in the table keeps, with its default options.
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include "kinemend/clean.hpp"
 #include "kinemend/experimental/corrupt.hpp"
 #include "kinemend/experimental/synth.hpp"
+#include "kinemend/experimental/threads.hpp"
 #include "registry/takes.hpp"
 
 namespace kinemend::test {
@@ -165,7 +165,7 @@ TEST_P(Every, GivesTheSameOnAnyNumberOfThreads) {
   Take clip = moving_take(1500, 120);  // enough for the work to be spread
   add_noise(clip, 1.5, 0.5, 3);
   const auto on_threads = [&](std::size_t count) {
-    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, count);
+    const ThreadLimit control(count);
     return cleaned(clip);
   };
   expect_same(on_threads(1), on_threads(4));

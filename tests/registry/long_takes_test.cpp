@@ -1,7 +1,6 @@
 // What long takes need: one copy of the take, and word of how far the work is.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <string>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "kinemend/clean.hpp"
 #include "kinemend/experimental/corrupt.hpp"
 #include "kinemend/experimental/synth.hpp"
+#include "kinemend/experimental/threads.hpp"
 #include "kinemend/methods.hpp"
 #include "registry/takes.hpp"
 
@@ -31,7 +31,7 @@ Take noisy_stroll(double duration_s) {
 // Beside the take itself, which is 32 bytes a rotation. What it takes: the vectors of all joints,
 // marks, and what two threads work on.
 TEST(LongTakes, AreCleanedInLittleMoreRoomThanTheyTake) {
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 2);
+  const ThreadLimit control(2);
   const auto cleaner = make_auto();
   Take clip = noisy_stroll(60);
   const auto rotations = static_cast<double>(clip.rotations.size());
@@ -43,7 +43,7 @@ TEST(LongTakes, AreCleanedInLittleMoreRoomThanTheyTake) {
 // With the model that ships: what grows with the take are five vectors of its channels, the marks
 // of its samples and the copy that is handed over; the rest is for one stretch.
 TEST(LongTakes, AreCleanedByExampleInRoomThatGrowsLittle) {
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 2);
+  const ThreadLimit control(2);
   const auto cleaner = make_example();
   const auto peak_of = [&](const Take& take) {
     Take clip = take;

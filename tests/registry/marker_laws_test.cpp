@@ -1,12 +1,12 @@
 // Laws that every method in the table keeps on markers, with its default options.
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "kinemend/cleaner.hpp"
+#include "kinemend/experimental/threads.hpp"
 #include "registry/marker_takes.hpp"
 #include "registry/takes.hpp"
 
@@ -178,7 +178,7 @@ TEST_P(EveryOnMarkers, TakesALonelyMarkerAndNone) {
 TEST_P(EveryOnMarkers, GivesTheSameOnAnyNumberOfThreads) {
   const Take clip = gappy_take();
   const auto on_threads = [&](std::size_t count) {
-    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, count);
+    const ThreadLimit control(count);
     return cleaned(clip).positions;
   };
   EXPECT_EQ(on_threads(1), on_threads(4));

@@ -1,7 +1,5 @@
 // Reads BVH files as takes of joints, with repairs of what is damaged.
 #include <fmt/format.h>
-#include <tbb/parallel_pipeline.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +9,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "io/bvh/bvh.hpp"
 #include "io/bvh/bvh_document.hpp"
@@ -125,24 +124,15 @@ class MotionReader {
   std::size_t read_rows(MotionRows& rows) {
     // A block is stored before the one that is so many behind it is read.
     std::array<Block, 4> blocks;
-    std::size_t entered = 0, rest = columns_.count();
-    const auto read = [&](tbb::flow_control& control) -> Block* {
-      if (rest < columns_.count()) {
-        control.stop();
-        return nullptr;
-      }
-      Block& block = blocks[entered++ % blocks.size()];
-      rest = read_block(rows, block);
-      return &block;
+    std::size_t rest = columns_.count();
+    const auto read = [&](std::size_t slot) {
+      if (rest < columns_.count()) return false;
+      rest = read_block(rows, blocks[slot]);
+      return true;
     };
-    const auto store_block = [&](Block* block) { store(*block); };
-    using tbb::filter_mode;
-    tbb::this_task_arena::isolate([&] {
-      tbb::parallel_pipeline(
-          blocks.size(),
-          tbb::make_filter<void, Block*>(filter_mode::serial_in_order, read) &
-              tbb::make_filter<Block*, void>(filter_mode::serial_in_order, store_block));
-    });
+    PieceStages stages;
+    stages.append = [&](std::size_t slot) { store(blocks[slot]); };
+    for_each_piece(blocks.size(), read, stages);
     return rest;
   }
 

@@ -2,10 +2,10 @@
 #include "io/c3d/c3d_not_finite.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 
+#include "base/bits.hpp"
 #include "io/c3d/c3d_points.hpp"
 #include "io/text/text.hpp"
 
@@ -41,7 +41,7 @@ bool has_not_finite(const char* row, std::size_t count) {
   constexpr std::uint32_t exponent = 0x7F800000u;
   std::uint32_t found = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto bits = std::bit_cast<std::uint32_t>(C3dWords<processor>::real(row + 4 * i));
+    const auto bits = bits_as<std::uint32_t>(C3dWords<processor>::real(row + 4 * i));
     found |= (bits & exponent) == exponent ? 1u : 0u;
   }
   return found != 0;

@@ -1,10 +1,11 @@
 // The number formats of the three processor types of C3D: Intel, DEC and MIPS.
 #pragma once
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+
+#include "base/bits.hpp"
 
 namespace kinemend {
 
@@ -19,21 +20,19 @@ constexpr double largest_c3d_real = 1.7014117e38;
 /// A VAX F float, halves in numerical order, as an IEEE one. Exponent 0 is zero.
 inline float from_vax(std::uint32_t bits) {
   const std::uint32_t exponent = (bits >> 23) & 255;
-  const float small = std::bit_cast<float>(bits & (exponent > 2 ? 0u : ~0u)) * 0.25f;
-  return exponent > 2 ? std::bit_cast<float>(bits - (2u << 23)) : exponent == 0 ? 0.0f : small;
+  const float small = bits_as<float>(bits & (exponent > 2 ? 0u : ~0u)) * 0.25f;
+  return exponent > 2 ? bits_as<float>(bits - (2u << 23)) : exponent == 0 ? 0.0f : small;
 }
 
 /// The nearest VAX F float. A value that is too large becomes the largest; NaN becomes zero.
 inline std::uint32_t to_vax(float value) {
-  const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
+  const std::uint32_t bits = bits_as<std::uint32_t>(value);
   const std::uint32_t sign = bits & 0x80000000u, exponent = (bits >> 23) & 255;
   if (exponent == 255 && (bits & 0x7FFFFFu) != 0) return 0;
   if (exponent >= 254) return sign | 0x7FFFFFFFu;
   if (exponent > 0) return bits + (2u << 23);
   const float scaled = value * 4;  // exact, and a normal number unless no VAX float is that small
-  return std::bit_cast<std::uint32_t>(scaled) << 1 >> 24 == 0
-             ? 0
-             : std::bit_cast<std::uint32_t>(scaled);
+  return bits_as<std::uint32_t>(scaled) << 1 >> 24 == 0 ? 0 : bits_as<std::uint32_t>(scaled);
 }
 
 /// The 16-bit words and 32-bit reals of one processor type.
@@ -49,8 +48,8 @@ struct C3dWords {
   static float real(const char* p) {
     const std::uint32_t first = word(p), second = word(p + 2);
     if constexpr (processor == C3dProcessor::dec) return from_vax(first << 16 | second);
-    return std::bit_cast<float>(processor == C3dProcessor::mips ? first << 16 | second
-                                                                : second << 16 | first);
+    return bits_as<float>(processor == C3dProcessor::mips ? first << 16 | second
+                                                          : second << 16 | first);
   }
   static void put_word(char* p, std::uint16_t value) {
     const char low = static_cast<char>(value & 255), high = static_cast<char>(value >> 8);
@@ -59,7 +58,7 @@ struct C3dWords {
   }
   static void put_real(char* p, float value) {
     const std::uint32_t bits =
-        processor == C3dProcessor::dec ? to_vax(value) : std::bit_cast<std::uint32_t>(value);
+        processor == C3dProcessor::dec ? to_vax(value) : bits_as<std::uint32_t>(value);
     const auto low = static_cast<std::uint16_t>(bits),
                high = static_cast<std::uint16_t>(bits >> 16);
     put_word(p, processor == C3dProcessor::intel ? low : high);

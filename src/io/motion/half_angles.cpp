@@ -1,10 +1,10 @@
 // Computes sines and cosines of half angles by series that compilers turn into SIMD code.
 #include "io/motion/half_angles.hpp"
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 
+#include "base/bits.hpp"
 #include "kinemend/rotation.hpp"
 
 namespace kinemend {
@@ -46,14 +46,14 @@ void sincos_block(const double* __restrict degrees, std::size_t count, double* _
   for (std::size_t i = 0; i < count; ++i) {
     const double shifted = degrees[i] * (1.0 / 180.0) + rounder;
     const double remainder = degrees[i] - 180.0 * (shifted - rounder);
-    const std::uint64_t quarter = std::bit_cast<std::uint64_t>(shifted);
+    const std::uint64_t quarter = bits_as<std::uint64_t>(shifted);
     const double x = remainder * (pi / 360.0);
-    const std::uint64_t s = std::bit_cast<std::uint64_t>(sine_kernel(x));
-    const std::uint64_t c = std::bit_cast<std::uint64_t>(cosine_kernel(x));
+    const std::uint64_t s = bits_as<std::uint64_t>(sine_kernel(x));
+    const std::uint64_t c = bits_as<std::uint64_t>(cosine_kernel(x));
     const std::uint64_t swap = 0 - (quarter & 1);
     const std::uint64_t exchange = (s ^ c) & swap;
-    sines[i] = std::bit_cast<double>((s ^ exchange) ^ (quarter & 2) << 62);
-    cosines[i] = std::bit_cast<double>((c ^ exchange) ^ ((quarter + 1) & 2) << 62);
+    sines[i] = bits_as<double>((s ^ exchange) ^ (quarter & 2) << 62);
+    cosines[i] = bits_as<double>((c ^ exchange) ^ ((quarter + 1) & 2) << 62);
   }
 }
 

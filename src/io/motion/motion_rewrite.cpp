@@ -1,9 +1,6 @@
 // Chooses new values in the order of the frames, and writes blocks of the text in parallel.
 #include "io/motion/motion_rewrite.hpp"
 
-#include <tbb/parallel_pipeline.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/parallel.hpp"
 #include "io/motion/motion_columns.hpp"
 #include "io/motion/source_frames.hpp"
 #include "io/text/text_buffer.hpp"
@@ -111,34 +109,17 @@ class MotionRewriter {
     }
     // A piece leaves before the one that is so many behind it enters.
     std::vector<Piece> pieces(pieces_at_once);
-    std::size_t entered = 0;
-    const auto read = [&](tbb::flow_control& control) -> Piece* {
-      Piece& piece = pieces[entered++ % pieces.size()];
-      if (!source_.next(piece.source)) {
-        control.stop();
-        return nullptr;
-      }
+    const auto read = [&](std::size_t slot) {
+      Piece& piece = pieces[slot];
+      if (!source_.next(piece.source)) return false;
       piece.text = text_until(end_of(piece.source));
-      return &piece;
+      return true;
     };
-    const auto choose = [&](Piece* piece) {
-      replace_samples(*piece);
-      return piece;
-    };
-    const auto write = [&](Piece* piece) {
-      piece->write(decimals_, document_.commas);
-      return piece;
-    };
-    const auto append = [&](const Piece* piece) { out.append(piece->rewritten); };
-    using tbb::filter_mode;
-    tbb::this_task_arena::isolate([&] {
-      tbb::parallel_pipeline(
-          pieces.size(),
-          tbb::make_filter<void, Piece*>(filter_mode::serial_in_order, read) &
-              tbb::make_filter<Piece*, Piece*>(filter_mode::serial_in_order, choose) &
-              tbb::make_filter<Piece*, Piece*>(filter_mode::parallel, write) &
-              tbb::make_filter<Piece*, void>(filter_mode::serial_in_order, append));
-    });
+    PieceStages stages;
+    stages.choose = [&](std::size_t slot) { replace_samples(pieces[slot]); };
+    stages.write = [&](std::size_t slot) { pieces[slot].write(decimals_, document_.commas); };
+    stages.append = [&](std::size_t slot) { out.append(pieces[slot].rewritten); };
+    for_each_piece(pieces.size(), read, stages);
     out.append(text_until(document_.bytes.data() + document_.bytes.size()));
     return out;
   }

@@ -12,6 +12,7 @@
 #include "io/table/marker_zeros.hpp"
 #include "io/text/cell_patch.hpp"
 #include "io/text/cut_text.hpp"
+#include "io/text/fixed_digits.hpp"
 
 namespace kinemend {
 
@@ -334,9 +335,8 @@ std::string_view coordinate_text(double value, char* room, unsigned most_decimal
   };
   const auto single = static_cast<float>(value);
   if (static_cast<double>(single) == value) {
-    return text_until(std::to_chars(room, room + fixed_number_room, single == 0 ? 0.0F : single,
-                                    std::chars_format::fixed)
-                          .ptr);
+    return text_until(
+        write_round_trip(room, room + fixed_number_room, single == 0 ? 0.0F : single));
   }
   const std::string_view digits = text_until(write_shortest(room, value));
   const std::size_t dot = digits.find('.');

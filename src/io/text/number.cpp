@@ -9,6 +9,8 @@
 #include <cmath>
 #include <limits>
 
+#include "io/text/fixed_digits.hpp"
+
 namespace kinemend {
 
 namespace {
@@ -168,9 +170,7 @@ char* write_digits(char* out, std::uint32_t value, unsigned count) {
 }
 
 char* write_with_library(char* out, double value, unsigned decimals) {
-  char* end = std::to_chars(out, out + fixed_number_room, value, std::chars_format::fixed,
-                            static_cast<int>(decimals))
-                  .ptr;
+  char* end = write_decimals(out, out + fixed_number_room, value, decimals);
   const bool zero = std::all_of(out, end, [](char c) { return c == '-' || c == '0' || c == '.'; });
   if (zero && *out == '-') {
     std::memmove(out, out + 1, static_cast<std::size_t>(end - out - 1));
@@ -201,7 +201,7 @@ char* write_fixed(char* out, double value, unsigned decimals) {
 
 char* write_shortest(char* out, double value) {
   if (value == 0) value = 0;
-  return std::to_chars(out, out + fixed_number_room, value, std::chars_format::fixed).ptr;
+  return write_round_trip(out, out + fixed_number_room, value);
 }
 
 }  // namespace kinemend

@@ -11,6 +11,8 @@
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
+
+#include "base/bits.hpp"
 #endif
 
 namespace kinemend {
@@ -235,8 +237,8 @@ inline bool read_plain_number(const char* p, PlainNumber& number) {
   const auto mantissa =
       static_cast<std::int64_t>(parts.first * detail::integer_powers[after] + parts.second);
   const double value = static_cast<double>(mantissa) / detail::powers[after];
-  number.value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) |
-                                       static_cast<std::uint64_t>(negative) << 63);
+  number.value =
+      bits_as<double>(bits_as<std::uint64_t>(value) | static_cast<std::uint64_t>(negative) << 63);
   number.length = length;
   number.decimals = after;
   return true;

@@ -1,15 +1,12 @@
 // Minimises the objective of the filter by weighted least squares, in stretches of bounded memory.
 #include "learned/example/example_filter.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <utility>
 
+#include "base/parallel.hpp"
 #include "learned/example/stretches.hpp"
 
 namespace kinemend {
@@ -29,11 +26,7 @@ constexpr std::size_t linear_margin = 1, margin = 2;
 // The sum over all frames of summand(first, last), in an order independent of threads.
 template <typename Sum, typename Summand>
 Sum sum_over_frames(std::size_t frames, const Summand& summand) {
-  const tbb::blocked_range<std::size_t> all(0, frames, frames_at_once);
-  return tbb::parallel_deterministic_reduce(
-      all, Sum{},
-      [&](const auto& range, const Sum& sum) { return sum + summand(range.begin(), range.end()); },
-      std::plus<Sum>());
+  return sum_in_halves<Sum>(frames, frames_at_once, summand);
 }
 
 class Minimisation {
@@ -215,12 +208,11 @@ class Minimisation {
   // Each sample by itself.
   template <typename Action>
   void for_frames(const Action& action) const {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, z_.frames, frames_at_once),
-                      [&](const auto& range) {
-                        for (std::size_t f = range.begin(); f < range.end(); ++f) {
-                          for (std::size_t c = 0; c < channels_; ++c) action(f, c);
-                        }
-                      });
+    for_each_range(0, z_.frames, frames_at_once, [&](std::size_t first, std::size_t last) {
+      for (std::size_t f = first; f < last; ++f) {
+        for (std::size_t c = 0; c < channels_; ++c) action(f, c);
+      }
+    });
   }
 
   std::size_t frames_, channels_;

@@ -1,15 +1,14 @@
 // Transforms blocks of rows, multiplies at each frequency, and transforms back.
 #include "learned/example/pattern_convolution.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 #include <utility>
+
+#include "base/parallel.hpp"
+#include "kinemend/experimental/threads.hpp"
 
 namespace kinemend {
 
@@ -26,6 +25,26 @@ constexpr std::size_t columns_at_once = 300;
 // Values of spectra that are computed before they are used: enough for products of matrices.
 constexpr std::size_t spectrum_values = std::size_t{3} << 19;
 
+// Memory that one piece of work after another uses, as many at once as there are threads.
+class SharedScratch {
+ public:
+  std::vector<double> take() {
+    const std::lock_guard lock(mutex_);
+    if (free_.empty()) return {};
+    std::vector<double> scratch = std::move(free_.back());
+    free_.pop_back();
+    return scratch;
+  }
+  void give_back(std::vector<double> scratch) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(scratch));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::vector<double>> free_;
+};
+
 }  // namespace
 
 PatternConvolution::PatternConvolution(const std::vector<double>& patterns, std::size_t window_rows,
@@ -41,18 +60,17 @@ PatternConvolution::PatternConvolution(const std::vector<double>& patterns, std:
   } else {
     matrices_.resize(frequencies_);
   }
-  const tbb::blocked_range<std::size_t> all(0, frequencies_, frequencies_at_once);
-  // First use of memory costs more than the products. A thread that waits for a nested product must
-  // not start other frequencies, which would overwrite its scratch.
-  tbb::enumerable_thread_specific<std::vector<double>> scratch;
-  tbb::parallel_for(
-      all,
-      [&](const auto& range) {
-        tbb::this_task_arena::isolate([&] {
-          prepare_matrices(patterns, count, range.begin(), range.end(), scratch.local());
-        });
-      },
-      tbb::simple_partitioner());
+  // First use of memory costs more than the products. A thread that waits for a nested product
+  // starts no other frequencies, which would need scratch of their own.
+  SharedScratch scratch;
+  const auto ranges = halved_ranges(0, frequencies_, frequencies_at_once);
+  for_each_index(ranges.size(), [&](std::size_t i) {
+    run_isolated([&] {
+      std::vector<double> parts = scratch.take();
+      prepare_matrices(patterns, count, ranges[i].first, ranges[i].second, parts);
+      scratch.give_back(std::move(parts));
+    });
+  });
 }
 
 bool PatternConvolution::is_narrow() const {
@@ -125,13 +143,12 @@ void PatternConvolution::multiply(const double* z, std::size_t rows, double* ima
   spectrum_.resize(of_block * at_once);
   for (first_block_ = 0; first_block_ < blocks; first_block_ += at_once) {
     blocks_ = std::min(at_once, blocks - first_block_);
-    const tbb::blocked_range<std::size_t> some_blocks(
-        0, blocks_, std::max<std::size_t>(1, columns_at_once / row_values_));
-    tbb::parallel_for(some_blocks,
-                      [&](const auto& range) { transform(z, rows, range.begin(), range.end()); });
-    tbb::parallel_for(std::size_t{0}, frequencies_, [&](std::size_t f) { filter(f); });
-    tbb::parallel_for(some_blocks, [&](const auto& range) {
-      transform_back(image, rows, range.begin(), range.end());
+    const std::size_t some_blocks = std::max<std::size_t>(1, columns_at_once / row_values_);
+    for_each_range(0, blocks_, some_blocks,
+                   [&](std::size_t first, std::size_t last) { transform(z, rows, first, last); });
+    for_each_index(frequencies_, [&](std::size_t f) { filter(f); });
+    for_each_range(0, blocks_, some_blocks, [&](std::size_t first, std::size_t last) {
+      transform_back(image, rows, first, last);
     });
   }
 }

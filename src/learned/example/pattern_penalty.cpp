@@ -1,14 +1,12 @@
 // Applies the quadratic form of the patterns by windows or by frequencies, whichever is quicker.
 #include "learned/example/pattern_penalty.hpp"
 
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
-#include <tbb/task_arena.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <utility>
 
+#include "base/parallel.hpp"
+#include "kinemend/experimental/threads.hpp"
 #include "nn/gemm.hpp"
 
 namespace kinemend {
@@ -175,9 +173,13 @@ bool PatternPenalty::frequencies_are_quicker(std::size_t products) const {
 
 void PatternPenalty::multiply(const PoseMatrix& z, PoseMatrix& image) {
   if (convolution_) {
-    tbb::parallel_invoke(
-        [&] { convolution_->multiply(z.values.data(), groups_, image.values.data()); },
-        [&] { multiply_ends(z); });
+    for_each_index(2, [&](std::size_t part) {
+      if (part == 0) {
+        convolution_->multiply(z.values.data(), groups_, image.values.data());
+      } else {
+        multiply_ends(z);
+      }
+    });
     take_off_ends(image);
   } else if (model_frames_ > 0) {
     multiply_at_model_rate(z, image);
@@ -200,8 +202,7 @@ void PatternPenalty::multiply_at_model_rate(const PoseMatrix& z, PoseMatrix& ima
   double* windows = &at_model_rate_[before * of_window];
   // A thread that waits for a product must not start another window.
   const auto for_each = [](std::size_t count, const auto& action) {
-    tbb::parallel_for(std::size_t{0}, count,
-                      [&](std::size_t i) { tbb::this_task_arena::isolate([&] { action(i); }); });
+    for_each_index(count, [&](std::size_t i) { run_isolated([&] { action(i); }); });
   };
   const nn::MatrixView to_clip{interpolation_.data(), frames, model_frames_, model_frames_};
   for_each(windows_, [&](std::size_t s) {

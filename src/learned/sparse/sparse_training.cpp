@@ -1,6 +1,5 @@
 // Trains the method `sparse`: the options of the training, its windows, and a dictionary for each
 // part.
-#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <cmath>
@@ -226,7 +225,7 @@ void learn_dictionaries(const SparseTraining& options, std::size_t windows,
         restored(stages.kept(stage), sample.values(i).size(), rows);
     const auto keep = [&](const sparse::KsvdState& state) {
       // Where another poselet has failed, what this one did last was cut off half way.
-      if (tbb::is_current_task_group_canceling()) return false;
+      if (work_is_cancelled()) return false;
       if (state.objective.size() == learning.iterations || stages.is_due(stage))
         stages.keep(stage, stored(state));
       return !stages.is_stopping();

@@ -1,12 +1,11 @@
 // Estimates the windows of a take under the mixture, rejects outliers, and adds the windows up.
 #include "learned/wiener/wiener_filter.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "base/parallel.hpp"
 #include "base/quantiles.hpp"
 #include "learned/core/window_cosines.hpp"
 #include "learned/wiener/wiener_posterior.hpp"
@@ -89,7 +88,7 @@ class Filtering {
   template <class Work>
   static void for_each_chunk_of(std::size_t first, std::size_t last, const Work& work) {
     const std::size_t chunks = (last - first + chunk_windows - 1) / chunk_windows;
-    tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
+    for_each_index(chunks, [&](std::size_t chunk) {
       const std::size_t from = first + chunk * chunk_windows;
       work(from, std::min(last, from + chunk_windows));
     });
@@ -223,7 +222,7 @@ class Filtering {
   void judge_samples(const PoseMatrix& estimate) {
     if (settings_.outlier_deviations <= 0) return;
     const std::size_t channels = estimate.channels;
-    tbb::parallel_for(std::size_t{0}, (channels + 2) / 3, [&](std::size_t track) {
+    for_each_index((channels + 2) / 3, [&](std::size_t track) {
       const std::size_t first = 3 * track, last = std::min(first + 3, channels);
       for (std::size_t d = first; d < last; ++d) {
         const double limit = limit_of(estimate, d);

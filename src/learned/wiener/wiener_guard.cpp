@@ -1,9 +1,8 @@
 // Estimates the risk of the filter with a probe and mixes it with smoothers for each track.
 #include "learned/wiener/wiener_steps.hpp"
 
+#include "base/parallel.hpp"
 #include "learned/wiener/channel_smoothing.hpp"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -71,7 +70,7 @@ class Guard {
     std::vector<std::size_t> best(least.size(), widths_s.size());
     std::vector<PoseMatrix> smooth(widths_s.size());
     std::vector<std::vector<double>> smooth_risks(widths_s.size());
-    tbb::parallel_for(std::size_t{0}, widths_s.size(), [&](std::size_t w) {
+    for_each_index(widths_s.size(), [&](std::size_t w) {
       const double sigma = widths_s[w] * take_.rate_hz;
       smooth[w] = samples_;
       gaussian_filter(smooth[w], sigma);

@@ -1,10 +1,10 @@
 // Computes means and evidence of each component and weights them.
 #include "learned/wiener/wiener_posterior.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Cholesky>
 #include <cmath>
+
+#include "base/parallel.hpp"
 
 namespace kinemend {
 
@@ -27,19 +27,19 @@ MixturePosterior mixture_posterior(const std::vector<Component>& components,
   MixturePosterior result;
   result.means.resize(components.size());
   MatrixXd evidence(information.cols(), count);
-  tbb::parallel_for(Index{0}, count, [&](Index c) {
-    const Component& component = components[static_cast<std::size_t>(c)];
+  for_each_index(components.size(), [&](std::size_t number) {
+    const Component& component = components[number];
     const Eigen::LLT<MatrixXd> prior(component.covariance);
     const MatrixXd inverse = prior.solve(MatrixXd::Identity(rank, rank));
     const Eigen::LLT<MatrixXd> posterior(inverse + precision);
     const VectorXd pull = inverse * component.mean;
     const MatrixXd b = information.colwise() + pull;
-    MatrixXd& mean = result.means[static_cast<std::size_t>(c)];
+    MatrixXd& mean = result.means[number];
     mean = posterior.solve(b);
     const double same =
         std::log(component.weight) -
         0.5 * (log_determinant(prior) + log_determinant(posterior) + pull.dot(component.mean));
-    evidence.col(c) =
+    evidence.col(static_cast<Index>(number)) =
         (same + 0.5 * b.cwiseProduct(mean).colwise().sum().transpose().array()).matrix();
   });
   for (Index w = 0; w < evidence.rows(); ++w) {

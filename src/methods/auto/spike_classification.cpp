@@ -168,7 +168,8 @@ std::vector<std::uint8_t> find_recurrent(const SpikeCandidates& candidates,
 }
 
 void reject_track(std::size_t n, SampleMarks& spikes) {
-  std::ranges::fill(spikes.track(n), std::uint8_t{0});
+  const auto track = spikes.track(n);
+  std::fill(track.begin(), track.end(), std::uint8_t{0});
 }
 
 // The smallest error that is a spike in a damaged take, from the spikes of the strict thresholds: a

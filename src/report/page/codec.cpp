@@ -1,13 +1,10 @@
 // Predicts each sample from those before it, and packs what the prediction leaves.
 #include "report/page/codec.hpp"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <new>
 
 namespace kinemend::page {
 
@@ -141,18 +138,6 @@ std::string second_part(std::span<const Quantised> channels, std::size_t stride)
   return part_of(channels, [&](const Words& samples, std::string& bytes) {
     append_second(samples, stride, bytes);
   });
-}
-
-std::string deflated(std::string_view bytes) {
-  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-  std::string result(size, '\0');
-  const int status =
-      compress2(reinterpret_cast<Bytef*>(result.data()), &size,
-                reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()), 7);
-  // The room is enough for anything: only memory can be short.
-  if (status != Z_OK) throw std::bad_alloc();
-  result.resize(size);
-  return result;
 }
 
 std::string base64(std::string_view bytes) {

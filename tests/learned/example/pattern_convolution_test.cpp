@@ -2,12 +2,11 @@
 #include "learned/example/pattern_convolution.hpp"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <vector>
 
+#include "base/parallel.hpp"
 #include "random_values.hpp"
 
 namespace kinemend {
@@ -61,14 +60,11 @@ TEST(PatternConvolution, IsTheSameWithAnyNumberOfThreads) {
   const std::size_t window = 12, values = 320, count = 200, rows = 40;
   const std::vector<double> patterns = random_values(window * values * count, 1);
   const std::vector<double> z = random_values(rows * values, 2);
-  const auto product_with = [&](int threads) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(threads));
+  const auto product_with = [&](std::size_t threads) {
+    const StandardThreads pool(threads);
     std::vector<double> image(z.size());
-    tbb::task_arena(threads).execute([&] {
-      PatternConvolution convolution(patterns, window, values, count);
-      convolution.multiply(z.data(), rows, image.data());
-    });
+    PatternConvolution convolution(patterns, window, values, count);
+    convolution.multiply(z.data(), rows, image.data());
     return image;
   };
   const std::vector<double> expected = product_with(1);

@@ -1,0 +1,11 @@
+// Texts as the functions of Windows want and give them.
+#pragma once
+
+#include <string>
+
+namespace kinemend::cli::platform {
+
+std::string utf8_of(const wchar_t* text);
+std::wstring wide_of(const std::string& text);
+
+}  // namespace kinemend::cli::platform

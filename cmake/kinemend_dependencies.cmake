@@ -1,0 +1,60 @@
+# What the project builds on. Where the target is another system than this one (KINEMEND_FOREIGN), the libraries that are headers
+# are taken from this system, and what Highway and fmt have compiled is compiled with the project.
+
+if(NOT KINEMEND_FOREIGN)
+  find_package(Threads REQUIRED)
+  find_package(fmt REQUIRED)
+  find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+  find_package(FastFloat REQUIRED)
+  find_package(HWY REQUIRED)
+  find_package(spectra REQUIRED NO_MODULE)
+  find_package(nlohmann_json REQUIRED)
+  find_package(ZLIB REQUIRED)
+  find_package(CLI11 REQUIRED)
+  find_package(tomlplusplus REQUIRED)
+  return()
+endif()
+
+set(KINEMEND_HEADERS /usr/include CACHE PATH "Folder of the headers of Eigen, fmt, Highway and the like, for a foreign target")
+
+# The folder itself must not be searched: it holds the C library of this system too.
+set(foreign_headers ${PROJECT_BINARY_DIR}/foreign_headers)
+file(MAKE_DIRECTORY ${foreign_headers})
+foreach(name fmt fast_float hwy Spectra nlohmann CLI toml++ xxhash.h eigen3/Eigen eigen3/unsupported)
+  get_filename_component(last ${name} NAME)
+  if(NOT EXISTS ${KINEMEND_HEADERS}/${name})
+    message(FATAL_ERROR "${KINEMEND_HEADERS}/${name} is missing (see packages.txt)")
+  endif()
+  if(NOT EXISTS ${foreign_headers}/${last})
+    file(CREATE_LINK ${KINEMEND_HEADERS}/${name} ${foreign_headers}/${last} SYMBOLIC)
+  endif()
+endforeach()
+foreach(target fmt::fmt FastFloat::fast_float Eigen3::Eigen Spectra::Spectra nlohmann_json::nlohmann_json CLI11::CLI11
+    tomlplusplus::tomlplusplus)
+  add_library(${target} INTERFACE IMPORTED GLOBAL)
+  target_include_directories(${target} SYSTEM INTERFACE ${foreign_headers})
+endforeach()
+target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
+add_library(kinemend_highway STATIC ${PROJECT_SOURCE_DIR}/cmake/highway_dispatch.cpp)
+target_include_directories(kinemend_highway SYSTEM PUBLIC ${foreign_headers})
+if(EMSCRIPTEN)
+  # The vectors of WebAssembly in Highway 1.0 know no doubles; the compiler finds the instructions for emulated ones.
+  target_compile_definitions(kinemend_highway PUBLIC HWY_COMPILE_ONLY_EMU128)
+endif()
+add_library(hwy::hwy ALIAS kinemend_highway)
+
+if(EMSCRIPTEN)
+  # Neither threads nor pictures of a page: what the module answers with is JSON.
+  add_library(Threads::Threads INTERFACE IMPORTED GLOBAL)
+  add_library(ZLIB::ZLIB INTERFACE IMPORTED GLOBAL)
+elseif(KINEMEND_DEVELOPER)
+  # Tests need GoogleTest compiled for the same standard library.
+  find_package(Threads REQUIRED)
+  find_package(ZLIB REQUIRED)
+  set(INSTALL_GTEST OFF CACHE BOOL "" FORCE)
+  add_subdirectory(/usr/src/googletest ${PROJECT_BINARY_DIR}/googletest EXCLUDE_FROM_ALL)
+else()
+  find_package(Threads REQUIRED)
+  set(ZLIB_USE_STATIC_LIBS ON)
+  find_package(ZLIB REQUIRED)
+endif()

@@ -1,0 +1,52 @@
+// Cleans motion capture in Node 18 or later and in browsers. `await load()` gives the functions; a call works on bytes and never on files.
+
+import makeModule from './kinemend_module.mjs';
+
+const decoder = new TextDecoder();
+
+/** Loads the module. `settings` is handed to the module's loader, such as {wasmBinary} or {locateFile}. */
+export async function load(settings = {}) {
+  const module = await makeModule(settings);
+
+  const copied = (bytes) => {
+    const place = module._malloc(bytes.length || 1);
+    module.HEAPU8.set(bytes, place);
+    return place;
+  };
+  const text = (words) => copied(new TextEncoder().encode(`${words}\0`));
+  const answer = (what) => {
+    const place = module[`_kinemend_${what}`]();
+    return module.HEAPU8.slice(place, place + module[`_kinemend_${what}_size`]());
+  };
+
+  /**
+   * Runs a command on the bytes of a take. `name` tells the format where the content does not. Returns {code, bytes, report, messages}: the exit
+   * code of the program, the take that was written, what the program prints on standard output (JSON) and on standard error.
+   */
+  function run(command, bytes, name, options = {}, output = '') {
+    const places = [text(command), text(name), copied(bytes), text(output), text(JSON.stringify(options))];
+    try {
+      const code = module._kinemend_run(places[0], places[1], places[2], bytes.length, places[3], places[4]);
+      return {code, bytes: answer('bytes'), report: decoder.decode(answer('report')), messages: decoder.decode(answer('messages'))};
+    } finally {
+      places.forEach((place) => module._free(place));
+    }
+  }
+
+  /** Keeps a file beside the takes: the skeleton of an AMC file, for the option asf. */
+  function putFile(name, bytes) {
+    const places = [text(name), copied(bytes)];
+    module._kinemend_put_file(places[0], places[1], bytes.length);
+    places.forEach((place) => module._free(place));
+  }
+
+  return {
+    run,
+    putFile,
+    clean: (bytes, name, options = {}) => run('clean', bytes, name, options, name),
+    fill: (bytes, name, options = {}) => run('fill', bytes, name, options, name),
+    check: (bytes, name, options = {}) => run('check', bytes, name, options),
+    info: (bytes, name, options = {}) => run('info', bytes, name, options),
+    convert: (bytes, name, output, options = {}) => run('convert', bytes, name, options, output),
+  };
+}
