@@ -1,4 +1,4 @@
-// Sockets of `kinemend stream`: plain POSIX, non-blocking.
+// Sockets of `kinemend stream`, which never block.
 #pragma once
 
 #include <cstdint>

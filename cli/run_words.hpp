@@ -1,3 +1,4 @@
+// The entry of the program, apart from its main, for whoever runs commands in memory.
 #pragma once
 
 #include <string>
