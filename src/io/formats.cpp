@@ -105,6 +105,12 @@ TakeResult with_joints(TakeResult result) {
                                             result.take.source.name));
 }
 
+// Of a scene that cannot be written in place.
+std::vector<std::string> lost_of_scene(const Take& take, std::string_view format) {
+  if (format == "glb" || format == "gltf") return lost_beside_gltf(take);
+  return format == "fbx" ? lost_beside_fbx(take) : std::vector<std::string>{};
+}
+
 std::string write_markers(const Take& take, const Format& format) {
   if (format.write_markers == nullptr)
     throw Error(ErrorKind::usage, fmt::format("{} files hold joints, not markers", format.name));
@@ -235,14 +241,11 @@ std::string write_take(const Take& take, std::string_view format) {
 
 Diagnostics lost_in_writing(const Take& take, std::string_view format) {
   const Format& found = format_called(format);
-  if (found.name == "glb" || found.name == "gltf") {
-    const std::vector<std::string> parts = lost_beside_gltf(take);
+  if (const std::vector<std::string> parts = lost_of_scene(take, found.name); !parts.empty()) {
     Diagnostics losses;
-    if (!parts.empty()) {
-      losses.add("not_kept",
-                 fmt::format("a new file is written: {} are left out", fmt::join(parts, ", ")));
-    }
-    if (!parts.empty()) return losses;
+    losses.add("not_kept",
+               fmt::format("a new file is written: {} are left out", fmt::join(parts, ", ")));
+    return losses;
   }
   if (take.has_joints()) return {};
   Diagnostics losses =

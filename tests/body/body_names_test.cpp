@@ -86,6 +86,26 @@ TEST(BoneNames, DropPrefixesAndFindSides) {
                 {"Bip01 L Toe0", left, Bone::toe},
                 {"Bip01 R UpperArm", right, Bone::upper_arm},
                 {"Bip01 Spine1", none, Bone::spine}});
+  expect_bones({{"mixamorigHips", none, Bone::pelvis},
+                {"mixamorigLeftForeArm", left, Bone::forearm},
+                {"mixamorigLeftHand", left, Bone::hand},
+                {"mixamorigRightUpLeg", right, Bone::thigh},
+                {"mixamorigRightToeBase", right, Bone::toe}});
+  expect_bones({{"Character1_Ctrl:Hips", none, Bone::pelvis},
+                {"Character1_Ctrl:LeftUpLeg", left, Bone::thigh},
+                {"Character1_Ctrl:RightForeArm", right, Bone::forearm}});
+  expect_bones({{"pelvis", none, Bone::pelvis},
+                {"spine_03", none, Bone::spine},
+                {"clavicle_l", left, Bone::clavicle},
+                {"upperarm_r", right, Bone::upper_arm},
+                {"lowerarm_l", left, Bone::forearm},
+                {"thigh_r", right, Bone::thigh},
+                {"calf_l", left, Bone::shin},
+                {"ball_r", right, Bone::toe}});
+  expect_bones({{"J_Bip_C_Hips", none, Bone::pelvis},
+                {"J_Bip_L_UpperArm", left, Bone::upper_arm},
+                {"J_Bip_R_LowerLeg", right, Bone::shin},
+                {"J_Bip_L_Hand", left, Bone::hand}});
   expect_bones({{"joint_Root", none, Bone::pelvis},
                 {"UpperLeg_L", left, Bone::thigh},
                 {"LowerArm_R", right, Bone::forearm},

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "kinemend/io.hpp"
 
@@ -18,6 +19,9 @@ TakeResult read_fbx(std::string bytes, std::string_view name, const ReadOptions&
 /// that changed; any other as a new binary file of version 7.5. Errors: `usage` when the file
 /// cannot hold the change: a joint whose curves move other joints too, or that several layers move.
 std::string write_fbx(const Take& clip);
+/// What the source of a take holds beside its motion, where a new file takes its place; empty where
+/// the take is written in place, or comes from another format.
+std::vector<std::string> lost_beside_fbx(const Take& take);
 /// Markers as nulls. A missing sample is where its marker was last, or will be first.
 std::string write_fbx_markers(const Take& clip);
 

@@ -1,5 +1,9 @@
 // Writes FBX: into the file that the take was read from, or as a new one.
 #include "io/fbx/fbx.hpp"
+
+#include <string>
+#include <vector>
+
 #include "io/fbx/fbx_document.hpp"
 #include "io/fbx/fbx_new_file.hpp"
 #include "io/fbx/fbx_rewrite.hpp"
@@ -17,6 +21,17 @@ std::string write_fbx_take(const Take& take) {
 }
 
 }  // namespace
+
+std::vector<std::string> lost_beside_fbx(const Take& take) {
+  const auto* const document = dynamic_cast<const FbxDocument*>(take.source.document.get());
+  if (document == nullptr || fits_fbx_document(take, *document, take_of_fbx(*document))) return {};
+  std::vector<std::string> parts;
+  if (document->scene.models.size() > document->rig.joints.size())
+    parts.emplace_back("meshes and other models");
+  if (document->scene.stacks.size() > 1) parts.emplace_back("other takes");
+  parts.emplace_back("materials and properties");
+  return parts;
+}
 
 std::string write_fbx(const Take& clip) { return write_fbx_take(clip); }
 
