@@ -98,6 +98,8 @@ class Parser {
   explicit Parser(const Command& command) : command_(command) {
     app_.set_help_flag();
     app_.allow_extras();
+    // A path may begin with a slash on every system.
+    app_.allow_windows_style_options(false);
     app_.add_flag("-h")->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     app_.add_flag("--help")->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     app_.add_option("words", words_)->expected(-1);

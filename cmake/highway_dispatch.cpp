@@ -33,12 +33,17 @@ std::int64_t targets_of_processor() {
 std::int64_t targets_of_processor() { return HWY_STATIC_TARGET; }
 #endif
 
+// Set by tests; 0: those of the processor.
+std::int64_t wanted_targets = 0;
+
 }  // namespace
 
 std::int64_t SupportedTargets() {
   static const std::int64_t targets = targets_of_processor();
-  return targets & HWY_TARGETS;
+  return (wanted_targets != 0 ? wanted_targets : targets) & HWY_TARGETS;
 }
+
+void SetSupportedTargetsForTest(std::int64_t targets) { wanted_targets = targets; }
 
 ChosenTarget& GetChosenTarget() {
   static ChosenTarget chosen;

@@ -4,9 +4,21 @@ import makeModule from './kinemend_module.mjs';
 
 const decoder = new TextDecoder();
 
+// Emscripten 3.1 expects of Node what its modules no longer have.
+async function settingsForNode(settings) {
+  const {createRequire} = await import('module');
+  const {fileURLToPath} = await import('url');
+  const {readFile} = await import('fs/promises');
+  globalThis.require ??= createRequire(import.meta.url);
+  globalThis.__dirname ??= fileURLToPath(new URL('.', import.meta.url));
+  const place = fileURLToPath(new URL('./kinemend_module.wasm', import.meta.url));
+  return {wasmBinary: await readFile(place), ...settings};
+}
+
 /** Loads the module. `settings` is handed to the module's loader, such as {wasmBinary} or {locateFile}. */
 export async function load(settings = {}) {
-  const module = await makeModule(settings);
+  const isNode = typeof process === 'object' && typeof process.versions?.node === 'string';
+  const module = await makeModule(isNode ? await settingsForNode(settings) : settings);
 
   const copied = (bytes) => {
     const place = module._malloc(bytes.length || 1);

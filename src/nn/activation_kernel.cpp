@@ -9,6 +9,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "nn/some_lanes-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace kinemend::nn::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -52,8 +54,7 @@ HWY_INLINE void for_lanes(float* values, std::size_t count, const Function& func
   for (; i + lanes <= count; i += lanes)
     hn::StoreU(function(d, hn::LoadU(d, values + i)), d, values + i);
   if (i == count) return;
-  const auto mask = hn::FirstN(d, count - i);
-  hn::BlendedStore(function(d, hn::MaskedLoad(mask, d, values + i)), mask, d, values + i);
+  store_some(function(d, load_some(d, values + i, count - i)), d, values + i, count - i);
 }
 
 void exp_f32(float* values, std::size_t count) {
@@ -77,13 +78,13 @@ struct Lanes {
 
   HWY_INLINE V load(const float* values) const {
     if (count == hn::Lanes(d)) return hn::LoadU(d, values + from);
-    return hn::MaskedLoad(hn::FirstN(d, count), d, values + from);
+    return load_some(d, values + from, count);
   }
   HWY_INLINE void store(V value, float* values) const {
     if (count == hn::Lanes(d)) {
       hn::StoreU(value, d, values + from);
     } else {
-      hn::BlendedStore(value, hn::FirstN(d, count), d, values + from);
+      store_some(value, d, values + from, count);
     }
   }
 };

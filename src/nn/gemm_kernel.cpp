@@ -10,6 +10,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "nn/some_lanes-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace kinemend::nn::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -94,9 +96,9 @@ HWY_INLINE void multiply_tile(const Tile<Real>& tile) {
         const auto old = tile.adds ? hn::LoadU(d, c + from) : hn::Zero(d);
         hn::StoreU(hn::Add(old, sum[r][v]), d, c + from);
       } else if (from < tile.columns) {
-        const auto mask = hn::FirstN(d, tile.columns - from);
-        const auto old = tile.adds ? hn::MaskedLoad(mask, d, c + from) : hn::Zero(d);
-        hn::BlendedStore(hn::Add(old, sum[r][v]), mask, d, c + from);
+        const std::size_t count = tile.columns - from;
+        const auto old = tile.adds ? load_some(d, c + from, count) : hn::Zero(d);
+        store_some(hn::Add(old, sum[r][v]), d, c + from, count);
       }
     }
   }

@@ -11,9 +11,9 @@
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
+#endif
 
 #include "base/bits.hpp"
-#endif
 
 namespace kinemend {
 

@@ -229,7 +229,8 @@ void mean_turn(const RotationTrack& track, const double* observed, std::size_t f
     if (!opposite_of(n)) continue;
     stride = std::max(stride, count + lane_room + static_cast<std::size_t>(neighbours[n].offset));
   }
-  const auto rows = std::make_unique_for_overwrite<double[]>(neighbours.size() * stride);
+  // Not set to zero, which would take longer than the work.
+  const std::unique_ptr<double[]> rows(new double[neighbours.size() * stride]);
   std::vector<const double*> scales;
   while (scales.size() < neighbours.size()) {
     const std::size_t n = scales.size();
