@@ -19,7 +19,7 @@ template <class Real>
 class Gemm : public testing::Test {
  protected:
   static std::vector<Real> random_values(std::size_t count, std::uint64_t seed) {
-    const std::vector<double> values = test::random_values(count, seed);
+    const std::vector<double> values = kinemend::test::random_values(count, seed);
     return {values.begin(), values.end()};
   }
 };

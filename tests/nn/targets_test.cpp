@@ -12,7 +12,7 @@
 namespace kinemend::nn {
 namespace {
 
-using test::random_values;
+using kinemend::test::random_values;
 
 // While it lives, kernels use one instruction set.
 class OneTarget {
