@@ -1,4 +1,5 @@
-// The stable surface in one header: read, clean, fill, check, compare, report, stream and write takes.
+// The stable surface in one header: read, clean, fill, check, compare, report, stream and write
+// takes.
 #pragma once
 
 #include "kinemend/check.hpp"

@@ -127,6 +127,9 @@ bool is_prefix(std::string_view token) {
 }
 
 void drop_prefixes(std::vector<std::string>& tokens) {
+  // VRM: J_Bip_L_Hand, J_Bip_C_Hips.
+  if (tokens.size() > 3 && tokens[0] == "j" && tokens[1] == "bip")
+    tokens.erase(tokens.begin(), tokens.begin() + (tokens[2] == "c" ? 3 : 2));
   while (tokens.size() > 1 && is_prefix(tokens.front())) tokens.erase(tokens.begin());
   if (tokens.size() == 1 && is_prefix(tokens.front())) tokens.front() = "root";
 }
