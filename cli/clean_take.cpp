@@ -144,7 +144,7 @@ std::string clean_one(TakeResult& read, const CleanJob& job, const CleanPlan& pl
   const std::string name = input_name(job.input);
   for (const Diagnostic& entry : read.diagnostics.entries())
     outcome.warnings.push_back(diagnostic_line(read.take.source, entry));
-  const std::string format = format_for(job.output, read.take.source);
+  std::string format = format_for(job.output, read.take.source);
   check_can_hold(name, read.take, format);
   const std::vector<std::string> meaningless = meaningless_flags(read.take, plan);
   if (plan.strict) refuse_warnings(name, meaningless);
@@ -195,7 +195,7 @@ void clean_job(const CleanJob& job, const CleanPlan& plan, const TakeProgress& p
   options.progress = {};
   const std::vector<std::string> others = other_takes(read.take.source, plan);
   if (!others.empty()) check_keeps_format(job, read.take.source);
-  std::string format = clean_one(read, job, plan, progress, outcome);
+  const std::string format = clean_one(read, job, plan, progress, outcome);
   for (const std::string& other : others) {
     options.animation = other;
     read = read_take(write_take(read.take, format), read.take.source.name, options);

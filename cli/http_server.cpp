@@ -243,9 +243,8 @@ class HttpServer::Connection {
       const std::ptrdiff_t sent = platform::send_some(socket_, bytes);
       if (sent > 0) {
         bytes.remove_prefix(static_cast<std::size_t>(sent));
-      } else if (!platform::must_wait(errno)) {
-        return false;
-      } else if (!wait_until(socket_, true, Clock::now() + limits_.write_time)) {
+      } else if (!platform::must_wait(errno) ||
+                 !wait_until(socket_, true, Clock::now() + limits_.write_time)) {
         return false;
       }
     }
