@@ -49,5 +49,5 @@ inline kinemend::Take small_markers() {
   }
   kinemend::ReadOptions options;
   options.format = "csv";
-  return std::get<kinemend::Take>(kinemend::read_take(text, "small.csv", options).take);
+  return kinemend::read_take(text, "small.csv", options).take;
 }
