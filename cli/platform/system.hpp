@@ -12,8 +12,8 @@
 
 namespace kinemend::cli::platform {
 
-/// Appends to a file, which is made where there is none, in one piece. Returns 0, or the number of
-/// the error.
+/// Appends the bytes to the file in one piece, and creates the file if it is missing. Returns 0, or
+/// the number of the error.
 int append_to_file(const std::string& path, std::string_view bytes);
 
 /// The one name of an existing file, whatever path leads to it: its number on its device. Empty for

@@ -33,7 +33,8 @@ struct PieceStages {
   IndexWork write;   ///< in any order, in parallel; may be empty
   IndexWork append;  ///< in order
 };
-/// `read(slot)` fills a slot below `slots` with the next piece, in order; false: there is none.
+/// `read(slot)` fills a slot below `slots` with the next piece, in order. It returns false
+/// after the last piece.
 /// A slot is filled again only after its piece was appended. Stages of different pieces may
 /// run at the same time.
 void for_each_piece(std::size_t slots, const std::function<bool(std::size_t slot)>& read,

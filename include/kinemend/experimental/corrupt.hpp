@@ -62,7 +62,7 @@ std::span<const Damage> damages();
 /// frames at the start are left alone. Of markers, angles are arcs of a quarter of the body height
 /// (`body_height`); those that are not seen, and points that are no positions, stay as they are.
 /// Errors: `ErrorKind::usage` for an unknown name or option or a value out of range, and for a
-/// damage that needs a skeleton where there is none.
+/// damage that needs a skeleton, if the take has none.
 DamageReport apply_damage(Take& take, std::string_view name, const OptionValues& values,
                           Random& random);
 DamageReport apply_damage(VectorMotion& motion, std::string_view name, const OptionValues& values,

@@ -36,6 +36,8 @@ struct FbxDocument : SourceDocument {
 /// The take that the document holds, without its source. The same document gives the same bits.
 /// Markers where no model turns or has a child: see `holds_fbx_markers`.
 Take take_of_fbx(const FbxDocument& document);
+/// The joints of the document as a take without frames.
+Take skeleton_of_fbx(const FbxDocument& document);
 
 /// The curves that move the joints, each once, ascending.
 std::vector<std::size_t> fbx_joint_curves(const FbxMotion& motion, const FbxRig& rig);

@@ -40,12 +40,15 @@ class FbxTakeBuilder {
   explicit FbxTakeBuilder(const FbxDocument& document)
       : document_(document), rig_(document.rig), poser_(document.scene, document.motion, rig_) {}
 
+  // Without frames.
+  Take build_skeleton() {
+    start();
+    return std::move(take_);
+  }
+
   Take build() {
     const std::size_t joints = rig_.joints.size();
-    take_.frame_rate_hz = document_.frames.rate_hz;
-    take_.metres_per_unit = document_.scene.unit_cm / 100;
-    find_moving();
-    add_joints(poser_.at(document_.frames.times.front()));
+    start();
     take_.rotations.reserve(document_.frames.times.size() * joints);
     take_.positions.reserve(document_.frames.times.size() * take_.point_count());
     for (const std::int64_t time : document_.frames.times) {
@@ -60,6 +63,13 @@ class FbxTakeBuilder {
   }
 
  private:
+  void start() {
+    take_.frame_rate_hz = document_.frames.rate_hz;
+    take_.metres_per_unit = document_.scene.unit_cm / 100;
+    find_moving();
+    add_joints(poser_.at(document_.frames.times.front()));
+  }
+
   const FbxRigNode& node(std::size_t joint) const { return rig_.nodes[rig_.joints[joint]]; }
 
   // The position of a joint in the frame of the joint above.
@@ -320,6 +330,10 @@ bool holds_fbx_markers(const FbxScene& scene, const FbxMotion& motion, const Fbx
     }
   }
   return true;
+}
+
+Take skeleton_of_fbx(const FbxDocument& document) {
+  return FbxTakeBuilder(document).build_skeleton();
 }
 
 Take take_of_fbx(const FbxDocument& document) {

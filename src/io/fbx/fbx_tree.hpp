@@ -60,7 +60,8 @@ struct FbxTree {
   const FbxProperty* property(const FbxRecord& record, std::size_t index) const {
     return index < record.property_count ? &properties[record.first_property + index] : nullptr;
   }
-  /// The first child of that name; `no_fbx_record` when there is none. `parent`: or the top level.
+  /// The first child of that name, or `no_fbx_record` if the record has no such child. With
+  /// `no_fbx_record` as the parent it searches the top level.
   std::uint32_t child(std::uint32_t parent, std::string_view child_name) const;
   std::uint32_t first_child_of(std::uint32_t parent) const {
     return parent == no_fbx_record ? first_root : records[parent].first_child;

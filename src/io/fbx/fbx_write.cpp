@@ -24,7 +24,11 @@ std::string write_fbx_take(const Take& take) {
 
 std::vector<std::string> lost_beside_fbx(const Take& take) {
   const auto* const document = dynamic_cast<const FbxDocument*>(take.source.document.get());
-  if (document == nullptr || fits_fbx_document(take, *document, take_of_fbx(*document))) return {};
+  if (document == nullptr) return {};
+  const bool joints =
+      take.has_joints() && !holds_fbx_markers(document->scene, document->motion, document->rig);
+  const Take original = joints ? skeleton_of_fbx(*document) : take_of_fbx(*document);
+  if (fits_fbx_document(take, *document, original)) return {};
   std::vector<std::string> parts;
   if (document->scene.models.size() > document->rig.joints.size())
     parts.emplace_back("meshes and other models");

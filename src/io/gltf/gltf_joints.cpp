@@ -243,13 +243,6 @@ class GltfJointDecoder {
     return scales;
   }
 
-  void note_keys(GltfTrack& track, const GltfCurve& curve) {
-    track.has_key_each_frame = has_key_each_frame(curve, motion_.grid.times);
-    if (!track.has_key_each_frame && !is_constant(curve)) ++motion_.interpolated;
-    motion_.held_keys +=
-        static_cast<std::size_t>(std::count(curve.held.begin(), curve.held.end(), 1));
-  }
-
   void add_rotation(std::size_t j) {
     GltfTrack track;
     track.owner = j;
@@ -257,7 +250,7 @@ class GltfJointDecoder {
     track.rest = model_.nodes[track.node].rotation;
     track.channel = curves_.channel(track.node, GltfPath::rotation);
     if (const GltfCurve* const curve = curves_.curve(track.channel)) {
-      note_keys(track, *curve);
+      note_gltf_keys(*curve, track, motion_);
       const std::vector<Quat> turns = rotations_at(*curve, motion_.grid.times);
       for (std::size_t f = 0; f < turns.size(); ++f) {
         motion_.take.rotations[f * joints_.size() + j] =
@@ -291,7 +284,7 @@ class GltfJointDecoder {
     std::vector<Vec3> positions;
     if (curve != nullptr) {
       positions = vectors_at(*curve, motion_.grid.times);
-      note_keys(track, *curve);
+      note_gltf_keys(*curve, track, motion_);
     } else if (j == 0 || track.scale.size() > 1) {
       positions.assign(frames(), rest);
     }

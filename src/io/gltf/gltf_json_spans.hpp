@@ -32,7 +32,7 @@ std::optional<JsonMember> json_named_member(std::string_view text, ByteSpan obje
 std::optional<ByteSpan> json_member(std::string_view text, ByteSpan object, std::string_view key);
 /// The same from the root, along several keys.
 std::optional<ByteSpan> json_member(std::string_view text, std::initializer_list<const char*> keys);
-/// The elements of the array at `array`; empty where it is none.
+/// The elements of the array at `array`. Empty if the value there is not an array.
 std::vector<ByteSpan> json_elements(std::string_view text, ByteSpan array);
 /// The element `index` of the array `key` of the root.
 std::optional<ByteSpan> json_element(std::string_view text, const char* key, std::size_t index);

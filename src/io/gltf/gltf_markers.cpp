@@ -68,20 +68,13 @@ class GltfMarkerDecoder {
     return track;
   }
 
-  void note_keys(GltfTrack& track, const GltfCurve& curve) {
-    track.has_key_each_frame = has_key_each_frame(curve, motion_.grid.times);
-    if (!track.has_key_each_frame && !is_constant(curve)) ++motion_.interpolated;
-    motion_.held_keys +=
-        static_cast<std::size_t>(std::count(curve.held.begin(), curve.held.end(), 1));
-  }
-
   void add_places(std::size_t m) {
     GltfTrack track = track_of(m, GltfPath::translation);
     Take& take = motion_.take;
     std::vector<Vec3> places(take.frame_count(), model_.nodes[track.node].translation);
     const GltfCurve* const curve = curves_.curve(track.channel);
     if (curve != nullptr) {
-      note_keys(track, *curve);
+      note_gltf_keys(*curve, track, motion_);
       places = vectors_at(*curve, motion_.grid.times);
     }
     for (std::size_t f = 0; f < places.size(); ++f) {
@@ -101,7 +94,7 @@ class GltfMarkerDecoder {
     GltfTrack track = track_of(m, GltfPath::scale);
     Take& take = motion_.take;
     if (const GltfCurve* const curve = curves_.curve(track.channel)) {
-      note_keys(track, *curve);
+      note_gltf_keys(*curve, track, motion_);
       const std::vector<Vec3> sizes = vectors_at(*curve, motion_.grid.times);
       for (std::size_t f = 0; f < sizes.size(); ++f) {
         if (sizes[f] == Vec3{}) take.observed[f * markers_.size() + m] = 0;

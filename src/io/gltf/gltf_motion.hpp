@@ -87,6 +87,9 @@ class GltfCurves {
   std::vector<std::size_t> repeated_;
 };
 
+/// Whether the curve of the track has a key in each frame, and what the motion counts of its keys.
+void note_gltf_keys(const GltfCurve& curve, GltfTrack& track, GltfMotion& motion);
+
 /// Errors: `unreadable_input` where the frames need far more memory than the file has bytes.
 void check_gltf_memory(const GltfFile& file, const GltfBuffers& buffers, std::size_t frames,
                        std::size_t bytes_per_frame);

@@ -1,6 +1,7 @@
 // Gathers the curves of an animation by node, and bounds the memory of a take.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/quote.hpp"
@@ -67,6 +68,12 @@ std::vector<const GltfCurve*> GltfCurves::moving_curves() const {
     if (curves_[c].keys() > 0 && paths_[c] != GltfPath::scale) curves.push_back(&curves_[c]);
   }
   return curves;
+}
+
+void note_gltf_keys(const GltfCurve& curve, GltfTrack& track, GltfMotion& motion) {
+  track.has_key_each_frame = has_key_each_frame(curve, motion.grid.times);
+  if (!track.has_key_each_frame && !is_constant(curve)) ++motion.interpolated;
+  motion.held_keys += static_cast<std::size_t>(std::count(curve.held.begin(), curve.held.end(), 1));
 }
 
 void check_gltf_memory(const GltfFile& file, const GltfBuffers& buffers, std::size_t frames,
