@@ -1,10 +1,9 @@
 // Encodes records, packs long arrays, and ends the file as readers expect it.
 #include "io/fbx/fbx_builder.hpp"
 
-#include <zlib.h>
-
 #include <bit>
 
+#include "io/fbx/fbx_values.hpp"
 #include "io/fbx/fbx_words.hpp"
 
 namespace kinemend {
@@ -116,15 +115,8 @@ FbxBuilder& FbxBuilder::raw(std::string_view value) {
 void FbxBuilder::put_array(char type, std::size_t count, const std::string& content) {
   put(type, {});
   append(static_cast<std::uint32_t>(count));
-  std::string data = content;
   const bool is_packed = content.size() >= least_packed_bytes;
-  if (is_packed) {
-    uLongf size = compressBound(static_cast<uLong>(content.size()));
-    data.resize(size);
-    compress(reinterpret_cast<Bytef*>(data.data()), &size,
-             reinterpret_cast<const Bytef*>(content.data()), static_cast<uLong>(content.size()));
-    data.resize(size);
-  }
+  const std::string data = is_packed ? fbx_zlib(content) : content;
   append(std::uint32_t{is_packed ? 1u : 0u});
   append(static_cast<std::uint32_t>(data.size()));
   bytes_ += data;

@@ -163,10 +163,20 @@ std::vector<std::uint32_t> fbx_value_places(const FbxTree& tree, const FbxRecord
 }
 
 FbxCurve FbxKeyReader::read(std::uint32_t record) {
+  FbxCurve curve = begin(record);
+  finish(curve);
+  return curve;
+}
+
+FbxCurve FbxKeyReader::begin(std::uint32_t record) {
   const std::uint32_t letters = tree_.child(record, "Key");
-  FbxCurve curve =
-      letters != no_fbx_record ? read_letters(record, tree_.records[letters]) : read_arrays(record);
+  FbxCurve curve;
   curve.record = record;
+  if (letters != no_fbx_record) {
+    read_letters(tree_.records[letters], fbx_child_integer(tree_, record, "KeyCount", 0), curve);
+  } else {
+    begin_arrays(record, curve);
+  }
   curve.before = extrapolation_of(tree_, record, "Pre-Extrapolation");
   curve.after = extrapolation_of(tree_, record, "Post-Extrapolation");
   return curve;
@@ -181,13 +191,19 @@ void FbxKeyReader::count_keys(const FbxRecord& record, std::size_t keys) {
   }
 }
 
-FbxCurve FbxKeyReader::read_arrays(std::uint32_t record) {
-  FbxCurve curve;
+void FbxKeyReader::begin_arrays(std::uint32_t record, FbxCurve& curve) {
   const std::uint32_t times = tree_.child(record, "KeyTime");
   const std::uint32_t values = tree_.child(record, "KeyValueFloat");
-  if (times == no_fbx_record || values == no_fbx_record) return curve;
+  if (times == no_fbx_record || values == no_fbx_record) return;
   count_keys(tree_.records[values], fbx_count(tree_, tree_.records[values]));
   curve.times = times_of(tree_.records[times]);
+}
+
+void FbxKeyReader::finish(FbxCurve& curve) const {
+  // Keys with letters are whole.
+  if (curve.times == nullptr || !curve.values.empty()) return;
+  const std::uint32_t values = tree_.child(curve.record, "KeyValueFloat");
+  if (values == no_fbx_record) return;
   curve.values = fbx_numbers(tree_, tree_.records[values]);
   for (double& value : curve.values) {
     if (!(std::fabs(value) <= largest_fbx_value)) value = std::nan("");
@@ -197,14 +213,13 @@ FbxCurve FbxKeyReader::read_arrays(std::uint32_t record) {
                          fmt::format("a curve has {} key times, but {} values", curve.times->size(),
                                      curve.values.size()));
   }
-  read_shapes(record, curve);
-  return curve;
+  read_shapes(curve);
 }
 
-void FbxKeyReader::read_shapes(std::uint32_t record, FbxCurve& curve) {
-  const std::uint32_t flags = tree_.child(record, "KeyAttrFlags");
-  const std::uint32_t data = tree_.child(record, "KeyAttrDataFloat");
-  const std::uint32_t counts = tree_.child(record, "KeyAttrRefCount");
+void FbxKeyReader::read_shapes(FbxCurve& curve) const {
+  const std::uint32_t flags = tree_.child(curve.record, "KeyAttrFlags");
+  const std::uint32_t data = tree_.child(curve.record, "KeyAttrDataFloat");
+  const std::uint32_t counts = tree_.child(curve.record, "KeyAttrRefCount");
   if (flags == no_fbx_record || data == no_fbx_record || counts == no_fbx_record) {
     curve.shapes.emplace_back();
     return;
@@ -252,9 +267,7 @@ void FbxKeyReader::check_times(const FbxRecord& record,
   }
 }
 
-FbxCurve FbxKeyReader::read_letters(std::uint32_t record, const FbxRecord& keys) {
-  FbxCurve curve;
-  const std::int64_t count = fbx_child_integer(tree_, record, "KeyCount", 0);
+void FbxKeyReader::read_letters(const FbxRecord& keys, std::int64_t count, FbxCurve& curve) const {
   std::vector<std::int64_t> times;
   KeyLetters letters(tree_, keys);
   while (!letters.at_end()) {
@@ -269,7 +282,6 @@ FbxCurve FbxKeyReader::read_letters(std::uint32_t record, const FbxRecord& keys)
   }
   check_times(keys, times);
   curve.times = std::make_shared<const std::vector<std::int64_t>>(std::move(times));
-  return curve;
 }
 
 }  // namespace kinemend

@@ -23,11 +23,15 @@ class FbxKeyReader {
   /// without keys has no values. Errors: `unreadable_input` for key times that do not ascend,
   /// counts that disagree, an unknown letter, or more keys than the file's bytes can mean.
   FbxCurve read(std::uint32_t record);
+  /// The same in two steps. The first one reads the key times, which say whether the curve has
+  /// keys; the second one, which may run for several curves at a time, fills in values and shapes.
+  FbxCurve begin(std::uint32_t record);
+  void finish(FbxCurve& curve) const;
 
  private:
-  FbxCurve read_arrays(std::uint32_t record);
-  FbxCurve read_letters(std::uint32_t record, const FbxRecord& keys);
-  void read_shapes(std::uint32_t record, FbxCurve& curve);
+  void begin_arrays(std::uint32_t record, FbxCurve& curve);
+  void read_letters(const FbxRecord& keys, std::int64_t count, FbxCurve& curve) const;
+  void read_shapes(FbxCurve& curve) const;
   std::shared_ptr<const std::vector<std::int64_t>> times_of(const FbxRecord& record);
   void check_times(const FbxRecord& record, const std::vector<std::int64_t>& times) const;
   void count_keys(const FbxRecord& record, std::size_t keys);

@@ -7,6 +7,7 @@
 #include "io/fbx/fbx_properties.hpp"
 #include "io/fbx/fbx_scene.hpp"
 #include "io/fbx/fbx_values.hpp"
+#include "io/first_error.hpp"
 #include "rotation/component.hpp"
 
 namespace kinemend {
@@ -45,6 +46,8 @@ class FbxMotionReader {
       if (is(link->from, "AnimationLayer")) read_layer(link->from);
     }
     find_targets();
+    for_each_first_error(motion_.curves.size(),
+                         [&](std::size_t c) { keys_.finish(motion_.curves[c]); });
     return std::move(motion_);
   }
 
@@ -127,9 +130,10 @@ class FbxMotionReader {
   std::int32_t curve_of(std::int64_t id) {
     const auto known = curve_of_id_.find(id);
     if (known != curve_of_id_.end()) return known->second;
-    FbxCurve curve = keys_.read(scene_.record_of_id.at(id));
+    FbxCurve curve = keys_.begin(scene_.record_of_id.at(id));
     std::int32_t index = -1;
-    if (!curve.values.empty()) {
+    if (curve.times != nullptr && curve.times->empty()) keys_.finish(curve);
+    if (curve.times != nullptr && !curve.times->empty()) {
       index = static_cast<std::int32_t>(motion_.curves.size());
       motion_.curves.push_back(std::move(curve));
     }

@@ -1,6 +1,7 @@
 // Evaluates curves and layers, and chains the transforms of the models.
 #include "io/fbx/fbx_pose.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -126,11 +127,26 @@ const std::vector<FbxNodePose>& FbxPoser::at(std::int64_t time) {
   return poses_;
 }
 
-const std::vector<FbxNodePose>& FbxPoser::locals_at(std::int64_t time) {
-  for (std::size_t n = 0; n < poses_.size(); ++n) {
-    for (const FbxVector vector : {fbx_translation, fbx_rotation}) evaluate(n, vector, time);
+void FbxPoser::locals_over(std::size_t n, FbxVector vector, std::span<const std::int64_t> times,
+                           std::span<Vec3> out) {
+  if (!is_animated_[3 * n + vector]) {
+    std::fill(out.begin(), out.end(), scene_.models[rig_.nodes[n].model].local[vector]);
+  } else if (motion_.layers.size() > 1) {
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      evaluate(n, vector, times[i]);
+      out[i] = poses_[n].local[vector];
+    }
+  } else {
+    const FbxAnimatedVector& animated = *animated_[n][vector].front();
+    std::fill(out.begin(), out.end(), animated.constant);
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (animated.curves[a] < 0) continue;
+      const FbxCurve& curve = motion_.curves[static_cast<std::size_t>(animated.curves[a])];
+      std::size_t cursor = 0;
+      for (std::size_t i = 0; i < times.size(); ++i)
+        component_of(out[i], a) = fbx_value_at(curve, times[i], scene_.ticks_per_second, cursor);
+    }
   }
-  return poses_;
 }
 
 Vec3 FbxPoser::layer_value(const FbxAnimatedVector& animated, std::int64_t time) {

@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <span>
 
 #include "base/quote.hpp"
 #include "io/fbx/fbx_curve_patch.hpp"
 #include "io/fbx/fbx_properties.hpp"
 #include "io/fbx/fbx_values.hpp"
+#include "io/first_error.hpp"
 #include "io/motion/motion_write.hpp"
 #include "rotation/component.hpp"
 
@@ -47,10 +50,10 @@ class FbxRewriter {
     const std::size_t owners =
         take_.has_joints() ? document_.rig.joints.size() : take_.marker_count();
     sample_source();
-    for (std::size_t j = 0; j < owners; ++j) {
+    for_each_first_error(owners, [&](std::size_t j) {
       if (take_.has_joints()) turn(j);
       move(j);
-    }
+    });
     patch_curves();
     if (!same_frames_) patch_range();
     return write_patched_fbx(document_.tree, std::move(patches_));
@@ -84,18 +87,28 @@ class FbxRewriter {
 
   // Angles, translations and the frames that these are in, at each frame of the source.
   void sample_source() {
-    FbxPoser poser(document_.scene, document_.motion, document_.rig);
     const std::size_t joints = document_.rig.joints.size();
     const std::size_t count = same_frames_ ? frames() : 1;
-    angles_.reserve(count * joints);
-    for (std::size_t f = 0; f < count; ++f) {
-      const std::int64_t time = document_.frames.times[f];
-      const std::vector<FbxNodePose>& poses = f == 0 ? poser.at(time) : poser.locals_at(time);
-      for (std::size_t j = 0; j < joints; ++j) {
-        const FbxNodePose& pose = poses[document_.rig.joints[j]];
-        angles_.push_back(pose.local[fbx_rotation]);
-        translations_.push_back(pose.local[fbx_translation]);
-        if (f == 0) bases_.push_back(base_of(poses, j));
+    angles_.resize(count * joints);
+    translations_.resize(count * joints);
+    for_each_range(0, count, fbx_frames_a_range,
+                   [&](std::size_t first, std::size_t last) { sample_frames(first, last); });
+    FbxPoser poser(document_.scene, document_.motion, document_.rig);
+    const std::vector<FbxNodePose>& poses = poser.at(document_.frames.times.front());
+    for (std::size_t j = 0; j < joints; ++j) bases_.push_back(base_of(poses, j));
+  }
+
+  void sample_frames(std::size_t first, std::size_t last) {
+    FbxPoser poser(document_.scene, document_.motion, document_.rig);
+    const std::span<const std::int64_t> times = document_.frames.times;
+    const std::size_t joints = document_.rig.joints.size();
+    std::vector<Vec3> local(last - first);
+    for (std::size_t j = 0; j < joints; ++j) {
+      for (const FbxVector vector : {fbx_translation, fbx_rotation}) {
+        poser.locals_over(document_.rig.joints[j], vector, times.subspan(first, last - first),
+                          local);
+        std::vector<Vec3>& all = vector == fbx_rotation ? angles_ : translations_;
+        for (std::size_t f = first; f < last; ++f) all[f * joints + j] = local[f - first];
       }
     }
   }
@@ -236,18 +249,23 @@ class FbxRewriter {
   }
 
   void patch_curves() {
-    for (std::size_t c = 0; c < changed_.size(); ++c) {
-      const FbxCurve& curve = document_.motion.curves[c];
-      const bool was_mended = std::count(mended_.begin(), mended_.end(), c) > 0;
-      if (!changed_[c].empty() && !stays(curve, changed_[c])) {
-        if (same_frames_ && is_baked(curve, document_.frames)) {
-          patch_fbx_values(document_.tree, as_in_file(curve, c), changed_[c], patches_);
-        } else {
-          bake_fbx_curve(document_.tree, curve, times_, changed_[c], patches_);
-        }
-      } else if (was_mended) {
-        patch_fbx_values(document_.tree, as_in_file(curve, c), curve.values, patches_);
+    std::vector<std::vector<FbxPatch>> patches(changed_.size());
+    for_each_first_error(changed_.size(), [&](std::size_t c) { patch_curve(c, patches[c]); });
+    for (std::vector<FbxPatch>& some : patches)
+      std::move(some.begin(), some.end(), std::back_inserter(patches_));
+  }
+
+  void patch_curve(std::size_t c, std::vector<FbxPatch>& patches) const {
+    const FbxCurve& curve = document_.motion.curves[c];
+    const bool was_mended = std::count(mended_.begin(), mended_.end(), c) > 0;
+    if (!changed_[c].empty() && !stays(curve, changed_[c])) {
+      if (same_frames_ && is_baked(curve, document_.frames)) {
+        patch_fbx_values(document_.tree, as_in_file(curve, c), changed_[c], patches);
+      } else {
+        bake_fbx_curve(document_.tree, curve, times_, changed_[c], patches);
       }
+    } else if (was_mended) {
+      patch_fbx_values(document_.tree, as_in_file(curve, c), curve.values, patches);
     }
   }
 

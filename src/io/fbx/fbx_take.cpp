@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
+#include "base/parallel.hpp"
 #include "base/quote.hpp"
 #include "io/fbx/fbx_document.hpp"
 #include "io/motion/half_angles.hpp"
@@ -49,15 +51,11 @@ class FbxTakeBuilder {
   Take build() {
     const std::size_t joints = rig_.joints.size();
     start();
-    take_.rotations.reserve(document_.frames.times.size() * joints);
-    take_.positions.reserve(document_.frames.times.size() * take_.point_count());
-    for (const std::int64_t time : document_.frames.times) {
-      if (scales_are_odd_) {
-        add_frame(poser_.at(time));
-      } else {
-        add_local_frame(poser_.locals_at(time));
-      }
-    }
+    const std::size_t frames = document_.frames.times.size();
+    take_.rotations.resize(frames * joints);
+    take_.positions.resize(frames * take_.point_count());
+    for_each_range(0, frames, fbx_frames_a_range,
+                   [&](std::size_t first, std::size_t last) { set_frames(first, last); });
     mark_mended();
     return std::move(take_);
   }
@@ -179,45 +177,73 @@ class FbxTakeBuilder {
     return normalized(rest);
   }
 
-  void add_frame(const std::vector<FbxNodePose>& poses) {
-    add_rotations(poses);
+  // One vector of a joint in the frames of a range, and its angles, three a frame.
+  struct JointRange {
+    std::size_t first = 0, last = 0;
+    std::vector<Vec3> local;
+    std::vector<double> degrees, sines, cosines;
+  };
+
+  // Ranges of frames are independent.
+  void set_frames(std::size_t first, std::size_t last) {
+    FbxPoser poser(document_.scene, document_.motion, rig_);
+    JointRange range{first, last, std::vector<Vec3>(last - first), {}, {}, {}};
+    std::size_t point = 0;
     for (std::size_t j = 0; j < rig_.joints.size(); ++j) {
-      if (j == 0 || moving_[j]) take_.positions.push_back(offset_of(poses, j));
+      read_local(poser, j, fbx_rotation, range);
+      set_rotations(j, range);
+      if (scales_are_odd_ || (j > 0 && !moving_[j])) continue;
+      read_local(poser, j, fbx_translation, range);
+      set_positions(j, point++, range);
     }
+    if (scales_are_odd_) set_posed_positions(poser, first, last);
+  }
+
+  void read_local(FbxPoser& poser, std::size_t joint, FbxVector vector, JointRange& range) const {
+    const std::span<const std::int64_t> times = document_.frames.times;
+    poser.locals_over(rig_.joints[joint], vector,
+                      times.subspan(range.first, range.last - range.first), range.local);
   }
 
   // Where scales are the same in all frames and directions, positions follow translations.
-  void add_local_frame(const std::vector<FbxNodePose>& poses) {
-    add_rotations(poses);
-    for (std::size_t j = 0; j < rig_.joints.size(); ++j) {
-      if (j > 0 && !moving_[j]) continue;
-      const FirstFrame& first = firsts_[j];
-      const Vec3 step = poses[rig_.joints[j]].local[fbx_translation] - first.translation;
-      take_.positions.push_back(first.offset + first.step * step);
+  void set_positions(std::size_t joint, std::size_t point, const JointRange& range) {
+    const FirstFrame& first = firsts_[joint];
+    for (std::size_t i = 0; i < range.local.size(); ++i) {
+      take_.position(range.first + i, point) =
+          first.offset + first.step * (range.local[i] - first.translation);
     }
   }
 
-  // All joints at once: sines and cosines are dear.
-  void add_rotations(const std::vector<FbxNodePose>& poses) {
-    const std::size_t joints = rig_.joints.size();
-    degrees_.resize(3 * joints);
-    sines_.resize(3 * joints);
-    cosines_.resize(3 * joints);
-    for (std::size_t j = 0; j < joints; ++j) {
-      const FbxRigNode& each = node(j);
-      const Vec3 angles = poses[rig_.joints[j]].local[fbx_rotation];
-      for (std::size_t i = each.first_turn; i < each.end_turn; ++i)
-        degrees_[3 * j + i] = component(angles, static_cast<std::size_t>(each.order.axes[i]));
+  void set_posed_positions(FbxPoser& poser, std::size_t first, std::size_t last) {
+    for (std::size_t f = first; f < last; ++f) {
+      const std::vector<FbxNodePose>& poses = poser.at(document_.frames.times[f]);
+      std::size_t point = 0;
+      for (std::size_t j = 0; j < rig_.joints.size(); ++j) {
+        if (j == 0 || moving_[j]) take_.position(f, point++) = offset_of(poses, j);
+      }
     }
-    half_angle_sincos(degrees_.data(), degrees_.size(), sines_.data(), cosines_.data());
-    for (std::size_t j = 0; j < joints; ++j) take_.rotations.push_back(product_of_turns(j));
   }
 
-  Quat product_of_turns(std::size_t joint) const {
+  // All frames at once: sines and cosines are dear.
+  void set_rotations(std::size_t joint, JointRange& range) {
     const FbxRigNode& each = node(joint);
+    const std::size_t frames = range.local.size();
+    for (auto* angles : {&range.degrees, &range.sines, &range.cosines}) angles->resize(3 * frames);
+    for (std::size_t i = each.first_turn; i < each.end_turn; ++i) {
+      const auto axis = static_cast<std::size_t>(each.order.axes[i]);
+      for (std::size_t f = 0; f < frames; ++f)
+        range.degrees[i * frames + f] = component(range.local[f], axis);
+    }
+    half_angle_sincos(range.degrees.data(), 3 * frames, range.sines.data(), range.cosines.data());
+    for (std::size_t f = 0; f < frames; ++f)
+      take_.rotation(range.first + f, joint) = product_of_turns(each, range, f);
+  }
+
+  static Quat product_of_turns(const FbxRigNode& each, const JointRange& range, std::size_t frame) {
+    const std::size_t frames = range.local.size();
     Quat product;
     for (std::size_t i = each.first_turn; i < each.end_turn; ++i) {
-      const double s = sines_[3 * joint + i], c = cosines_[3 * joint + i];
+      const double s = range.sines[i * frames + frame], c = range.cosines[i * frames + frame];
       Quat turn{c, 0, 0, 0};
       (each.order.axes[i] == Axis::x   ? turn.x
        : each.order.axes[i] == Axis::y ? turn.y
@@ -259,9 +285,8 @@ class FbxTakeBuilder {
   FbxPoser poser_;
   Take take_;
   bool scales_are_odd_ = false;
-  std::vector<FirstFrame> firsts_;                 // by joint
-  std::vector<double> degrees_, sines_, cosines_;  // of a frame, three a joint
-  std::vector<bool> moving_;  // by joint: its position changes in the frame of its parent
+  std::vector<FirstFrame> firsts_;  // by joint
+  std::vector<bool> moving_;        // by joint: its position changes in the frame of its parent
 };
 
 bool may_be_marker(const FbxModel& model) {

@@ -33,6 +33,8 @@ const FbxProperty* fbx_array(const FbxTree& tree, const FbxRecord& record);
 /// for `f`. Errors: `unreadable_input` for an unknown packing, damaged packed data, or a count that
 /// the bytes cannot hold.
 std::string fbx_unpacked(const FbxTree& tree, const FbxProperty& array);
+/// Bytes packed by zlib.
+std::string fbx_zlib(std::string_view raw);
 /// The same bytes packed in the way of `array` (raw or zlib), as a property without its type code.
 std::string fbx_packed(const FbxTree& tree, const FbxProperty& array, const std::string& raw);
 
