@@ -6,7 +6,7 @@ import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 
 // A page is a file or an address; a KEY with a = sets a control of `kinemend view`, `gap=N` compares the curves of a gap, one with a ? opens the
-// details of that name.
+// details of that name. `hide=before` takes one of the two bodies away, `part=body` takes the picture of that section alone.
 
 const { chromium } = createRequire(join(process.cwd(), 'package.json'))('playwright-core');
 const [executablePath, html, picture, colorScheme = 'light', ...keys] = process.argv.slice(2);
@@ -14,11 +14,16 @@ const browser = await chromium.launch({ executablePath, args: ['--no-sandbox', '
 const page = await browser.newPage({ viewport: { width: 1080, height: 830 }, colorScheme });
 await page.goto(/^http:/.test(html) ? html : pathToFileURL(resolve(html)).href);
 await page.waitForSelector('#page[data-ready="true"]');
+let part = page;
 for (const key of keys) {
   const [, flag, value] = /^(\w+)=(.*)$/.exec(key) ?? [];
   if (flag === 'gap') {
     await page.locator('[data-gap=curves]').nth(Number(value)).click();
     await page.waitForSelector('.gap-plots canvas');
+  } else if (flag === 'hide') {
+    await page.click(`[data-option=${value}]`);
+  } else if (flag === 'part') {
+    part = page.locator(`section.${value}`);
   } else if (flag) {
     const before = await page.getAttribute('#page', 'data-runs');
     const control = page.locator(`[data-flag=${flag}]:visible`);
@@ -32,5 +37,5 @@ for (const key of keys) {
   }
 }
 await page.waitForTimeout(300);
-await page.screenshot({ path: picture });
+await part.screenshot({ path: picture });
 await browser.close();
