@@ -145,7 +145,6 @@ std::vector<std::size_t> position_markers(const Take& clip) {
 }
 
 VectorMotion vectors_of(const Take& clip, const std::vector<std::size_t>& markers) {
-  constexpr double usual_height_cm = 170;
   const double height = body_height(clip), unit_m = metres_per_unit(clip.unit);
   VectorMotion motion;
   motion.values = PoseMatrix(clip.frame_count(), 3 * markers.size());

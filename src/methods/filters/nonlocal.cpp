@@ -19,7 +19,8 @@ namespace kinemend {
 
 namespace {
 
-// The automatic bandwidth of the causal filter, as a share of the noise.
+// The automatic bandwidth of the causal filter, as a share of the noise. Chosen by hand
+// (docs/methods/nonlocal.md); no sweep is stored.
 constexpr double causal_noise_share = 0.8;
 // How far the root position is averaged when the window is the whole take: beyond, the body is
 // elsewhere.
