@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 
 // A scanner of viruses may hold a file for a moment that was just written.
 bool with_patience(const auto& action) {
+  // Half a second. Chosen by hand, not swept.
   constexpr int most_waits = 20;
   constexpr DWORD wait_ms = 25;
   for (int wait = 0;; ++wait) {
