@@ -41,7 +41,7 @@ Flag markers_flag() {
 Flag method_flag() {
   Flag flag = text_flag("method", "NAME", "Cleaning", "how to clean; kinemend methods lists all",
                         "The options of a method are valid with that method only.");
-  flag.spec.default_value = std::string("learned");
+  flag.spec.default_value = std::string(default_method);
   flag.spec.choices = method_names();
   flag.has_default = true;
   return configurable(flag);

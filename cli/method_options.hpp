@@ -11,6 +11,9 @@
 
 namespace kinemend::cli {
 
+/// What cleans where no method is named. The page of `view` has the name as well (web/src/view.ts).
+inline constexpr std::string_view default_method = "learned";
+
 /// The table of methods as groups of flags.
 std::vector<OptionGroup> method_groups();
 std::vector<std::string> method_names();

@@ -57,7 +57,7 @@ const Method* method_of(const std::vector<AskedFlag>& flags) {
     if (const auto set = settings.values.find("method"); set != settings.values.end())
       method = std::get<std::string>(set->second);
   }
-  return method_called(method.empty() ? "learned" : method);
+  return method_called(method.empty() ? std::string(default_method) : method);
 }
 
 bool is_option(const Method* method, std::string_view name) {

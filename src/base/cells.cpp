@@ -100,7 +100,7 @@ std::string cell_of(std::string_view text) {
 }
 
 std::optional<std::int64_t> whole_number(std::string_view cell, std::int64_t least) {
-  // More than any take has, and such that sums of two do not overflow.
+  // More than any take has, and such that sums of two do not overflow. By definition.
   constexpr std::int64_t most = std::int64_t{1} << 53;
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);

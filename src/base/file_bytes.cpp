@@ -14,6 +14,7 @@ namespace kinemend {
 
 namespace {
 
+// Bytes that are read at first where the size is unknown. For speed, not swept.
 constexpr std::size_t unknown_size = 65536;
 
 [[noreturn]] void fail(std::string_view name, int number) {

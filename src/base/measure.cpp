@@ -16,6 +16,7 @@ ShownUnit shown_unit(std::string_view unit) {
 }
 
 std::string measure_text(double value, std::string_view unit) {
+  // Shorter lengths are shown in millimetres. Chosen by hand.
   constexpr double small_m = 0.1;
   const bool is_long = unit == "m" && std::fabs(value) >= small_m;
   const ShownUnit shown = is_long ? ShownUnit{1, "m"} : shown_unit(unit);

@@ -29,6 +29,7 @@ constexpr bool uses_pool = true;
 
 void for_each_range_in_pool(std::size_t first, std::size_t last, std::size_t least,
                             const RangeWork& work) {
+  // For speed, not swept.
   constexpr std::size_t parts_per_thread = 4;  // so that an early end of one leaves work for others
   if (first >= last) return;
   const std::size_t count = last - first;
@@ -126,6 +127,7 @@ void for_each_index(std::size_t count, const IndexWork& work) {
 }
 
 void for_each_parallel(std::size_t count, std::size_t samples, const IndexWork& work) {
+  // For speed, not swept.
   constexpr std::size_t worth_threads = 4096;
   if (samples < worth_threads || count < 2) {
     for (std::size_t i = 0; i < count; ++i) work(i);

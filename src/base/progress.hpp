@@ -44,6 +44,7 @@ class ShareProgress {
 
  private:
   void report(double done) {
+    // Of all work; chosen by hand.
     constexpr double least_step = 0.005;
     if (done < told_ + least_step) return;
     told_ = done;

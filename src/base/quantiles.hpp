@@ -8,10 +8,10 @@
 namespace kinemend {
 
 /// From the median size of normal numbers of mean 0, or a median absolute deviation, to their
-/// standard deviation: 1 / Phi^-1(3/4).
+/// standard deviation: 1 / Phi^-1(3/4). By definition.
 inline constexpr double deviations_per_median = 1.482602218505602;
 /// Median length of a vector of three independent standard normal components: the root of the
-/// median of the chi-squared distribution of three degrees of freedom.
+/// median of the chi-squared distribution of three degrees of freedom. By definition.
 inline constexpr double median_of_chi3 = 1.5381722544550522;
 
 /// The value of rank `rank` (below the number of values). Reorders the values: those before it are

@@ -4,6 +4,7 @@
 namespace kinemend {
 
 std::string quote(std::string_view found) {
+  // Characters; chosen by hand.
   constexpr std::size_t longest = 40;
   if (found.empty()) return "the end of the file";
   std::string text = "\"";

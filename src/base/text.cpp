@@ -44,6 +44,7 @@ std::size_t display_width(std::string_view text) {
 
 namespace {
 
+// Chosen by hand.
 constexpr std::size_t longest_word = 80;       // characters
 constexpr std::size_t longest_message = 2000;  // bytes
 constexpr std::size_t head_of_message = 1200;  // bytes of a longer one; the rest is its end

@@ -47,6 +47,7 @@ std::vector<std::int32_t> only_children(const BodyLayout& layout) {
 
 std::vector<Vec3> bone_directions(const BodyLayout& layout, const Take& clip, const RestPose& rest,
                                   const std::vector<std::int32_t>& tracks) {
+  // Bones that are shorter have no direction. Chosen by hand, not swept.
   constexpr double least_share = 1e-3;  // of all the skeleton's bones
   double all = 0;
   for (const Vec3 offset : clip.skeleton.offsets) all += norm(offset);

@@ -16,8 +16,6 @@ namespace kinemend::representation {
 
 namespace {
 
-constexpr std::size_t least_anchors = 3;
-
 // The rotation that turns the expected vectors, about their centre, onto the seen ones.
 Quat fitted_rotation(const std::vector<Anchor>& anchors, const RigidFit& fit) {
   rotation::Matrix4 sum{};
@@ -62,6 +60,8 @@ std::optional<RigidFit> least_squares(const std::vector<Anchor>& anchors) {
 
 // Anchors that lie far from where the fit expects them.
 bool drop_strangers(const RigidFit& fit, double body_height, std::vector<Anchor>& anchors) {
+  // Of the body height, and of the median distance: what is farther off is left out. Chosen by
+  // hand, not swept.
   constexpr double least_share = 0.05, times_median = 4;
   std::vector<double> distances;
   distances.reserve(anchors.size());
@@ -132,8 +132,6 @@ void follow_anchors(const Take& clip, const BodyLayout& layout, const BodyMatch&
 }
 
 double low_level(const Take& clip, Quat upright, std::span<const std::int32_t> markers) {
-  constexpr double smoothing_s = 0.1;
-  constexpr double low = 0.2;  // share of the frames in which the lowest marker is lower still
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const std::size_t frames = clip.frame_count();
   std::vector<double> lowest(frames, infinity);
@@ -145,13 +143,13 @@ double low_level(const Take& clip, Quat upright, std::span<const std::int32_t> m
       heights[f] = upright_position(clip, upright, f, marker).y;
       seen[f] = 1;
     }
-    heights = smooth_trend(std::move(heights), seen, clip.frame_rate_hz, smoothing_s);
+    heights = smooth_trend(std::move(heights), seen, clip.frame_rate_hz, floor_mean_s);
     for (std::size_t f = 0; f < frames; ++f) {
       if (seen[f] > 0) lowest[f] = std::min(lowest[f], heights[f]);
     }
   }
   std::erase(lowest, infinity);
-  return quantile_of(lowest, low);
+  return quantile_of(lowest, floor_quantile);
 }
 
 double floor_height(const Take& clip, const BodyLayout& layout, const BodyMatch& match) {

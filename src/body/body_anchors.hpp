@@ -11,6 +11,9 @@
 
 namespace kinemend::representation {
 
+/// Fewer points do not tell how a body is turned. By definition.
+inline constexpr std::size_t least_anchors = 3;
+
 /// A marker where it is seen, and where it is in the body's shape; any axes and one unit.
 struct Anchor {
   Vec3 seen, expected;

@@ -97,6 +97,7 @@ RootMotion root_motion(const Take& clip, const BodyMatch& match) {
 }
 
 Heading heading_of(Quat q) {
+  // Chosen by hand, not swept.
   constexpr double least_weight = 0.1;  // within 37 degrees of upside down
   const double weight = q.w * q.w + q.y * q.y;
   return {2 * std::atan2(q.y, q.w), weight > least_weight ? weight : 0};
@@ -141,9 +142,8 @@ void follow_root(const Take& clip, const BodyLayout& layout, const BodyMatch& ma
 
 double floor_height(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
                     const RootMotion& root) {
-  constexpr double smoothing_s = 0.1;
-  constexpr double low = 0.2;  // share of the frames in which the lower foot is lower still
-  constexpr double ankle_share = 0.039;  // height of an ankle that stands (Drillis and Contini)
+  // Height of an ankle that stands, in body heights (Drillis and Contini 1966).
+  constexpr double ankle_share = 0.039;
   const std::size_t frames = clip.frame_count();
   if (frames == 0) return 0;
   if (match.feet.empty()) {
@@ -159,14 +159,14 @@ double floor_height(const Take& clip, const BodyLayout& layout, const BodyMatch&
     std::vector<double> heights(frames);
     for (std::size_t f = 0; f < frames; ++f)
       heights[f] = rotate(match.upright, chain.at(f, chain.length()).position).y;
-    heights = smooth_trend(std::move(heights), all, clip.frame_rate_hz, smoothing_s);
+    heights = smooth_trend(std::move(heights), all, clip.frame_rate_hz, floor_mean_s);
     if (lowest.empty()) {
       lowest = std::move(heights);
       continue;
     }
     for (std::size_t f = 0; f < frames; ++f) lowest[f] = std::min(lowest[f], heights[f]);
   }
-  return quantile_of(lowest, low) - ankle_share * match.body_height;
+  return quantile_of(lowest, floor_quantile) - ankle_share * match.body_height;
 }
 
 void follow(const BodyLayout& layout, std::vector<double> headings, std::span<const double> turned,

@@ -10,6 +10,10 @@
 
 namespace kinemend::representation {
 
+/// How a floor is found (docs/bodies.md): heights are means over so long, and the floor is what the
+/// lowest of them are below in this share of the frames. Chosen by hand, not swept.
+inline constexpr double floor_mean_s = 0.1, floor_quantile = 0.2;
+
 /// The joint of the first track in the take's axes turned upright, frame by frame.
 struct RootMotion {
   std::vector<Quat> ancestors;  ///< F, turns of the joints above it from their rest; identity where

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "body/body_anchors.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/body.hpp"
 
@@ -29,6 +30,7 @@ void check_length(std::string_view array, std::size_t found, std::size_t expecte
 }
 
 void check_joints(const BodyLayout& layout) {
+  // How far a length of 1 may be off by rounding.
   constexpr double unit = 1e-6;
   const std::size_t count = layout.track_count();
   check_length("parents", layout.parents.size(), count);
@@ -53,7 +55,6 @@ void check_joints(const BodyLayout& layout) {
 }
 
 void check_markers(const BodyLayout& layout) {
-  constexpr std::size_t least_anchors = 3;
   const std::size_t count = layout.track_count();
   check_length("parents", layout.parents.size(), 0);
   check_length("references", layout.references.size(), 0);
@@ -67,10 +68,10 @@ void check_markers(const BodyLayout& layout) {
       refuse(layout, i, "the mean position is not finite");
     anchors += layout.anchors[i] != 0 ? 1 : 0;
   }
-  if (anchors < least_anchors) {
+  if (anchors < representation::least_anchors) {
     throw Error(ErrorKind::usage, fmt::format("the body's layout: expected at least {} anchors, "
                                               "found {}",
-                                              least_anchors, anchors));
+                                              representation::least_anchors, anchors));
   }
 }
 

@@ -19,6 +19,7 @@ namespace kinemend::representation {
 namespace {
 
 bool moves(const Take& clip, std::size_t joint) {
+  // Radians; a turn that is smaller is rounding.
   constexpr double least = 1e-3;
   for (std::size_t f = 1; f < clip.frame_count(); ++f) {
     if (clip.is_observed(f, joint) &&
@@ -129,6 +130,7 @@ void JointLearning::add(const Take& clip) {
 }
 
 BodyLayout JointLearning::finish() const {
+  // Joints that move by less do not belong to the body. Chosen by hand, not swept.
   constexpr double least_turn = 0.1 * radians_per_degree;
   constexpr double least_travel = 1e-5;  // body heights
   BodyLayout layout;

@@ -120,6 +120,7 @@ MarkerLearning::MarkerLearning(std::vector<std::string> patterns, double trend_s
 }
 
 void MarkerLearning::sum_distances(const Take& clip, const BodyMatch& match) {
+  // Evenly spread, for speed; not swept.
   constexpr std::size_t most_frames = 256;
   const std::size_t count = tracks_.size(), frames = clip.frame_count();
   const std::size_t sampled = std::min(frames, most_frames);
@@ -144,6 +145,8 @@ void MarkerLearning::sum_distances(const Take& clip, const BodyMatch& match) {
 // How much the distances between a track and others vary: the variance that three in ten of them
 // stay below. Near ones count little: the markers of a hand are steady among themselves.
 double MarkerLearning::unsteadiness(std::size_t track) const {
+  // The distance at which a neighbour counts, and the share of the neighbours (docs/bodies.md,
+  // "Anchors"). Chosen by hand, not swept.
   constexpr double far = 0.15;  // body heights
   constexpr double share_of_others = 0.3;
   const std::size_t count = tracks_.size();
@@ -170,6 +173,7 @@ double MarkerLearning::unsteadiness(std::size_t track) const {
 
 // The steadiest third, at least four.
 void MarkerLearning::choose_anchors() {
+  // Chosen by hand, not swept.
   constexpr std::size_t least = 4;
   const std::size_t count = tracks_.size();
   std::vector<std::pair<double, std::size_t>> order;
@@ -245,6 +249,7 @@ void MarkerLearning::stand_upright(const Take& clip, const BodyMatch& match) {
 
 // The shape of the first take, which starts from the frame in which most anchors are seen.
 BodyMatch MarkerLearning::start(const Take& clip) {
+  // In which the shape and its fits to the frames follow each other. Not swept.
   constexpr int rounds = 4;
   BodyMatch match;
   match.tracks = usable_markers(clip, names_meant(clip.names, patterns_, "marker"));

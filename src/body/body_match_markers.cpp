@@ -19,6 +19,7 @@ namespace representation {
 
 namespace {
 
+// Evenly spread, for speed; not swept.
 constexpr std::size_t most_frames = 64;
 
 // LASI of `Subject36_LASI`.
@@ -62,6 +63,7 @@ Quat upright_by_anchors(const Take& clip, const BodyLayout& layout, const BodyMa
 
 // The median of how much longer distances between anchors are than in the layout.
 double body_height_by_anchors(const Take& clip, const BodyLayout& layout, const BodyMatch& match) {
+  // Anchors that are nearer tell no ratio. Chosen by hand, not swept.
   constexpr double least_distance = 0.03;  // body heights
   const auto anchors = anchors_of(layout, match);
   const std::size_t frames = clip.frame_count(), sampled = std::min(frames, most_frames);
@@ -87,6 +89,7 @@ double body_height_by_anchors(const Take& clip, const BodyLayout& layout, const 
 
 std::vector<std::int32_t> feet_of(const BodyLayout& layout, const Take& clip,
                                   const std::vector<std::int32_t>& tracks) {
+  // Markers that are lower on the model are those of feet. Chosen by hand, not swept.
   constexpr double foot_height = 0.1;  // body heights
   const std::vector<std::size_t> seen = seen_often(clip);
   std::vector<std::int32_t> feet;

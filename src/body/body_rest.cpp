@@ -21,6 +21,7 @@ Vec3 unit_vector(Axis axis) {
 
 // Directions that nearly lie along an axis are meant to.
 Vec3 snapped(Vec3 direction) {
+  // Chosen by hand, not swept.
   constexpr double near = 0.87;  // cosine of 30 degrees
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
     const Vec3 along = unit_vector(axis);
@@ -51,6 +52,8 @@ class Agreement {
 // From the feet to the hips and from the pelvis to the head, of joints at `positions`.
 std::optional<Vec3> standing_direction(const std::vector<Vec3>& positions,
                                        const std::vector<BoneName>& bones) {
+  // How nearly the directions must be the same: the length of their sum over that of all. Chosen by
+  // hand, not swept.
   constexpr double agreement = 0.8;
   Agreement up;
   const auto add = [&](std::int32_t low, std::int32_t high) {
@@ -68,6 +71,7 @@ std::optional<Vec3> standing_direction(const std::vector<Vec3>& positions,
 // From right to left by hips and shoulders, else from ankles to toes; at right angles to `up`.
 std::optional<Vec3> facing_direction(const std::vector<Vec3>& positions,
                                      const std::vector<BoneName>& bones, Vec3 up) {
+  // As in `standing_direction`. Chosen by hand, not swept.
   constexpr double agreement = 0.7;
   const auto at = [&](std::int32_t joint) { return positions[static_cast<std::size_t>(joint)]; };
   const auto level = [&](Vec3 v) { return v - dot(v, up) * up; };
@@ -111,6 +115,7 @@ double straightness(const std::vector<Vec3>& positions, const std::vector<BoneNa
 }
 
 std::size_t straightest_frame(const Take& clip, const std::vector<BoneName>& bones) {
+  // Evenly spread, for speed; not swept.
   constexpr std::size_t most_frames = 200;
   const std::size_t frames = clip.frame_count(), sampled = std::min(frames, most_frames);
   std::size_t best = 0;
@@ -180,6 +185,7 @@ double longest_way(const Skeleton& skeleton) {
 }  // namespace
 
 Quat shortest_rotation(Vec3 from, Vec3 to) {
+  // Sine below which no axis is told; of rounding.
   constexpr double same = 1e-7;
   const Vec3 axis = cross(from, to);
   const double sine = norm(axis), cosine = dot(from, to);
@@ -207,6 +213,7 @@ std::int32_t find_bone(const std::vector<BoneName>& bones, Bone bone, Side side)
 }
 
 RestPose rest_pose(const Take& clip, const std::vector<BoneName>& bones) {
+  // Straightness of legs and trunk from which the rest pose stands. Chosen by hand, not swept.
   constexpr double straight = 0.9;
   RestPose rest = pose_of(unturned_clip(clip));
   const bool stands = straightness(rest.positions, bones) > straight;
@@ -219,6 +226,7 @@ RestPose rest_pose(const Take& clip, const std::vector<BoneName>& bones) {
 }
 
 Quat upright_world(const Take& clip, const std::vector<BoneName>& bones, const RestPose& rest) {
+  // Frames, evenly spread, for speed; how nearly they must agree. Not swept.
   constexpr std::size_t most_frames = 64;
   constexpr double agreement = 0.5;
   const auto rest_up = standing_direction(rest.positions, bones);

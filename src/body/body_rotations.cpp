@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "body/rotation_channels.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/experimental/representation.hpp"
 
@@ -16,13 +17,11 @@ class VectorContinuation {
 
   // `v` or another vector of the same rotation.
   Vec3 next(Vec3 v) {
-    constexpr double near = pi / 3;
-    constexpr int patience_frames = 12;
     const Vec3 from_steady = continue_rotation_vector(v, steady_);
     const Vec3 from_previous = continue_rotation_vector(v, previous_);
     previous_ =
         norm(from_steady - steady_) < norm(from_previous - previous_) ? from_steady : from_previous;
-    if (norm(previous_ - steady_) < near || ++frames_away_ > patience_frames) {
+    if (norm(previous_ - steady_) < steady_rad || ++frames_away_ > patience_frames) {
       steady_ = previous_;
       frames_away_ = 0;
     }
@@ -49,7 +48,7 @@ std::vector<Quat> track_rotations(const Take& clip, const BodyMatch& match, cons
 }
 
 void continue_vectors(std::span<Vec3> vectors, double frame_rate_hz) {
-  constexpr double far = 210 * radians_per_degree;
+  // Of a vector that lies too far away (docs/bodies.md). Chosen by hand, not swept.
   constexpr double patience_s = 0.5;
   if (vectors.empty()) return;
   const auto patience =
@@ -65,7 +64,7 @@ void continue_vectors(std::span<Vec3> vectors, double frame_rate_hz) {
       const Vec3 v = onward.next(vectors[g]);
       if (v == vectors[g]) break;
       beyond.push_back(v);
-      far_samples += norm(v) > far ? 1 : 0;
+      far_samples += norm(v) > farthest_turn_rad ? 1 : 0;
     }
     if (far_samples > patience) {
       continuation = VectorContinuation(vectors[f++]);

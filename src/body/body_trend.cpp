@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/quantiles.hpp"
+#include "body/rotation_channels.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 
 namespace kinemend::representation {
@@ -77,6 +78,7 @@ std::vector<Value> running_median(const std::vector<Value>& track, std::size_t h
 template <class Value>
 std::vector<Value> despiked(std::vector<Value> track, std::span<const double> weights,
                             double frame_rate_hz) {
+  // See docs/bodies.md, "Trend". Chosen by hand, not swept.
   constexpr double median_s = 0.1;
   bridge(track, weights);
   const double half_window =
@@ -162,7 +164,8 @@ double cubic(const double* y, double u) {
 // where it has no neighbours.
 std::vector<double> local_fit(const std::vector<double>& track, std::span<const double> weights,
                               double deviation_frames) {
-  // What is bridged counts for next to nothing, but leaves no frame without any sample.
+  // What is bridged counts for next to nothing, but leaves no frame without any sample. Chosen by
+  // hand, not swept.
   constexpr double least_weight = 1e-4;
   const std::size_t frames = track.size();
   std::vector<double> known(weights.begin(), weights.end()), trend(frames);
@@ -212,8 +215,6 @@ std::vector<Vec3> smooth_path(std::vector<Vec3> path, std::span<const double> we
 }
 
 void continue_angles(std::span<double> angles, std::span<const double> weights) {
-  constexpr double near = pi / 3;
-  constexpr int patience_frames = 12;
   bool started = false;
   double steady = 0, previous = 0;
   int frames_away = 0;
@@ -229,7 +230,7 @@ void continue_angles(std::span<double> angles, std::span<const double> weights) 
     angles[f] = std::fabs(from_steady) < std::fabs(from_previous) ? steady + from_steady
                                                                   : previous + from_previous;
     previous = angles[f];
-    if (std::fabs(previous - steady) < near || ++frames_away > patience_frames) {
+    if (std::fabs(previous - steady) < steady_rad || ++frames_away > patience_frames) {
       steady = previous;
       frames_away = 0;
     }

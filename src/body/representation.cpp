@@ -112,8 +112,7 @@ Vec3 continue_rotation_vector(Vec3 v, Vec3 previous) {
 }
 
 Quat SignContinuation::next(Quat q) {
-  constexpr double near = 0.866;  // cosine of half of 60 degrees
-  constexpr int patience_frames = 12;
+  constexpr double near = 0.866;  // cosine of half of 60 degrees, `steady_rad`
   if (frames_away_ < 0) {
     frames_away_ = 0;
     return previous_ = steady_ = q;

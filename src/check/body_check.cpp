@@ -20,6 +20,7 @@ void put_largest(double value, std::optional<double>& largest) {
 
 void report_feet(const BodyPoints& body, Up up, const CheckSettings& settings,
                  CheckReport& report) {
+  // That of docs/check.md, `sink`. Chosen by hand, not swept.
   constexpr double close_m = 0.02;  // scale of the weights about the floor
   const std::vector<Contact> contacts = find_contacts(body, up);
   std::vector<Vec3> places;
@@ -70,9 +71,11 @@ double fall(const BodyPoints& body, Up up, const FrameSpan& span) {
 // In the air a body falls at 9.81 m/s^2, and the pelvis does so within a third. A hanging or
 // sitting body falls more slowly, so that only a rate that is too high can be detected.
 void report_rate_of_fall(const BodyPoints& body, Up up, CheckReport& report) {
+  // A rate is the root of how much too quickly a body falls. Both limits are chosen by hand, not
+  // swept.
   constexpr double gravity = 9.81, most_ratio = 2.5;  // a rate 1.6 times too high
   constexpr double least_height_m = 0.05;             // fall of the centre, above the noise
-  // Flights that must agree, and frames of one that tells a parabola.
+  // Flights that must agree, and frames of one that tells a parabola. Chosen by hand, not swept.
   constexpr std::size_t fewest_flights = 2, fewest_frames = 6;
   std::vector<double> falls;
   for (const FrameSpan& span : find_flights(body, up)) {
@@ -92,6 +95,7 @@ void report_rate_of_fall(const BodyPoints& body, Up up, CheckReport& report) {
 }
 
 void check_points(const BodyPoints& body, const CheckSettings& settings, CheckReport& report) {
+  // Of a take, fewer of which tell nothing of contacts. Chosen by hand, not swept.
   constexpr std::size_t fewest_frames = 10;
   if (body.feet.empty() || body.frames < fewest_frames) return;
   const std::optional<Up> up = settings.up ? Up{*settings.up, 1} : find_up(body);

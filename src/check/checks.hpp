@@ -13,6 +13,9 @@
 
 namespace kinemend::check {
 
+/// Frames, evenly over the take, from which what is usual is estimated: for speed, not swept.
+inline constexpr std::size_t most_looked_at = 200;
+
 /// Serious ones first, then by kind, figure, frame and track.
 void sort_worst_first(std::vector<Finding>& findings);
 

@@ -12,7 +12,7 @@ namespace {
 
 using feet::ContactThresholds, feet::sole_point, feet::SolePoint, feet::touches;
 
-// Heights and speeds are means over this time on either side.
+// Heights and speeds are means over this time on either side. Chosen by hand, not swept.
 constexpr double reach_s = 0.02;
 
 std::vector<SolePoint> sole_points(const BodyPoints& body, const Foot& foot, Up up) {
@@ -52,6 +52,7 @@ Contact measure(const std::vector<SolePoint>& points,
 }  // namespace
 
 std::vector<Contact> find_contacts(const BodyPoints& body, Up up) {
+  // Chosen by hand, not swept.
   constexpr double shortest_s = 0.1;  // shorter contacts are dropped
   std::vector<Contact> contacts;
   for (std::size_t i = 0; i < body.feet.size(); ++i) {
@@ -73,6 +74,7 @@ std::vector<Contact> find_contacts(const BodyPoints& body, Up up) {
 }
 
 std::vector<FrameSpan> find_flights(const BodyPoints& body, Up up) {
+  // Chosen by hand, not swept.
   constexpr double clear_height = 0.03;  // body heights, of all points above their level
   std::vector<std::uint8_t> clear(body.frames, 1);
   for (const Foot& foot : body.feet) {

@@ -52,7 +52,8 @@ double to_gimbal_lock(double middle, RotationOrder order) {
 
 LeapSize leap_of(const double* before, const double* now, const AngleColumns& joint,
                  double turn_deg) {
-  // Degrees of a leap; share of it that the joint turns at most; degrees from gimbal lock.
+  // Degrees of a leap; share of it that the joint turns at most; degrees from gimbal lock. Chosen
+  // by hand, not swept.
   constexpr double large = 90, share_of_leap = 0.25, near_lock = 8;
   LeapSize result;
   double whole = 0, wrapped = 0;

@@ -13,6 +13,7 @@ namespace {
 
 // Equal to the frame before to the precision of text.
 bool repeats(const Take& clip, std::size_t frame) {
+  // Rounding by writers of text; not swept.
   constexpr double same_angle = 1e-7;  // radians
   const Vec3 step = clip.root_position(frame) - clip.root_position(frame - 1);
   if (norm(step) > 1e-9 * (1 + norm(clip.root_position(frame)))) return false;
@@ -57,6 +58,7 @@ void report_low_rate(const std::vector<std::uint8_t>& repeated, CheckReport& rep
 }
 
 void report_repeats(const std::vector<std::uint8_t>& repeated, CheckReport& report) {
+  // Of a take, fewer of which tell nothing of its rate. Chosen by hand, not swept.
   constexpr std::size_t fewest_frames = 10;
   const auto count = static_cast<std::size_t>(std::count(repeated.begin(), repeated.end(), 1));
   if (repeated.size() < fewest_frames || count == 0) return;

@@ -7,6 +7,7 @@ namespace kinemend::check {
 
 void check_gaps(const std::vector<Gap>& gap_list, const std::vector<std::int32_t>& track_of,
                 CheckReport& report) {
+  // The level `serious` of docs/check.md. Chosen by hand, not swept.
   constexpr double long_gap_s = 0.5;  // longer gaps need a model to be filled reliably
   std::size_t missing = 0;
   for (const Gap& gap : gap_list) {

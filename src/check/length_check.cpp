@@ -11,9 +11,6 @@ namespace kinemend::check {
 
 namespace {
 
-constexpr std::size_t looked_at =
-    200;  // frames, evenly spread, from which usual lengths are estimated
-
 // The largest value that holds for three frames in a row, and where: single frames are spikes.
 // Negative values are unknown.
 struct Peak {
@@ -67,11 +64,12 @@ struct RigidNeighbour {
 std::vector<RigidNeighbour> rigid_neighbours(const Take& clip,
                                              const std::vector<std::size_t>& markers,
                                              std::size_t of) {
-  // Spread of a rigid distance, 10th to 90th percentile, as a share of it.
+  // Spread of a rigid distance, 10th to 90th percentile, as a share of it. Chosen by hand, not
+  // swept.
   constexpr double rigid_share = 0.04;
-  // Neighbours that are kept, and frames in which both are seen.
+  // Neighbours that are kept, and frames in which both are seen. Chosen by hand, not swept.
   constexpr std::size_t wanted = 4, fewest_frames = 20;
-  const std::size_t frames = clip.frame_count(), count = std::min(frames, looked_at);
+  const std::size_t frames = clip.frame_count(), count = std::min(frames, most_looked_at);
   std::vector<RigidNeighbour> found;
   std::vector<double> distances;
   for (const std::size_t n : markers) {

@@ -28,6 +28,7 @@ double share_without(const Counts& all, const Counts& subset) {
 }  // namespace
 
 std::vector<std::vector<FrameSpan>> improbable_runs(const FlagTable& table, std::size_t shortest) {
+  // Natural logarithm of the chance of docs/check.md, 1e-6. Chosen by hand, not swept.
   constexpr double log_chance = -13.8;  // 1e-6
   std::vector<Counts> of_step(table.steps), of_track(table.tracks);
   std::vector<std::uint8_t> is_witness(table.tracks);

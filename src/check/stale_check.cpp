@@ -17,6 +17,7 @@ namespace kinemend::check {
 
 namespace {
 
+// Spans of docs/check.md, `frozen` and `bridged`. Chosen by hand, not swept.
 constexpr std::size_t shortest_frozen_steps = 2;    // three samples in a row
 constexpr std::size_t shortest_straight_steps = 3;  // five samples in a row
 constexpr double share_of_usual = 0.01;  // of the usual step or bend, below which it counts as zero
@@ -46,7 +47,7 @@ void set_flags(const std::vector<double>& sizes, double most, std::size_t track,
 // The step of a file's digits: the smallest size but 0, where sizes of that kind are common; else
 // 0.
 double quantum(const std::vector<double>& sizes) {
-  // Share of all sizes, and within which two sizes are the same step.
+  // Share of all sizes, and within which two sizes are the same step. Chosen by hand, not swept.
   constexpr double common_share = 0.05, same = 1e-3;
   double least = std::numeric_limits<double>::infinity();
   for (const double s : sizes) {
@@ -75,6 +76,7 @@ struct ChangeScale {
 // end where it does not: the size beside it is large and not decreasing.
 bool has_sharp_end(const std::vector<double>& sizes, const FrameSpan& run,
                    const ChangeScale& scale) {
+  // Chosen by hand, not swept.
   constexpr double still_large = 0.6;  // of the size one frame farther
   const auto is_sharp = [&](std::size_t beside, std::size_t beyond) {
     return sizes[beside] > scale.clear() && sizes[beside] > still_large * sizes[beyond];
@@ -90,6 +92,7 @@ bool moves_along(const std::vector<double>& steps, const FrameSpan& run, const C
          scale.digits;
 }
 
+// Chosen by hand, not swept.
 constexpr double slack_rad = 1e-4;  // beyond the end of a hinge, by the digits of a file
 
 // The range of a hinge, a joint that turns about one axis alone, as a knee does; other joints have
@@ -101,6 +104,7 @@ struct HingeRange {
 };
 
 std::optional<HingeRange> hinge_range(const Take& clip, std::size_t joint) {
+  // Chosen by hand, not swept.
   constexpr double part_about_other_axes = 0.05;  // of the whole range
   const auto farthest_from = [&](Quat from) {
     std::pair<Quat, Vec3> farthest{from, {}};

@@ -41,7 +41,8 @@ std::optional<std::size_t> next_seen(const Take& clip, std::size_t marker, std::
 }
 
 std::optional<Exchange> exchange_of(const Take& clip, const Break& a, const Break& b) {
-  // Mismatch as exchanged over the mismatch as labelled.
+  // Mismatch as exchanged over the mismatch as labelled. A quarter: "four times less" of
+  // docs/check.md. Chosen by hand, not swept.
   constexpr double largest_doubt = 0.25;
   const double a_to_b = side_mismatch(clip, a.marker, a.before, b.marker, b.after);
   const double b_to_a = side_mismatch(clip, b.marker, b.before, a.marker, a.after);
@@ -75,6 +76,7 @@ double side_mismatch(const Take& clip, std::size_t from, std::size_t before, std
 }
 
 std::vector<Break> find_breaks(const Take& clip, const std::vector<std::size_t>& markers) {
+  // Chosen by hand, not swept.
   constexpr double clear_ratio = 6;  // of the median mismatch from frame to frame
   std::vector<Break> breaks;
   for (const std::size_t m : markers) {
@@ -131,8 +133,6 @@ std::vector<Exchange> find_exchanges(const Take& clip, const std::vector<Break>&
 
 namespace {
 
-constexpr std::size_t most_looked_at = 200;  // frames, evenly spread
-
 std::vector<std::size_t> spread_frames(const std::vector<std::uint8_t>& swapped,
                                        std::uint8_t wanted) {
   std::vector<std::size_t> frames;
@@ -156,7 +156,7 @@ struct Neighbour {
 std::vector<Neighbour> steady_neighbours(const Take& clip, const std::vector<std::size_t>& markers,
                                          std::size_t of, std::size_t except,
                                          const std::vector<std::size_t>& frames) {
-  // Neighbours that are asked, and frames in which both are seen.
+  // Neighbours that are asked, and frames in which both are seen. Chosen by hand, not swept.
   constexpr std::size_t wanted = 5, fewest_frames = 8;
   std::vector<Neighbour> found;
   std::vector<double> distances;

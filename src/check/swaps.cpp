@@ -50,7 +50,7 @@ std::vector<FrameSpan> swapped_spans(const std::vector<Exchange>& exchanges, std
 bool neighbours_agree(const Take& clip, const std::vector<std::size_t>& markers,
                       const std::pair<std::size_t, std::size_t>& pair, const FrameSpan& span,
                       const std::vector<FrameSpan>& all_spans, std::size_t longest_gap) {
-  // A gap over which an exchange is sure without neighbours.
+  // A gap over which an exchange is sure without neighbours. Chosen by hand, not swept.
   constexpr double short_gap_s = 0.03;
   std::vector<std::uint8_t> swapped(clip.frame_count());
   // Other swapped spans of the pair are left out of the usual distances.

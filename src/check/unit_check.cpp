@@ -10,6 +10,7 @@ namespace kinemend::check {
 
 namespace {
 
+// Chosen by hand, not swept.
 constexpr std::size_t fewest_joints = 10;  // of a body whose size is meaningful
 constexpr std::size_t fewest_markers = 8;  // the same
 
@@ -19,8 +20,7 @@ std::string size_text(double metres) {
 
 // The median over frames of the largest extent along an axis, file units.
 double usual_extent(const Take& clip, const std::vector<std::size_t>& markers) {
-  constexpr std::size_t looked_at = 200;  // frames, evenly over the take
-  const std::size_t frames = clip.frame_count(), count = std::min(frames, looked_at);
+  const std::size_t frames = clip.frame_count(), count = std::min(frames, most_looked_at);
   std::vector<double> extents;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t f = i * frames / count;

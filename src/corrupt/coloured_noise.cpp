@@ -98,7 +98,8 @@ std::vector<Vec3> coloured_vectors(NoiseShape shape, std::size_t frames, double 
 }
 
 std::vector<double> random_path(std::size_t frames, double rate_hz, const Random& random) {
-  // Velocities that last for some seconds, as those of a heading that a magnetometer corrects.
+  // Velocities that last for some seconds, as those of a heading that a magnetometer corrects. A
+  // corner of 0.2 Hz and its slope are chosen by hand, not swept.
   constexpr NoiseShape velocity{0.2, 4};
   // The variance of the integral of noise with density S(0) at 0 Hz grows by S(0) / 2 a second.
   const double scale = std::sqrt(2 / (60 * noise_density(velocity, 0)));

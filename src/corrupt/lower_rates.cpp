@@ -18,7 +18,7 @@ struct Moment {
   double share = 0;
 };
 
-// Times within this share of a frame are that frame.
+// Times within this share of a frame are that frame. Rounding.
 constexpr double same_frame = 1e-6;
 
 Moment moment_of(double frame, std::size_t frames) {

@@ -24,7 +24,6 @@ void refit_to(Take& clip, std::span<const Vec3> targets, const TargetOptions& op
 }
 
 double usual_cm_per_unit(const Skeleton& skeleton, Notes& notes) {
-  constexpr double usual_height_cm = 170;
   const double height = body_height(skeleton);
   double scale = height > 0 ? usual_height_cm / height : 1.0;
   if (const auto unit = guess_length_unit(skeleton)) scale = 100 * unit->metres;

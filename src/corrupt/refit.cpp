@@ -97,6 +97,7 @@ Vec3 offset_of(const Take& clip, const Bones& bones, std::size_t frame, std::siz
 
 void refit_frame(Take& clip, const Bones& bones, std::size_t frame, std::span<const Vec3> targets,
                  std::span<const std::uint8_t> may_turn, bool move_root) {
+  // Radians, or a share of a length: rounding.
   constexpr double right_enough = 1e-9;
   const Pose clean = forward_kinematics(clip, frame);
   Pose fitted = clean;
@@ -135,6 +136,7 @@ void refit_frame(Take& clip, const Bones& bones, std::size_t frame, std::span<co
 }  // namespace
 
 Quat fit_rotation(Quat clean, std::span<const Vec3> from, std::span<const Vec3> to) {
+  // File units; a bone that is shorter has no direction: rounding.
   constexpr double no_length = 1e-9;
   std::vector<Vec3> bones, aims;
   for (std::size_t i = 0; i < from.size(); ++i) {

@@ -12,6 +12,7 @@ namespace kinemend::corrupt {
 
 namespace {
 
+// Channels that turn by less over a take are still, but for rounding.
 constexpr double moving_range = 0.001 * radians_per_degree;
 
 // q <- q Exp(n(f)) for every frame of every joint; `noise` draws from the joint's own generator,

@@ -145,7 +145,6 @@ std::vector<std::size_t> position_markers(const Take& clip) {
 }
 
 VectorMotion vectors_of(const Take& clip, const std::vector<std::size_t>& markers) {
-  constexpr double usual_height_cm = 170;
   const double height = body_height(clip), unit_m = metres_per_unit(clip.unit);
   VectorMotion motion;
   motion.values = PoseMatrix(clip.frame_count(), 3 * markers.size());
@@ -153,7 +152,7 @@ VectorMotion vectors_of(const Take& clip, const std::vector<std::size_t>& marker
   motion.is_rotation.assign(markers.size(), 0);
   motion.is_root.assign(markers.size(), 0);
   motion.per_radian = height / 4;
-  motion.per_cm = unit_m > 0 ? 0.01 / unit_m : height / usual_height_cm;
+  motion.per_cm = unit_m > 0 ? 0.01 / unit_m : height / corrupt::usual_height_cm;
   motion.up_axis = static_cast<int>(guess_up_axis(clip));
   for (const std::size_t m : markers) motion.names.push_back(clip.names[m]);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {

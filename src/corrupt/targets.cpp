@@ -41,6 +41,7 @@ std::vector<std::size_t> child_counts(const Skeleton& skeleton) {
 
 // The first joint of each joint's limb, before short limbs are joined to others.
 std::vector<std::size_t> limb_heads(const Skeleton& skeleton) {
+  // As the header says: hips and chest, by definition.
   constexpr int dividing_branchings = 2;
   const auto children = child_counts(skeleton);
   std::vector<std::size_t> heads(skeleton.joint_count());
@@ -59,6 +60,7 @@ std::vector<std::size_t> limb_heads(const Skeleton& skeleton) {
 }
 
 void join_short_limbs(const Skeleton& skeleton, std::vector<std::size_t>& heads) {
+  // Joints, as the header says, by definition.
   constexpr std::size_t shortest = 3;
   for (std::size_t head = skeleton.joint_count(); head-- > 0;) {
     if (heads[head] != head || skeleton.parents[head] < 0) continue;

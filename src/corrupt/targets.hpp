@@ -12,6 +12,9 @@
 
 namespace kinemend::corrupt {
 
+/// Of a person, where a take does not tell its unit. A round number, chosen by hand.
+inline constexpr double usual_height_cm = 170;
+
 /// Which joints a damage may touch. Every damage has these options.
 struct TargetOptions {
   TargetOptions() {}   // g++ 12 takes an implicit one for a use of uninitialised memory

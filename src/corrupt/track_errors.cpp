@@ -12,10 +12,11 @@ namespace kinemend::corrupt {
 
 namespace {
 
-// Of floor and motion noise.
+// Of floor and motion noise. Steep, so that there is a corner; chosen by hand, not swept.
 constexpr double fast_slope = 4;
 
-// Generators of what tracks have in common, beyond the numbers of any track.
+// Generators of what tracks have in common, beyond the numbers of any track. Any such would do, by
+// definition.
 constexpr std::uint64_t body_stream = std::uint64_t{1} << 40;
 constexpr std::uint64_t limb_stream = std::uint64_t{1} << 41;
 
@@ -58,7 +59,8 @@ const TrackErrors::Limb& TrackErrors::limb(std::size_t number) {
 
 // Of unit depth factor: a track multiplies its depth.
 std::vector<Vec3> TrackErrors::limb_errors(const Random& random) const {
-  // A tracker that loses a limb and finds it again does so within two frames of 30 Hz.
+  // A tracker that loses a limb and finds it again does so within two frames of 30 Hz. Chosen by
+  // hand, not swept.
   constexpr double edge_s = 2 / 30.0;
   std::vector<Vec3> errors;
   if (!(noise_.limb_error_mm > 0)) return errors;

@@ -10,6 +10,7 @@ namespace kinemend::feet {
 /// work(first, end) for blocks that together are [first, end), in any order and in several threads.
 template <class Work>
 void for_blocks(std::size_t first, std::size_t end, const Work& work) {
+  // For speed, not swept.
   constexpr std::size_t least = 256;  // frames, a share of work
   for_each_range(first, end, least, work);
 }

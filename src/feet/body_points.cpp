@@ -18,7 +18,8 @@ Vec3 level_part(Vec3 v, Up up) {
 }
 
 std::optional<Up> find_up(const BodyPoints& body) {
-  // Distance from feet to the body's middle along one axis over that along any other.
+  // Distance from feet to the body's middle along one axis over that along any other. Chosen by
+  // hand, not swept.
   constexpr double clear_ratio = 2;
   Vec3 sum;
   for (std::size_t f = 0; f < body.frames; ++f) {

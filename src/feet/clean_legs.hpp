@@ -9,7 +9,8 @@
 
 namespace kinemend::feet {
 
-// Lengths by which floors are judged, in body heights.
+// Lengths by which floors are judged, in body heights. Chosen by hand, not swept; the height is
+// that of docs/feet.md.
 inline constexpr double usual_height_m = 1.7;    ///< converts metres
 inline constexpr double close_to_floor = 0.012;  ///< 2 cm
 

@@ -102,7 +102,7 @@ class ContactFinder {
   // A foot is at rest and carries the body: it stands on a step.
   bool is_step(std::size_t leg, std::size_t first, std::size_t last) const {
     // Time of a stand, and of its part in which it is the lowest foot (docs/feet-details.md,
-    // "Level"); way in body heights.
+    // "Level"); way in body heights. Chosen by hand, not swept.
     constexpr double least_s = 0.15, least_lowest_s = 0.1, most_travel = 0.02;
     if (last - first + 1 < std::max<std::size_t>(frames_in(least_s), 2)) return false;
     std::vector<double> heights;
@@ -130,7 +130,8 @@ class ContactFinder {
   // height.
   std::pair<std::size_t, std::size_t> trimmed(const SolePoint& sole,
                                               std::pair<std::size_t, std::size_t> span) const {
-    // See docs/feet-details.md, "Ends"; body heights a second, and body heights: 1 cm.
+    // See docs/feet-details.md, "Ends"; body heights a second, and body heights: 1 cm. Chosen by
+    // hand, not swept.
     constexpr double times_median = 2.5, sure_speed = 0.05, sure_height = 0.006;
     std::size_t first = span.first, last = span.second;
     const auto part = [&](const std::vector<double>& values) {

@@ -56,7 +56,8 @@ Plane fit(const std::vector<Vec3>& places, const std::vector<double>& weights, U
 
 std::vector<double> depths_below_floor(const std::vector<Vec3>& places, Up up, double close_to,
                                        double metre) {
-  // Share of the places that must be close to a floor, and rounds of reweighting.
+  // Share of the places that must be close to a floor, and rounds of reweighting. Chosen by hand,
+  // not swept.
   constexpr double most_share = 2.0 / 3;
   constexpr int rounds = 20;
   std::vector<double> depths(places.size()), weights(places.size(), 1);

@@ -12,7 +12,8 @@ namespace kinemend::feet {
 
 namespace {
 
-// In body heights, and body heights a second.
+// In body heights, and body heights a second. The verdicts of docs/feet.md, chosen by hand, not
+// swept.
 constexpr double least_travel =
     0.018;  // 3 cm: rolling of the foot and movement of the skin during a stand
 constexpr double least_jitter = 0.13;  // length of the path to and fro a second: 22 cm/s
@@ -62,7 +63,8 @@ struct Judge {
 
   // During most stands the length of the path far exceeds the displacement.
   bool take_jitters() const {
-    // Length of the path over the displacement.
+    // Length of the path over the displacement. A verdict of docs/feet.md, chosen by hand, not
+    // swept.
     constexpr double least_ratio = 1.5;
     std::size_t frames = 0, jittery = 0;
     for (const FootContact& c : contacts) {
@@ -79,7 +81,8 @@ struct Judge {
 
   // Most of the displacement occurs while another foot stands nearly still.
   bool slides_beside_standing_foot(const FootContact& c, double way) const {
-    // Share of the displacement, and the other foot's displacement over it.
+    // Share of the displacement, and the other foot's displacement over it. A verdict of
+    // docs/feet.md, chosen by hand, not swept.
     constexpr double least_share = 0.5, most_other = 0.25;
     for (const FootContact& other : contacts) {
       if (other.leg == c.leg) continue;
@@ -95,7 +98,7 @@ struct Judge {
 
   // The body moves along with the foot, and not slowly.
   bool glides(const FootContact& c) const {
-    // Foot's displacement over the body's, and the cosine between them.
+    // Foot's displacement over the body's, and the cosine between them. Chosen by hand, not swept.
     constexpr double least_share = 0.5, least_cosine = 0.8;
     const Vec3 own = moved(Soles::point_of(c), c.first_frame, c.last_frame);
     const auto hips = [&](std::size_t frame) {

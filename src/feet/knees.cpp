@@ -13,7 +13,8 @@ namespace kinemend::feet {
 namespace {
 
 // Changes of equal weight to a knee angle that oscillates by a radian at `knee_hz`; the weight of
-// the knee's changes grows with the fourth power of their rate.
+// the knee's changes grows with the fourth power of their rate. All of these are chosen by hand,
+// not swept.
 constexpr double knee_hz = 4;
 constexpr double root_room = 0.02;          // body heights, up or down
 constexpr double turn_room = 1;             // radians of the foot about its point of contact
@@ -94,7 +95,8 @@ class KneeEasing {
   // Frames from `first` until `end`. After the first step only those near a remaining pop of a
   // knee.
   void ease_thoroughly(std::size_t first, std::size_t end) {
-    // Up to twice more, around what still pops (docs/feet-details.md, "Knees that do not pop").
+    // Up to twice more, around what still pops (docs/feet-details.md, "Knees that do not pop"). Not
+    // swept.
     constexpr int more_rounds = 2;
     constexpr double around_s = 0.1;
     const auto around = static_cast<std::size_t>(std::ceil(around_s * motion_.frame_rate_hz));
@@ -119,7 +121,7 @@ class KneeEasing {
 
   // The change of a knee's angle has a kink.
   bool pops(std::size_t frame, std::size_t first, std::size_t end) const {
-    // Second difference of the change.
+    // Second difference of the change. Chosen by hand, not swept.
     constexpr double most_rad = 0.3 * radians_per_degree;
     const auto change = [&](std::size_t f, std::size_t l) {
       return f < first || f >= end ? 0 : changes_[f * legs_ + l];
@@ -155,6 +157,7 @@ class KneeEasing {
   }
 
   LegState state(std::size_t i) const {
+    // Chosen by hand, not swept.
     constexpr double least_sine = 0.12;  // a straight knee turns by degrees per millimetre
     const Stretch stretch = this->stretch(i);
     LegState leg;
@@ -264,6 +267,7 @@ class KneeEasing {
 
   // The foot turns for its share of the change; its distance from the hip provides the rest.
   void apply(std::size_t i, double bend, double by_root) const {
+    // Chosen by hand, not swept.
     constexpr double most_turn = 0.35;  // radians in one step of Gauss and Newton
     FootTarget& foot = targets_[i];
     const LegState& before = states_[i];

@@ -17,6 +17,9 @@ namespace {
 
 constexpr auto heel = static_cast<std::size_t>(FootPart::heel);
 constexpr auto toe = static_cast<std::size_t>(FootPart::toe);
+// Share of the way from ankle to toe that the heel lies behind the ankle (docs/feet-details.md).
+// Chosen by hand, not swept.
+constexpr double heel_behind = 0.25;
 
 std::size_t index_of(std::int32_t joint) { return static_cast<std::size_t>(joint); }
 
@@ -133,9 +136,8 @@ std::vector<std::size_t> needed_joints(const Skeleton& skeleton, const std::vect
 // Mean height of a foot's toe below the ankle and way from ankle to toe, in the ankle's frame, over
 // the frames in which both are at their usual level.
 std::optional<Vec3> heel_of_flat_foot(const LegMotion& motion, std::size_t leg, Up up) {
-  // Share of the way from ankle to toe that the heel lies behind the ankle (docs/feet-details.md);
-  // of the mean on either side; time that a foot must stand flat.
-  constexpr double behind = 0.25, reach_s = 0.02, least_s = 0.1;
+  // Of the mean on either side; time that a foot must stand flat. Chosen by hand, not swept.
+  constexpr double reach_s = 0.02, least_s = 0.1;
   BodyPoints body;
   body.frames = motion.frames;
   body.points = 2;
@@ -158,7 +160,7 @@ std::optional<Vec3> heel_of_flat_foot(const LegMotion& motion, std::size_t leg, 
     if (down[0][f] == 0 || down[1][f] == 0) continue;
     const Vec3 ahead = body.at(f, 1) - body.at(f, 0);
     const Vec3 drop = ahead - level_part(ahead, up);
-    sum += rotate(conjugate(motion.pose(f, leg).ankle), drop - behind * level_part(ahead, up));
+    sum += rotate(conjugate(motion.pose(f, leg).ankle), drop - heel_behind * level_part(ahead, up));
     ++count;
   }
   if (count < least_s * motion.frame_rate_hz) return std::nullopt;
@@ -167,8 +169,9 @@ std::optional<Vec3> heel_of_flat_foot(const LegMotion& motion, std::size_t leg, 
 
 // The same of the rest pose, if the toes point ahead in it; else the ankle itself.
 Vec3 heel_at_rest(const Take& clip, const LegModel& model, Up up) {
-  // As above; and the level share of the way from ankle to toe of a foot that points ahead.
-  constexpr double behind = 0.25, least_ahead = 0.5;
+  // The level share of the way from ankle to toe of a foot that points ahead. Chosen by
+  // hand, not swept.
+  constexpr double least_ahead = 0.5;
   Take rest;
   rest.skeleton = clip.skeleton;
   rest.positions.resize(1);
@@ -177,7 +180,7 @@ Vec3 heel_at_rest(const Take& clip, const LegModel& model, Up up) {
   const Vec3 ahead = rotate(ankle, model.sole[toe]);
   const Vec3 level = level_part(ahead, up);
   if (norm(level) < least_ahead * norm(ahead)) return {};
-  return rotate(conjugate(ankle), ahead - level - behind * level);
+  return rotate(conjugate(ankle), ahead - level - heel_behind * level);
 }
 
 }  // namespace

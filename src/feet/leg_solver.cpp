@@ -57,7 +57,8 @@ KneeTurn knee_turn(const LegPose& pose, const LegModel& model) {
 // A knee with one channel for it turns about that; a free one in the plane of the leg, which is
 // that of the usual hinge where the leg is straight.
 Vec3 hinge_of(const LegPose& pose, const LegModel& model, KneeTurn turn) {
-  // Sine of the bend from which the leg's own plane counts more than the usual hinge.
+  // Sine of the bend from which the leg's own plane counts more than the usual hinge. Chosen by
+  // hand, not swept.
   constexpr double clear_bend = 0.1;
   const Vec3 usual = rotate(pose.knee_parent, model.hinge);
   Vec3 hinge = usual;
@@ -126,6 +127,7 @@ class Leg {
         reach_(reach_of(pose, circle_, turn_, soft_reach, target.hold)) {}
 
   LegRotations solve() {
+    // Chosen by hand, not swept.
     constexpr int rounds = 8;  // hip and ankle depend on each other where channels are missing
     foot_ = target_.rotation;
     const bool is_limited = model_.hip.order.count < 3 || model_.ankle.order.count < 3;

@@ -14,7 +14,7 @@ namespace kinemend::feet {
 
 namespace {
 
-// In body heights.
+// In body heights. Chosen by hand, not swept.
 constexpr double most_sink = 0.006;  // 1 cm: deeper is lifted
 
 class Placement {
@@ -127,6 +127,7 @@ struct Edge {
 // The shift and, by a parabola through three frames inside the contact, its slope.
 Edge edge_at(const BodyPoints& body, const PartCorrection& part, std::size_t frame,
              const FootContact& contact) {
+  // A frame at 120 Hz, over which the slope is taken. Chosen by hand, not swept.
   constexpr double step_s = 0.008, most_speed = 0.5;  // body heights a second: faster is jitter
   const auto wanted =
       static_cast<std::size_t>(std::max(1L, std::lround(step_s * body.frame_rate_hz)));
@@ -226,7 +227,8 @@ FootTarget foot_target(const LegPose& pose, const LegModel& model, const PartCor
   target.rotation = pose.ankle;
   const Vec3 heel_shift = heel.shift[frame], toe_shift = toe.shift[frame];
   target.moves = norm(heel_shift) > least_shift || norm(toe_shift) > least_shift;
-  // A part in contact is the pivot; between contacts the pivot moves from one to the other.
+  // A part in contact is the pivot; between contacts the pivot moves from one to the other. Against
+  // division by zero; far below rounding.
   constexpr double tiny = 1e-12;
   const double share = (1 - h + tiny) / ((1 - h) + (1 - t) + 2 * tiny);
   target.pivot = (1 - share) * model.sole[0] + share * model.sole[1];

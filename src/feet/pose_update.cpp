@@ -12,10 +12,11 @@ namespace kinemend::feet {
 namespace {
 
 // Deviations of a part from its place, in body heights: of feet that stand, which roll and whose
-// skin moves, and what is added as the correction fades.
+// skin moves, and what is added as the correction fades. Chosen on walks, runs and dances that no
+// table uses (docs/feet-details.md).
 constexpr double contact_deviation = 0.003, fading_deviation = 0.03;
 // Square radians of a joint for a square body height of a part: mean squares of the levers, and
-// that half of the error is in the place itself.
+// that half of the error is in the place itself. Chosen on the same takes.
 constexpr double squares_per_part = 5;
 // Rounds of Gauss and Newton (docs/feet-details.md); turn and shift of a root; turns of hip, knee
 // and ankle.

@@ -12,6 +12,7 @@ namespace {
 // The least way down after which the ankle is within reach; 0 where lowering does not help.
 double drop_for(const LegPose& pose, const Reach& reach, const FootTarget& target, Up up) {
   // Share of the leg's length that a root goes down at most, and how upright the leg must be.
+  // Chosen by hand, not swept.
   constexpr double most_share = 0.1, least_cosine = 0.5;
   const Vec3 ankle_at = target.place - rotate(target.rotation, target.pivot);
   const Vec3 way = ankle_at - pose.hip_at;

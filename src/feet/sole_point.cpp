@@ -30,7 +30,7 @@ std::vector<Vec3> smoothed(const BodyPoints& body, std::size_t point, double rea
 
 double standing_level(const SolePoint& point, double body_height, double slow) {
   // Quantile of heights that stands for the lowest, and body heights above it where a part may
-  // stand.
+  // stand. Chosen by hand, not swept.
   constexpr double low = 0.02, near_low = 0.06;
   std::vector<double> heights;
   for (std::size_t f = 0; f < point.heights.size(); ++f) {

@@ -20,7 +20,8 @@ struct SolePoint {
 };
 
 /// Thresholds of low (body heights above a level) and slow (body heights a second): those to begin
-/// a contact are tighter than those to continue it (hysteresis).
+/// a contact are tighter than those to continue it (hysteresis). Chosen by hand (docs/feet.md), not
+/// swept.
 struct ContactThresholds {
   double begin_height = 0.015, keep_height = 0.03;
   double begin_speed = 0.15, keep_speed = 0.25;

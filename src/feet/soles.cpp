@@ -16,6 +16,10 @@ ContactThresholds thresholds_of(const ContactSettings& s) {
   return {s.begin_height, s.keep_height, s.begin_speed, s.keep_speed};
 }
 
+// Means are taken over 20 to 100 ms on either side (docs/feet-details.md, "Jitter"). Chosen by
+// hand, not swept.
+constexpr double least_mean_s = 0.02, most_mean_s = 0.1;
+
 // Noise of a coordinate of one frame, from third differences, in which motion is small.
 double noise_of(const BodyPoints& body, std::size_t point) {
   constexpr double of_third_differences = 4.4721359549995796;  // the root of 1 + 9 + 9 + 1
@@ -32,17 +36,17 @@ double noise_of(const BodyPoints& body, std::size_t point) {
 
 // The reach at which the noise of speeds is well below the threshold of slow.
 double least_reach_s(const BodyPoints& body, std::size_t point, double slow) {
-  // 20 to 100 ms on either side (docs/feet-details.md, "Jitter"); share of the threshold that the
-  // noise of speeds may have.
-  constexpr double least_s = 0.02, most_s = 0.1, share = 0.3;
+  // Share of the threshold that the noise of speeds may have. Chosen by hand, not swept.
+  constexpr double share = 0.3;
   const double allowed = share * slow * body.height;
-  if (!(allowed > 0)) return least_s;
+  if (!(allowed > 0)) return least_mean_s;
   const double needed_s = std::sqrt(2.0) * noise_of(body, point) / allowed / 2;
-  return std::clamp(needed_s, least_s, most_s);
+  return std::clamp(needed_s, least_mean_s, most_mean_s);
 }
 
 // Speed of the slower frames in which the point is at its standing level.
 double standing_speed(const SolePoint& point, double low) {
+  // Chosen by hand, not swept.
   constexpr double slower_share = 0.2;  // quantile
   std::vector<double> speeds;
   for (std::size_t f = 0; f < point.heights.size(); ++f) {
@@ -56,15 +60,15 @@ double standing_speed(const SolePoint& point, double low) {
 // while it slows them; where stands are short, as in running, more would mix them with the swing.
 SolePoint quiet_sole_point(const BodyPoints& body, std::size_t point, Up up,
                            const ContactSettings& settings) {
-  // Share of the threshold at which a foot stands well; growth of the window, up to 100 ms; share
-  // by which a wider one must slow standing feet.
-  constexpr double quiet = 0.35, times = 1.6, most_s = 0.1, least_gain = 0.15;
+  // Share of the threshold at which a foot stands well; growth of the window; share by which a
+  // wider one must slow standing feet. Chosen by hand, not swept.
+  constexpr double quiet = 0.35, times = 1.6, least_gain = 0.15;
   const double low = settings.begin_height * body.height;
   double reach_s = least_reach_s(body, point, settings.begin_speed);
   SolePoint best = sole_point(body, point, up, thresholds_of(settings), reach_s);
   double speed = standing_speed(best, low);
-  while (speed > quiet * settings.begin_speed * body.height && reach_s < most_s) {
-    reach_s = std::min(times * reach_s, most_s);
+  while (speed > quiet * settings.begin_speed * body.height && reach_s < most_mean_s) {
+    reach_s = std::min(times * reach_s, most_mean_s);
     SolePoint next = sole_point(body, point, up, thresholds_of(settings), reach_s);
     const double slower = standing_speed(next, low);
     if (slower > (1 - least_gain) * speed) break;
@@ -77,6 +81,7 @@ SolePoint quiet_sole_point(const BodyPoints& body, std::size_t point, Up up,
 // A faster body rolls its feet faster, and their stands are so short that smoothing mixes them with
 // the swing.
 std::vector<double> paces_of(const LegMotion& motion, Up up) {
+  // Chosen by hand, not swept.
   constexpr double walk = 1.2;     // body heights a second: from 2 m/s on people run
   constexpr double reach_s = 0.1;  // on either side, over which the speed is measured
   const auto reach = static_cast<std::size_t>(std::lround(reach_s * motion.frame_rate_hz));

@@ -165,6 +165,7 @@ namespace {
 // One line for each reason why gaps that a model was asked to fill were left to `auto`.
 std::vector<std::string> left_to_auto(const std::vector<FilledGap>& gaps,
                                       const std::vector<std::string>& names) {
+  // Chosen by hand.
   constexpr std::size_t most_names = 5;  // in one line
   struct Left {
     std::string reason;

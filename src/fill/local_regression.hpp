@@ -55,6 +55,7 @@ class LocalRegression {
   Rows training_inputs() const;
   Rows training_outputs() const;
 
+  // Not swept.
   static constexpr std::size_t least_training_frames = 8;  // fewer say nothing of a model
 
  private:

@@ -25,7 +25,7 @@ struct JointContext {
   CurveSettings curve() const { return {.frame_rate_hz = frame_rate_hz}; }
 };
 
-/// Lengths for which `JointRules::usual_errors` stand.
+/// Lengths for which `JointRules::usual_errors` stand. By definition.
 inline constexpr std::array usual_lengths_s = {0.05, 0.1, 0.25, 0.5, 1.0, 2.0};
 
 /// How a method is judged among those for joints. Limits are not swept.

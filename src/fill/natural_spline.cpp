@@ -168,6 +168,7 @@ double NaturalSpline::cross_validation_score() const {
 }
 
 double NaturalSpline::fit_by_cross_validation(double least, double most) {
+  // Fine enough by the steps of the coarse grid; not swept.
   constexpr int fine = 6;  // halvings: to a 64th of the grid's step
   const double low = std::log(least), width = std::log(most) - low;
   // The score has its minima no nearer to each other than a factor of about 16.

@@ -80,6 +80,7 @@ bool PlanRows::knows(std::string_view name) const {
 }
 
 std::string PlanRows::gaps_of(std::string_view name, bool is_position) const {
+  // Chosen by hand.
   constexpr std::size_t most = 5;  // in one line
   std::string text;
   std::size_t count = 0;

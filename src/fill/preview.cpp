@@ -156,6 +156,7 @@ void preview_methods(const Take& clip, std::vector<PlannedGap>& plan, const Fill
 
 GapCurves preview_curves(const Take& clip, std::span<const PlannedGap> plan, std::size_t row,
                          const FillCheck& check, const FillModels& models) {
+  // Chosen by hand.
   constexpr double around_s = 0.5;         // shown on either side
   constexpr std::size_t least_around = 8;  // frames
   if (row >= plan.size())

@@ -1,6 +1,4 @@
 // Reads whole files, and writes them so that an output is complete or not there at all.
-#include <fmt/format.h>
-
 #include <cerrno>
 #include <system_error>
 
@@ -8,7 +6,6 @@
 #include "base/file_bytes.hpp"
 #include "base/platform/files.hpp"
 #include "base/platform/temporary_file.hpp"
-#include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
 
 namespace kinemend {
@@ -17,16 +14,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail_writing(const fs::path& path, std::string_view why) {
-  throw Error(ErrorKind::cannot_write, fmt::format("{}: {}", path.string(), why));
-}
+using platform::fail_writing;
 
 // A symbolic link stays one; what it points to is replaced, or made where it is not there.
 fs::path without_links(fs::path path) {
   constexpr int most_links = 40;  // as the kernel has it
   std::error_code error;
   for (int links = 0; fs::is_symlink(path, error); ++links) {
-    if (links == most_links) fail_writing(path, platform::words_of(ELOOP));
+    if (links == most_links) fail_writing(path, ELOOP);
     const fs::path next = fs::read_symlink(path, error);
     if (error) fail_writing(path, error.message());
     path = path.parent_path() / next;
@@ -37,8 +32,7 @@ fs::path without_links(fs::path path) {
 // A pipe, a terminal or /dev/null is written to, not replaced.
 void write_through(const fs::path& path, std::string_view bytes) {
   const Descriptor file(platform::open_to_write(path));
-  if (file.get() < 0 || !platform::write_all(file.get(), bytes))
-    fail_writing(path, platform::words_of(errno));
+  if (file.get() < 0 || !platform::write_all(file.get(), bytes)) fail_writing(path, errno);
 }
 
 }  // namespace
@@ -48,16 +42,16 @@ std::string read_file(const fs::path& path) { return file_bytes(path); }
 void write_file(const fs::path& path, std::string_view bytes, bool overwrite) {
   if (path == "-") {
     if (!platform::write_all(platform::standard_output, bytes))
-      fail_writing("standard output", platform::words_of(errno));
+      fail_writing("standard output", errno);
     return;
   }
   using platform::FileKind;
   const platform::FileFacts old = platform::facts_of(path);
   const bool exists = old.kind != FileKind::none;
-  if (old.kind == FileKind::folder) fail_writing(path, platform::words_of(EISDIR));
+  if (old.kind == FileKind::folder) fail_writing(path, EISDIR);
   if (old.kind == FileKind::other) return write_through(path, bytes);
   if (exists && !overwrite) fail_writing(path, "exists already and may not be replaced");
-  if (exists && !platform::may_write(path)) fail_writing(path, platform::words_of(errno));
+  if (exists && !platform::may_write(path)) fail_writing(path, errno);
   const fs::path target = without_links(path);
   platform::TemporaryFile file(target);
   if (exists) file.take_permissions(old);

@@ -22,6 +22,7 @@ namespace kinemend {
 
 namespace {
 
+// Chosen by hand: more than any head that is looked for.
 constexpr std::size_t sniffed_bytes = 4096;
 
 std::string known_formats(bool only_readable) {

@@ -12,6 +12,7 @@ namespace kinemend {
 
 namespace {
 
+// Chosen by hand (docs/live.md).
 constexpr unsigned value_decimals = 6, quaternion_decimals = 8;
 
 }  // namespace
@@ -77,7 +78,7 @@ void JointWriter::start_near(const std::vector<double>& values) {
   for (std::size_t j = 0; j < angles_.size(); ++j) {
     const MotionColumns::Rotation& rotation = columns_.rotations()[j];
     for (std::size_t i = 0; i < rotation.order.count; ++i) {
-      // An angle of more turns would have no digits after the decimal point.
+      // An angle of more turns would have no digits after the decimal point. Chosen by hand.
       constexpr double most_degrees = 1e9;
       const double degrees = values[rotation.columns[i]];
       angles_[j][i] = (std::fabs(degrees) > most_degrees ? std::fmod(degrees, 360.0) : degrees) *

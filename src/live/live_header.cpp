@@ -14,6 +14,7 @@ namespace kinemend {
 
 namespace {
 
+// Where a header tells no rate; and a limit of the stack. Chosen by hand.
 constexpr double rate_when_unknown_hz = 30;
 constexpr std::size_t most_depth = 512;
 
@@ -70,6 +71,7 @@ bool begins_header(std::string_view line, bool surely) {
 bool is_marker_header(std::string_view line) { return first_word(line) == "MARKERS"; }
 
 LiveHeader read_marker_header(std::string_view line, double frame_rate_hz) {
+  // As of tables (io/table/marker_table.hpp), by definition.
   constexpr std::size_t most_markers = 16384;
   const auto fail = [](std::string_view what) {
     throw Error(ErrorKind::unreadable_input, fmt::format("header of markers: {}", what));

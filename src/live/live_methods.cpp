@@ -16,6 +16,7 @@ bool is_learned(const Method& method) {
 }
 
 bool runs_live(const Method& method, const OptionValues& options) {
+  // A rate as any other, by definition.
   constexpr double any_rate_hz = 120;
   try {
     return method.make(options)->live_support(any_rate_hz).runs();

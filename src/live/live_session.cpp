@@ -20,7 +20,7 @@ namespace kinemend {
 
 namespace {
 
-// Notes that bad headers get; more are only counted.
+// Notes that bad headers get; more are only counted. Chosen by hand.
 constexpr std::size_t most_header_notes = 3;
 
 void check(const LiveOptions& options) {

@@ -18,6 +18,8 @@ namespace {
 using metrics::FittedMarker;
 using metrics::MarkerPair;
 
+// The bands of docs/noise.md and their filter, by definition; the fewest frames and the longest lag
+// are chosen by hand, not swept.
 constexpr double cuts_hz[] = {2, 6, 15};
 constexpr std::size_t jitter_cut = 1;  // 6 Hz
 constexpr int filter_order = 4;
@@ -198,6 +200,7 @@ double disagreement(const Take& reference, const Take& other, std::ptrdiff_t lag
 
 // So many frames from the middle of a take.
 Take middle_of(const Take& clip) {
+  // For speed, not swept.
   constexpr std::size_t most_frames = 4000;
   const std::size_t frames = clip.frame_count(), kept = std::min(frames, most_frames);
   const std::size_t first = (frames - kept) / 2;

@@ -14,6 +14,7 @@ namespace kinemend::metrics {
 
 namespace {
 
+// Chosen by hand, not swept.
 constexpr double rate_tolerance = 1e-3;  // relative: 29.97 and 30 are not the same
 
 double scale_between(const Take& reference, const Take& other) {
@@ -35,6 +36,7 @@ struct ChannelSums {
   }
   double variance() const { return xx - x * x / count; }
   double gain() const {
+    // Of the square of the size: rounding. Not swept.
     constexpr double standing_still = 1e-12;
     return variance() > standing_still * xx ? (xy - x * y / count) / variance() : 1;
   }

@@ -35,6 +35,7 @@ struct Peaks {
 /// How long the longest of `count` vectors of white noise may well be, of a standard deviation of 1
 /// along each of their three axes: one in twenty such sets holds a longer one.
 inline double longest_of_noise(std::size_t count) {
+  // One in twenty, by definition.
   constexpr double chance = 0.05;
   const double expected = static_cast<double>(std::max<std::size_t>(count, 1)) / chance;
   // P(length > r) = sqrt(2 / pi) r exp(-r^2 / 2) where r is large.
@@ -57,6 +58,7 @@ inline double order_of_distance(Vec3 a, Vec3 b) { return dot(a - b, a - b); }
 template <class Sample>
 void leave_out_spikes(const std::vector<Sample>& track, double noise,
                       std::vector<std::uint8_t>& left_out) {
+  // In deviations of the noise, and as a detour over the way past it. Chosen by hand, not swept.
   constexpr double clear_noise = 8, clear_detour = 3;
   for (std::size_t f = 1; f + 1 < track.size(); ++f) {
     if (second_difference(track[f - 1], track[f], track[f + 1]) < 2 * clear_noise * noise) continue;
@@ -91,6 +93,7 @@ double peak_speed(const std::vector<Sample>& track, const std::vector<std::uint8
 template <class Sample>
 Peaks measure_peaks(const std::vector<Sample>& before, const std::vector<Sample>& after,
                     std::vector<std::uint8_t> left_out, const SampleNoise& noise, double rate_hz) {
+  // The window of a peak, and the share of it that noise may have. Chosen by hand, not swept.
   constexpr double longest_s = 0.05;
   constexpr double noise_share = 0.1;
   const double longest = longest_of_noise(before.size());

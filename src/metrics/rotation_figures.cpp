@@ -17,6 +17,7 @@ namespace {
 
 using Angles = std::array<double, 3>;
 
+// Channels that turn by less over a take are still, but for rounding. Chosen by hand, not swept.
 constexpr double moving_range = 0.001 * radians_per_degree;
 
 bool counts_in_rms(const Skeleton& skeleton, std::size_t joint) {

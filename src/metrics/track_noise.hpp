@@ -20,7 +20,7 @@ double track_noise(std::span<const Vec3> track, std::size_t most_samples = 4096)
 /// the points' unit) of which it would be the median.
 double second_difference(Quat a, Quat b, Quat c);
 double second_difference(Vec3 a, Vec3 b, Vec3 c);
-/// Noise per axis divided by the median second difference.
+/// Noise per axis divided by the median second difference. By definition: the root of 1 + 4 + 1.
 inline constexpr double noise_per_second_difference = 1 / (median_of_chi3 * 2.449489742783178);
 
 }  // namespace kinemend

@@ -73,6 +73,7 @@ struct Wandering {
 // `visit(frame, use)` calls `use` with every point of a frame.
 template <class Visit>
 Axis up_axis(std::size_t frames, Axis fallback, Visit visit) {
+  // Frames, evenly over the take: for speed, not swept.
   constexpr std::size_t looked_at = 400;
   std::array<Wandering, 3> axes;
   for (std::size_t f = 0; f < frames; f += 1 + frames / looked_at) {

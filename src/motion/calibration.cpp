@@ -71,6 +71,7 @@ Turn turn_between(const Take& clip, std::size_t first, std::size_t second) {
 // The pose of a calibration frame: roots may be turned, joints are nearly at rest. The T-pose
 // of the CMU files turns hips and feet by up to 21 degrees, 3.5 on average.
 bool is_near_rest(const Take& clip, std::size_t frame) {
+  // Chosen by hand, above what these files have; not swept.
   constexpr double largest = 25 * radians_per_degree, largest_mean = 6 * radians_per_degree;
   double sum = 0;
   std::size_t joints = 0;
@@ -110,6 +111,8 @@ const Take& frames_from(const Take& clip, std::size_t first, std::optional<Take>
 }
 
 std::size_t leading_calibration_frames(const Take& clip) {
+  // Frames of a calibration pose at most, and those that are compared; the jump to the motion, and
+  // how it must exceed those within the motion. Chosen by hand, not swept.
   constexpr std::size_t most_frames = 10, compared_frames = 240;
   constexpr double clear_jump = 25 * radians_per_degree, clear_ratio = 1.5;
   const std::size_t frames = std::min(clip.frame_count(), compared_frames);

@@ -14,6 +14,7 @@ namespace kinemend {
 
 namespace {
 
+// Limits memory; chosen by hand.
 constexpr double most_samples = 1e8;
 
 // Position of a new frame among the old ones: `share` of the way from `before` to `before + 1`.
@@ -25,6 +26,7 @@ struct Place {
 std::vector<Place> places(std::size_t frames, std::size_t tracks, double old_rate, double rate) {
   check_frame_rate(rate);
   if (frames == 0) return {};
+  // Not swept.
   constexpr double rounding = 1e-6;  // of a frame: rounding of the rates
   const double step = old_rate / rate, last = static_cast<double>(frames - 1);
   const double count = std::floor(last / step + rounding) + 1;

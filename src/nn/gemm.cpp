@@ -12,12 +12,13 @@ namespace kinemend::nn {
 
 namespace {
 
-// Below so many products, threads cost more than they bring.
+// Below so many products, threads cost more than they bring. For speed, not swept.
 constexpr std::size_t least_parallel_products = std::size_t{1} << 21;
 constexpr std::size_t rows_per_task = 32;
 // Of a symmetric product so many columns at once are made from the diagonal down: two panels of the
 // widest vectors.
 template <class Real>
+// For speed, not swept.
 constexpr std::size_t symmetric_columns = 48 * sizeof(double) / sizeof(Real);
 
 template <class Real>

@@ -19,6 +19,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class Real>
 using Tag = hn::ScalableTag<Real>;
 
+// For speed, not swept.
 constexpr std::size_t panel_vectors = 3;
 // A tile of rows x panel_vectors sums, a row of b and one of a have to fit the registers.
 #if HWY_TARGET <= HWY_AVX3 || HWY_ARCH_ARM_A64
@@ -27,6 +28,7 @@ constexpr std::size_t tile_rows = 8;
 constexpr std::size_t tile_rows = 4;
 #endif
 
+// For speed, not swept.
 constexpr std::size_t pack_rows = 8;
 
 template <class Real>

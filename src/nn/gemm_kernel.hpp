@@ -7,7 +7,8 @@
 
 namespace kinemend::nn {
 
-/// Rows of b that are packed at once: a panel of them stays in the nearest caches.
+/// Rows of b that are packed at once: a panel of them stays in the nearest caches. For speed, not
+/// swept.
 inline constexpr std::size_t gemm_depth = 192;
 
 /// Columns of a full panel on this processor; the last panel of a matrix is as wide as it needs.

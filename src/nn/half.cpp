@@ -9,6 +9,7 @@ namespace kinemend {
 
 namespace {
 
+// By definition of IEEE 754 binary16.
 constexpr double overflow = 65520;
 constexpr double least_normal = 0x1p-14;
 constexpr double subnormal_step = 0x1p-24;

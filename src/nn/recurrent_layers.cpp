@@ -13,6 +13,7 @@ namespace kinemend::nn {
 
 namespace {
 
+// By definition.
 constexpr std::size_t gate_count = 4;
 
 MatrixViewF row_of(std::span<const float> values) {

@@ -22,6 +22,7 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
+// Bytes, by definition of safetensors.
 constexpr std::size_t alignment = 8;
 
 // The bytes of a stored number, lowest first whatever the machine.

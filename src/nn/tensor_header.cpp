@@ -24,6 +24,7 @@ namespace {
 
 using Json = nlohmann::json;
 
+// By definition of safetensors.
 constexpr std::size_t length_bytes = 8;
 
 struct StoredType {

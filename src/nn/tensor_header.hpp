@@ -12,6 +12,7 @@
 
 namespace kinemend {
 
+// Dimensions of a tensor: a limit, chosen by hand.
 inline constexpr std::string_view metadata_key = "__metadata__";
 inline constexpr std::size_t most_dimensions = 32;
 

@@ -12,7 +12,7 @@ namespace kinemend {
 
 namespace {
 
-// Smaller changes are rounding errors: the sample keeps its input value, and its digits.
+// Smaller changes are rounding errors: the sample keeps its input value, and its digits. Not swept.
 constexpr double least_change_rad = 1e-9 * radians_per_degree;
 
 Quat turned_towards(Quat from, Quat to, double weight, double limit) {
@@ -36,6 +36,7 @@ Quat turned_within_axes(Quat from, Quat to, double weight, double limit, Rotatio
     }
     return from_euler(blended, order);
   };
+  // By definition.
   constexpr double rounding = 1 + 1e-12;
   double share = weight;
   Quat result = at(share);
@@ -51,6 +52,7 @@ Quat turned_within_axes(Quat from, Quat to, double weight, double limit, Rotatio
 // The angle between two rotations; by the arc sine's series where it is small, which is nearly
 // always and an order of magnitude faster.
 double turn_between(Quat a, Quat b) {
+  // Up to here the series below is exact to rounding. Not swept.
   constexpr double small = 0.01;  // of sin(angle / 4)^2: 23 degrees
   const Quat nearest = align_hemisphere(b, a);
   const Quat d{a.w - nearest.w, a.x - nearest.x, a.y - nearest.y, a.z - nearest.z};
@@ -122,6 +124,7 @@ std::vector<double> frame_weights(const CleanSettings& settings, std::size_t fra
                                   std::size_t first_frame, double frame_rate_hz) {
   std::vector<double> weights(frames - first_frame, settings.strength);
   if (!settings.range) return weights;
+  // In which a change sets in at the ends of a range. Chosen by hand, not swept.
   constexpr double slope_s = 0.1;
   const auto [first, last] = *settings.range;
   const auto slope = static_cast<double>(frames_in(slope_s, frame_rate_hz, 0) + 1);

@@ -325,6 +325,7 @@ void warn_of_feet(const CleanSettings& settings, CleanReport& report) {
 
 // Changes below rounding are none: the limit follows from the size of the body.
 Work work_of(const Take& take, const CleanSettings& settings, const CleanReport& report) {
+  // Not swept.
   constexpr double rounding_of_bone = 1e-11, rounding_of_body = 1e-13;
   const bool joints = take.has_joints();
   const std::size_t first = report.calibration_frames;

@@ -7,6 +7,7 @@ namespace kinemend {
 
 namespace {
 
+// Chosen by hand, not swept.
 constexpr std::size_t most_neighbours = 8;
 
 // The mean of some residuals, at their mean frame.

@@ -15,6 +15,8 @@ namespace kinemend {
 
 namespace {
 
+// Samples of the noise, for speed; what counts as slow, and as a small change. Chosen by hand, not
+// swept.
 constexpr std::size_t noise_samples = 1024;
 constexpr double slow_deg_s = 60;
 constexpr double slow_heights_s = 0.25;  // of markers, statures a second
@@ -36,6 +38,7 @@ std::optional<PeakLoss> lost_peak(const Peaks& peaks, const ReportScale& scale) 
 // spike to everybody but the method, or motion.
 std::optional<LargeChange> large_change(const TrackChanges& changes, double noise,
                                         const ReportScale& scale) {
+  // Chosen by hand, not swept.
   constexpr double clearly = 2;
   const double limit =
       std::max(scale.small_change, clearly * longest_of_noise(changes.amounts.size()) * noise);
@@ -75,6 +78,7 @@ std::vector<const TrackReport*> worst_first(const std::vector<TrackReport>& trac
 // "A (x), B (y), C (z)" of the first three.
 template <class Text>
 std::string worst_text(const std::vector<const TrackReport*>& found, const Text& text) {
+  // Chosen by hand.
   constexpr std::size_t most_named = 3;
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < std::min(found.size(), most_named); ++i)

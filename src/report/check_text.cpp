@@ -63,6 +63,7 @@ namespace {
 
 // The first few of each kind: a hundred spikes say no more than five.
 std::string findings_text(const TakeFacts& take, const CheckReport& report, bool all) {
+  // Chosen by hand.
   constexpr std::size_t most_of_a_kind = 5;
   std::map<FindingKind, std::size_t> shown;
   std::string text;

@@ -15,10 +15,12 @@ namespace kinemend {
 
 namespace {
 
+// Names in a list of the short report. Chosen by hand.
 constexpr std::size_t short_list = 8;
 
 // Below this much jitter a take is not called noisy.
 double noticeable_noise(const CleanReport& report) {
+  // Chosen by hand, not swept.
   constexpr double noticeable_deg = 0.1;
   constexpr double noticeable_heights = 0.5 / 1750;  // half a millimetre of a person
   return report.kind == TakeKind::markers ? noticeable_heights * report.body_height
@@ -133,6 +135,7 @@ std::string leftovers_text(const CleanOutcome& outcome) {
 
 // Of tracks that changed at all: what nobody touched fell back to nothing.
 std::string fall_backs_text(const CleanReport& report, bool all_rows) {
+  // Rows of the short report. Chosen by hand.
   constexpr std::size_t few = 4;
   std::string text;
   for (const FallBack& fall_back : report.fall_backs) {

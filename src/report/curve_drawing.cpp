@@ -18,6 +18,7 @@ namespace {
 
 using Point = Svg::Point;
 
+// Chosen by hand.
 constexpr double left = 64, right = 12, top = 28, bottom = 22, space = 10;  // pixels
 // What is drawn: frames, and where they are.
 struct Span {
@@ -189,7 +190,8 @@ std::string curves_svg(const TrackCurves& curves, std::span<const ReportFinding>
     svg.rectangle(left, y, style.width - left - right, style.panel_height, "fill=\"#f8f9fa\"");
   }
   draw_bands(svg, curves, findings, span, last_y);
-  // Curves that hardly move are not blown up to fill their panel.
+  // Curves that hardly move are not blown up to fill their panel. File units, or degrees. Chosen by
+  // hand.
   constexpr double least_range = 1e-6;
   for (std::size_t p = 0; p < panels; ++p) {
     const bool is_axis = p < curves.axes.size();

@@ -19,6 +19,7 @@ std::string contact_text(const FeetReport& report, const FootContact& contact,
 
 // Contacts that stand still already are no news.
 std::string left_alone_text(const FeetReport& report, std::int64_t first_frame, bool all_rows) {
+  // Chosen by hand.
   constexpr std::size_t short_list = 8;
   std::string text;
   std::size_t listed = 0;
@@ -48,6 +49,7 @@ std::string feet_text(const FeetReport& report, std::int64_t first_frame, bool a
   const FeetFigures &a = report.before, &b = report.after;
   // What is left of a held slide is rounding.
   const auto length = [&](double units) {
+    // In the unit that is shown. Chosen by hand.
     constexpr double least = 1e-5;
     return figure(scale * units < least ? 0 : scale * units);
   };

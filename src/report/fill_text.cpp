@@ -23,6 +23,7 @@ std::string expected_text(const TakeFacts& take, const GapOutcome& gap) {
   return measure_text(gap.expected_error, unit_of(take, gap));
 }
 
+// Rows of the short report. Chosen by hand.
 constexpr std::size_t most_filled = 10, most_refused = 8;
 
 std::vector<std::string> gap_cells(const TakeFacts& take, const GapOutcome& outcome) {

@@ -23,6 +23,7 @@ namespace {
 
 using Point = Svg::Point;
 
+// Chosen by hand.
 constexpr double strip_width = 960, height = 240, ground = 206, tallest = 176;  // pixels
 
 /// Points of a pose, none for one that is missing, and which of them are joined.

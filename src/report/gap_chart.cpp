@@ -16,6 +16,7 @@ namespace kinemend {
 
 namespace {
 
+// Chosen by hand.
 constexpr double chart_width = 960, chart_left = 150, chart_right = 90, chart_top = 34,
                  row_height = 18;  // pixels
 

@@ -131,6 +131,7 @@ Json leftovers_json(const std::vector<Leftover>& leftovers) {
 }
 
 Json noise_json(const std::vector<NoiseCharacter>& characters, double frame_rate_hz) {
+  // Quantiles of the figures, by definition.
   constexpr double half = 0.5, nearly_all = 0.9;
   Json list = Json::array();
   for (const NoiseCharacter& noise : characters) {

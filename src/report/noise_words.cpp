@@ -9,6 +9,8 @@ namespace kinemend {
 
 namespace {
 
+// The correlation from which noise is called slow, and the share of it whose frequencies are said.
+// Chosen by hand, not swept.
 constexpr double slow_correlation = 0.7, shown_share = 0.9;
 
 std::string colour_words(const NoiseCharacter& noise, double frame_rate_hz) {

@@ -144,7 +144,7 @@ Angles to_euler_near(Quat q, RotationOrder order, const Angles& previous) {
   const double minus = std::atan2(d, c);
 
   // Nearer to the lock than this, rounding decides between first and last; what is lost is twice
-  // this.
+  // this. Chosen by hand, not swept.
   constexpr double locked = 1e-9;
   Angles angles;
   angles[1] = middle;

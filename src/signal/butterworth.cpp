@@ -52,6 +52,7 @@ std::size_t default_pad_frames(const std::vector<Biquad>& sections, std::size_t 
 
 std::size_t settling_frames(const std::vector<Biquad>& sections, double tolerance) {
   require(tolerance > 0 && tolerance < 1,
+          // Frames at most. Chosen by hand, not swept.
           fmt::format("settling tolerance {} is not between 0 and 1", tolerance));
   constexpr double longest = 1e6;
   double radius = 0;

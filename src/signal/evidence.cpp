@@ -15,6 +15,7 @@ namespace kinemend::signal {
 
 namespace {
 
+// Chosen by hand, not swept.
 constexpr double largest_cutoff_share = 0.45;  // of the frame rate
 constexpr double largest_strength = 1e10;      // beyond it the factor loses precision
 
@@ -122,6 +123,7 @@ std::vector<SmoothingModel> models_of_orders(std::span<const std::size_t> orders
 
 ModelGrid::ModelGrid(std::size_t frames, double frame_rate_hz, const CutoffGrid& cutoffs)
     : frames_(frames), frame_rate_hz_(frame_rate_hz) {
+  // Those that `auto` chooses from by definition (docs/methods/auto-details.md).
   constexpr std::size_t orders[] = {1, 2, 3};
   models_ = models_of_orders(orders, cutoffs, frames, frame_rate_hz);
   factors_.resize(models_.size());

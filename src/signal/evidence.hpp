@@ -61,6 +61,7 @@ std::vector<std::size_t> most_likely_models(const PoseMatrix& matrix,
                                             std::span<const double> noise_variance,
                                             const ModelGrid& grid, std::size_t group = 1);
 
+/// Chosen by hand; docs/methods/auto-details.md states what others do (`smoothing.adaptive`).
 struct AdaptiveSettings {
   /// Of the moving average of squared differences, applied twice; three frames at least.
   double window_s = 0.05;

@@ -22,6 +22,7 @@ void symmetric_fir(PoseMatrix& matrix, const std::vector<double>& half_weights) 
                          });
 }
 
+// By definition: Smooth Keys of Blender.
 constexpr double mean_weights[] = {2.0 / 12, 3.0 / 12, 2.0 / 12};  // at distance 0, 1 and 2
 
 // The frames next to the ends as Blender has them. The second neighbour before frame 2 is frame 0,

@@ -7,9 +7,10 @@
 
 namespace kinemend::signal {
 
-/// Frames before the one of a fourth difference that it needs.
+/// Frames before the one of a fourth difference that it needs. By definition.
 constexpr std::size_t fourth_difference_span = 4;
-/// Variance of the fourth difference of white noise of variance 1; that of motion is small.
+/// Variance of the fourth difference of white noise of variance 1; that of motion is small. By
+/// definition: 1 + 16 + 36 + 16 + 1.
 constexpr double fourth_difference_variance = 70;
 
 /// y_f - 4 y_(f-1) + 6 y_(f-2) - 4 y_(f-3) + y_(f-4) of a channel; f is 4 or more.

@@ -12,10 +12,12 @@ namespace kinemend::signal {
 
 namespace {
 
+// Of the differences (docs/methods/auto-details.md, "Spikes").
 constexpr std::size_t order = 2;
-// Rows of the fit that are computed at a time, which fit the L2 cache.
+// Rows of the fit that are computed at a time, which fit the L2 cache. For speed, not swept.
 constexpr std::size_t tile_frames = 2048;
-// Relative influence below which a difference is neglected: below the precision of a double.
+// Relative influence below which a difference is neglected: below the precision of a double. By
+// definition.
 constexpr double negligible = 1e-18;
 
 // Number of differences after which the influence of one is negligible: the rows of a factor that
@@ -36,6 +38,8 @@ std::size_t memory_of(const SharedFactor& factor) {
 }  // namespace
 
 LeaveOneOut::LeaveOneOut(std::size_t frames, double frame_rate_hz, const CutoffGrid& cutoffs) {
+  // A larger strength loses precision, as in `ModelGrid`; the weight keeps from a division by zero.
+  // Chosen by hand, not swept.
   constexpr double largest_strength = 1e10, least_weight = 1e-3;
   if (frames <= order + 1) return;
   std::vector<double> strengths;

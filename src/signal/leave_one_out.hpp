@@ -11,6 +11,7 @@
 
 namespace kinemend::signal {
 
+// By definition.
 inline constexpr std::size_t lane_tracks = block_channels;
 inline constexpr std::size_t lane_row = 3 * lane_tracks;
 

@@ -16,6 +16,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<double, block_channels>;
 using Vector = hn::Vec<Tag>;
 
+// That of `LeaveOneOut`, by definition.
 constexpr std::size_t order = 2;
 constexpr double coefficients[] = {1, -2, 1};
 

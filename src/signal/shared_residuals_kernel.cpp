@@ -15,7 +15,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<double, block_channels>;
 using Vector = hn::Vec<Tag>;
 
-// Models processed together, to hide the latency of each one's recursion.
+// Models processed together, to hide the latency of each one's recursion. For speed, not swept.
 constexpr std::size_t models_at_once = 4;
 
 template <std::size_t order>

@@ -90,6 +90,7 @@ std::vector<Real> filter_from_roots(int moments, const std::vector<Complex>& gro
 // Deviation of the phase from a straight line between 0 and pi, the (1 + 1/z)^N factor, whose phase
 // is linear, left out.
 Real phase_nonlinearity(const std::vector<Complex>& groups) {
+  // Of the frequency. Chosen by hand, not swept: only the least of all counts.
   constexpr int steps = 256;
   std::vector<Real> phase(steps + 1, 0);
   for (int i = 0; i <= steps; ++i) {

@@ -93,6 +93,7 @@ BlockRow solve_shared(const SharedFactor& factor, const ChannelBlock& y, Channel
 
 std::vector<BlockRow> shared_residuals(std::span<const SharedFactor> factors,
                                        const ChannelBlock& y) {
+  // For speed, not swept.
   constexpr std::size_t tile = 512;  // rows that fit the cache, processed for all models
   std::vector<BlockRow> residuals(factors.size(), BlockRow{});
   for (std::size_t begin = 0; begin < factors.size();) {
@@ -175,6 +176,7 @@ void WeightedSystem::difference_variances(ChannelBlock& variances) {
 }
 
 BlockRow WeightedSystem::log_determinants() const {
+  // Not swept.
   constexpr std::size_t together = 16;  // pivots whose product is far from what a number can hold
   BlockRow result{};
   for (std::size_t first = 0; first < frames_; first += together) {

@@ -9,6 +9,7 @@ namespace kinemend::synth {
 
 namespace {
 
+// Standard gravity by definition; toes point out by a usual angle, chosen by hand.
 constexpr double gravity_cm_s2 = 981;
 constexpr double toe_out_deg = 6;
 
@@ -89,6 +90,7 @@ double Gait::distance(double strides) const {
 
 // The outer leg needs more length in a turn.
 double Gait::crouch_in_turn(double distance) const {
+  // Chosen by hand, not swept.
   constexpr double deepest_cm = 2.4, radius_cm = 90, half_span_cm = 10;
   const double bend =
       (path_.heading_deg(distance + half_span_cm) - path_.heading_deg(distance - half_span_cm)) *
@@ -129,6 +131,8 @@ Vec3 Gait::standing_ankle(const Footprint& print, double phase) const {
 // Height and pace of the pelvis for which the standing foot rests, as curves that two like steps
 // share; between contacts the body falls freely.
 void Gait::fit_pelvis() {
+  // Samples of a step, and the share of a stride over which slopes are taken. Chosen by hand, not
+  // swept.
   constexpr int samples = 240;
   constexpr double step = 1e-4;
   std::vector<StepEquation> height, pace;
@@ -175,6 +179,7 @@ Gait::Footprint Gait::footprint(std::size_t side, double stride, Random random) 
 }
 
 Gait::Correction Gait::correction(double strides, std::size_t side, std::size_t index) const {
+  // Of a stride, over which slopes are taken. Chosen by hand, not swept.
   constexpr double step = 2e-3;
   const double contact = side_offset(side) + stride_number(index);
   const auto value = [&](double at) {
@@ -188,6 +193,7 @@ Gait::Correction Gait::correction(double strides, std::size_t side, std::size_t 
 // Between the corrections at either end, with transients that take up slope and curvature near the
 // ends.
 Vec3 Gait::swing_correction(const Swing& swing, double phase) const {
+  // Of a stride: the time in which what is left goes before a contact. Chosen by hand, not swept.
   constexpr double arriving = 0.10;
   const double leaving = 0.27 * data_.stance;
   const double u = ramp(phase, data_.stance, 1);

@@ -10,6 +10,7 @@ namespace kinemend::synth {
 
 namespace {
 
+// By definition.
 constexpr double jump_gravity_cm_s2 = 981;
 
 // One jump from a floor to another, in seconds and centimetres from its start. The pelvis is thrown
@@ -61,6 +62,8 @@ class Jump {
   }
 
  private:
+  // Shares of the length of the leg, and degrees of the foot where it leaves the floor and meets
+  // it. Chosen by hand, not swept.
   static constexpr double dip = 0.55, lift = 0.86;  // deepest, leaves the floor
   static constexpr double lift_pitch = -52, touch_pitch = -24;
 
@@ -129,6 +132,7 @@ Motion jump(const Body& body, Random random) {
                             Jump(body, random.uniform(24, 30), 0, 0),
                             Jump(body, random.uniform(24, 30), 0, 0)};
   return [standing, jumps](double t) {
+    // Chosen by hand, not swept.
     constexpr double first_s = 0.3, period_s = 2.8;
     Posture p = standing(t);
     const double n = std::max(0.0, std::floor((t - first_s) / period_s));

@@ -10,6 +10,7 @@ namespace kinemend::synth {
 
 namespace {
 
+// Along the path, of its table. Chosen by hand, not swept.
 constexpr double step_cm = 2;
 
 }  // namespace

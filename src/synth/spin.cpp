@@ -12,6 +12,7 @@ namespace kinemend::synth {
 
 namespace {
 
+// Chosen by hand.
 constexpr std::size_t links = 5;
 
 struct Link {

@@ -40,6 +40,7 @@ Motion turn(const Body& body, double duration_s, Random random) {
 }
 
 Motion stroll(const Body& body, double duration_s, Random random) {
+  // Chosen by hand, not swept.
   constexpr double straight_cm = 250, bend_cm = 400, turn_deg = 195;
   const Wander drift(random, 1.5, 0.0004, 0.002);
   const auto heading = [drift](double s) {
@@ -50,6 +51,7 @@ Motion stroll(const Body& body, double duration_s, Random random) {
   };
   const auto gait = std::make_shared<Gait>(body, walk_data(), heading, duration_s, random);
   return [gait](double time_s) {
+    // Chosen by hand, not swept.
     constexpr double period_s = 9;
     Posture p = gait->posture(time_s);
     const double t = time_s - period_s * std::floor(time_s / period_s);

@@ -47,6 +47,7 @@ HANDLE handle_of(int file) { return reinterpret_cast<HANDLE>(::_get_osfhandle(fi
 }  // namespace
 
 std::wstring long_path(const fs::path& path) {
+  // Chosen by hand.
   constexpr std::size_t longest_plain = 240;  // of 260 with room for the name of a temporary file
   std::error_code error;
   const std::wstring text = path.native();
@@ -139,6 +140,7 @@ bool may_write(const fs::path& path) {
 
 int nameless_file(const std::string& folder) {
   static std::atomic<unsigned> counter{0};
+  // Chosen by hand.
   constexpr int most_attempts = 100;
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     const fs::path path = fs::path(folder) / ("kinemend-" + std::to_string(::_getpid()) + "-" +

@@ -34,15 +34,25 @@ class TemporaryFile {
  private:
   int open_unnamed() const;
   int open_named();
+  /// -1 with `errno` where it cannot be made, or exists already.
+  static int open_new(const std::filesystem::path& path);
   bool link_to(const std::filesystem::path& name) const;
   bool name_it();
   std::filesystem::path temporary_name() const;
+  static long process_number();
+
+  // Names that may be taken by files of killed processes. Chosen by hand, not swept.
+  static constexpr int most_attempts = 100;
 
   std::filesystem::path target_;
   std::filesystem::path folder_;
   std::filesystem::path path_;  // empty while the file has no name
   std::optional<Descriptor> file_;
 };
+
+/// Throw `ErrorKind::cannot_write`, naming the file; the reason in words, or by its `errno`.
+[[noreturn]] void fail_writing(const std::filesystem::path& path, std::string_view why);
+[[noreturn]] void fail_writing(const std::filesystem::path& path, int error_number);
 
 /// Flushes a folder, so that the name of a new file in it is not lost with the power.
 void flush_folder_of(const std::filesystem::path& file);

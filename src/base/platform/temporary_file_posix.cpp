@@ -5,27 +5,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
 
 #include "base/platform/temporary_file.hpp"
-#include "kinemend/error.hpp"
 
 namespace kinemend::platform {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int most_attempts = 100;
-
-[[noreturn]] void fail_writing(const fs::path& path, std::string_view why) {
-  throw Error(ErrorKind::cannot_write, fmt::format("{}: {}", path.string(), why));
-}
-[[noreturn]] void fail_with(const fs::path& path, int number) {
-  fail_writing(path, words_of(number));
-}
 
 std::string link_of(int descriptor) { return fmt::format("/proc/self/fd/{}", descriptor); }
 
@@ -44,7 +33,7 @@ TemporaryFile::~TemporaryFile() {
 
 void TemporaryFile::take_permissions(const FileFacts& old) {
   if (::fchown(file_->get(), old.owner, old.group) != 0) errno = 0;
-  if (::fchmod(file_->get(), static_cast<mode_t>(old.mode)) != 0) fail_with(target_, errno);
+  if (::fchmod(file_->get(), static_cast<mode_t>(old.mode)) != 0) fail_writing(target_, errno);
 }
 
 void TemporaryFile::fill(std::string_view bytes) {
@@ -52,14 +41,14 @@ void TemporaryFile::fill(std::string_view bytes) {
   // Some file systems cannot flush; then a plain close has to do.
   const bool written =
       write_all(descriptor, bytes) && (::fsync(descriptor) == 0 || errno == EINVAL);
-  if (!written) fail_with(target_, errno);
+  if (!written) fail_writing(target_, errno);
   // An unnamed file is gone once it is closed.
-  if (!path_.empty() && !file_->close()) fail_with(target_, errno);
+  if (!path_.empty() && !file_->close()) fail_writing(target_, errno);
 }
 
 void TemporaryFile::replace_target() {
-  if (path_.empty() && !name_it()) fail_with(target_, errno);
-  if (::rename(path_.c_str(), target_.c_str()) != 0) fail_with(target_, errno);
+  if (path_.empty() && !name_it()) fail_writing(target_, errno);
+  if (::rename(path_.c_str(), target_.c_str()) != 0) fail_writing(target_, errno);
   path_.clear();
 }
 
@@ -82,16 +71,8 @@ int TemporaryFile::open_unnamed() const {
   return -1;
 }
 
-int TemporaryFile::open_named() {
-  for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    path_ = temporary_name();
-    const int descriptor = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor >= 0) return descriptor;
-    if (errno != EEXIST) break;
-  }
-  const int error = errno;
-  path_.clear();
-  fail_with(target_, error);
+int TemporaryFile::open_new(const fs::path& path) {
+  return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
 }
 
 // False with errno set. By way of /proc, which needs no privilege.
@@ -112,10 +93,7 @@ bool TemporaryFile::name_it() {
   return false;
 }
 
-fs::path TemporaryFile::temporary_name() const {
-  static std::atomic<unsigned> counter{0};
-  return folder_ / fmt::format(".kinemend-{}-{}.tmp", ::getpid(), counter++);
-}
+long TemporaryFile::process_number() { return ::getpid(); }
 
 void flush_folder_of(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");

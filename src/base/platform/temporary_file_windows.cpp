@@ -2,17 +2,14 @@
 // MoveFileEx.
 #ifdef _WIN32
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <io.h>
 #include <sys/stat.h>
 #include <windows.h>
 
-#include <atomic>
 #include <cerrno>
 
 #include "base/platform/temporary_file.hpp"
 #include "base/platform/windows_paths.hpp"
-#include "kinemend/error.hpp"
 
 namespace kinemend::platform {
 
@@ -20,17 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_attempts = 100;
-
-[[noreturn]] void fail_writing(const fs::path& path, std::string_view why) {
-  throw Error(ErrorKind::cannot_write, fmt::format("{}: {}", path.string(), why));
-}
-[[noreturn]] void fail_with(const fs::path& path, int number) {
-  fail_writing(path, words_of(number));
-}
-
 // A scanner of viruses may hold a file for a moment that was just written.
 bool with_patience(const auto& action) {
+  // Half a second. Chosen by hand, not swept.
   constexpr int most_waits = 20;
   constexpr DWORD wait_ms = 25;
   for (int wait = 0;; ++wait) {
@@ -74,12 +63,12 @@ void TemporaryFile::take_permissions(const FileFacts& /*old*/) {}
 
 void TemporaryFile::fill(std::string_view bytes) {
   const int descriptor = file_->get();
-  if (!write_all(descriptor, bytes) || ::_commit(descriptor) != 0) fail_with(target_, errno);
-  if (!file_->close()) fail_with(target_, errno);
+  if (!write_all(descriptor, bytes) || ::_commit(descriptor) != 0) fail_writing(target_, errno);
+  if (!file_->close()) fail_writing(target_, errno);
 }
 
 void TemporaryFile::replace_target() {
-  if (!replace(long_path(target_), long_path(path_))) fail_with(target_, errno);
+  if (!replace(long_path(target_), long_path(path_))) fail_writing(target_, errno);
   path_.clear();
 }
 
@@ -88,28 +77,16 @@ void TemporaryFile::become_target() {
   const bool moved = with_patience(
       [&] { return ::MoveFileExW(from.c_str(), to.c_str(), MOVEFILE_WRITE_THROUGH) != 0; });
   if (!moved && errno == EEXIST) fail_writing(target_, "exists already and may not be replaced");
-  if (!moved) fail_with(target_, errno);
+  if (!moved) fail_writing(target_, errno);
   path_.clear();
 }
 
-int TemporaryFile::open_named() {
-  for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    path_ = temporary_name();
-    const int descriptor =
-        ::_wopen(long_path(path_).c_str(),
-                 _O_WRONLY | _O_CREAT | _O_EXCL | _O_BINARY | _O_NOINHERIT, _S_IREAD | _S_IWRITE);
-    if (descriptor >= 0) return descriptor;
-    if (errno != EEXIST) break;
-  }
-  const int error = errno;
-  path_.clear();
-  fail_with(target_, error);
+int TemporaryFile::open_new(const fs::path& path) {
+  return ::_wopen(long_path(path).c_str(),
+                  _O_WRONLY | _O_CREAT | _O_EXCL | _O_BINARY | _O_NOINHERIT, _S_IREAD | _S_IWRITE);
 }
 
-fs::path TemporaryFile::temporary_name() const {
-  static std::atomic<unsigned> counter{0};
-  return folder_ / fmt::format(".kinemend-{}-{}.tmp", ::_getpid(), counter++);
-}
+long TemporaryFile::process_number() { return ::_getpid(); }
 
 // The move has written through.
 void flush_folder_of(const fs::path& /*file*/) {}

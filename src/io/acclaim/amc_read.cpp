@@ -21,6 +21,7 @@ namespace kinemend {
 
 namespace {
 
+// The rate of most CMU takes (docs/formats/amc.md).
 constexpr double custom_rate_hz = 120;
 
 // The bytes of a frame are at least its number, names, and a digit and a space a value.

@@ -98,7 +98,8 @@ class AsfParser {
     NumberToken token;
     if (!word.empty()) token = read_number(word.data(), word.data() + word.size());
     if (token.kind != TokenKind::number || token.end != word.data() + word.size()) fail("a number");
-    // Beyond this, sums and products along a chain could leave the range of a double.
+    // Beyond this, sums and products along a chain could leave the range of a double. Chosen by
+    // hand, as in `read_sample`.
     constexpr double largest = 1e100;
     if (std::fabs(token.value) > largest) fail("a number of a plausible size");
     scanner_.next();

@@ -282,6 +282,7 @@ class MotionHeaderParser {
     if (std::exchange(seen_frames_, true)) fail("a second Frames: line");
     NumberToken number;
     header_.frame_count = take_number(number, "the number of frames");
+    // By definition.
     constexpr double most = 0x1p53;  // more than any file holds, and still exact
     if (number.kind == TokenKind::number && number.value >= 0 &&
         number.value == std::floor(number.value)) {
@@ -360,6 +361,7 @@ BvhHeader read_bvh_header(const SourceText& text, Diagnostics& diagnostics, std:
 }
 
 double rate_from_frame_time(double frame_time_s, std::string_view text) {
+  // Rates in use. Chosen by hand.
   constexpr std::array<double, 14> known{23.976, 24, 25,  29.97,  30,  50,     59.94,
                                          60,     90, 100, 119.88, 120, 239.76, 240};
   const std::string_view mantissa = text.substr(0, text.find_first_of("eE"));

@@ -24,7 +24,7 @@ struct BvhHeader {
   std::size_t data_begin = 0;
 };
 
-/// A file with more joints or end sites than this is rejected.
+/// A file with more joints or end sites than this is rejected. Chosen by hand.
 inline constexpr std::size_t most_joints = 16384;
 
 /// Parses up to the first channel value. `unknown_rate_hz`: the rate where there is no usable

@@ -26,6 +26,7 @@ namespace kinemend {
 
 namespace {
 
+// Chosen by hand (docs/formats/bvh.md).
 constexpr double bvh_rate_when_unknown_hz = 30;
 
 class MotionReader {

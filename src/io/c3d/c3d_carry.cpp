@@ -15,6 +15,7 @@ namespace kinemend {
 
 namespace {
 
+// Relative; chosen by hand, not swept.
 constexpr double rounding = 1e-6;
 
 bool has_analog(const C3dLayout& layout) {

@@ -21,10 +21,10 @@ namespace {
 
 using Words = C3dWords<C3dProcessor::intel>;
 
-// Integers made of the file shall not use all of their range.
+// Integers made of the file shall not use all of their range. Chosen by hand.
 constexpr double scale_steps = 32000;
 constexpr double scale_when_still = 0.01;
-// That an integer can tell, and a little for rounding.
+// That an integer can tell, and a little for rounding. By definition of the format.
 constexpr double most_steps = 32768.01;
 // Of the header: the longest gap that was interpolated.
 constexpr std::size_t interpolated_gap_word = 6;

@@ -13,6 +13,7 @@ namespace kinemend {
 
 namespace {
 
+// By definition of the format; frames that are looked at are so many for speed, not swept.
 constexpr double most_counted_frames = 65535;
 constexpr std::size_t most_frames_looked_at = 200;
 

@@ -85,6 +85,7 @@ std::int32_t c3d_point_word(float residual, double scale, std::int32_t before) {
 }
 
 std::size_t c3d_block_frames(const C3dLayout& layout) {
+  // For speed, not swept.
   constexpr std::size_t block_samples = 512;
   return std::max<std::size_t>(1, block_samples / std::max<std::size_t>(layout.point_count, 1));
 }

@@ -18,6 +18,7 @@ namespace kinemend {
 
 namespace {
 
+// Chosen by hand (docs/formats/c3d.md).
 constexpr double c3d_rate_when_unknown_hz = 100;
 
 class C3dReader {

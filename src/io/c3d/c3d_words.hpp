@@ -12,6 +12,7 @@ namespace kinemend {
 /// Whose number formats a C3D file uses; the values are those of byte 4 of its parameter section.
 enum class C3dProcessor : std::uint8_t { intel = 84, dec = 85, mips = 86 };
 
+// By definition of the format.
 inline constexpr std::size_t most_in_a_word = 65535;
 
 /// No processor's reals are larger than this one's, VAX.

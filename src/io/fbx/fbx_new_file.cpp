@@ -151,6 +151,7 @@ std::vector<Vec3> held_points(const Take& take, std::size_t marker) {
 }
 
 void add_markers(const Take& take, NewFbxScene& scene) {
+  // A millimetre, as other formats take it. Chosen by hand.
   constexpr double cm_of_unknown_unit = 0.1;
   for (std::size_t m = 0; m < take.marker_count(); ++m) {
     if (!take.holds_positions(m)) continue;

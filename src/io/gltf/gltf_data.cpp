@@ -206,7 +206,7 @@ GltfNumbers::GltfNumbers(const GltfFile& file, const GltfModel& model, GltfBuffe
     throw error("expected floats or normalized integers of 8 or 16 bits");
   if (a.view) check_view(*a.view, a.offset, a.count, element_size(), stride());
   if (a.sparse) check_sparse();
-  // Without a view the count has no bytes that vouch for it.
+  // Without a view the count has no bytes that vouch for it. Chosen by hand.
   constexpr std::size_t most_zeros = std::size_t{1} << 16;
   if (!a.view && a.count > most_zeros) throw error(fmt::format("{} zeros are too many", a.count));
 }

@@ -108,6 +108,7 @@ struct GltfPlaces {
 };
 
 bool is_uniform_scale(Vec3 s) {
+  // Chosen by hand, not swept.
   constexpr double tolerance = 1e-4;  // far above what single precision adds
   const double largest = std::max({std::fabs(s.x), std::fabs(s.y), std::fabs(s.z)});
   return std::fabs(s.x - s.y) <= tolerance * largest && std::fabs(s.y - s.z) <= tolerance * largest;
@@ -296,6 +297,7 @@ class GltfJointDecoder {
   // Decides which joints move in their parents: exporters write the lengths of bones in each frame,
   // with the noise of single precision at the size of the whole body.
   void place_joints() {
+    // Of the longest offset. Chosen by hand, not swept.
     constexpr double noise = 5e-6;
     Skeleton& skeleton = motion_.take.skeleton;
     double longest = 0;

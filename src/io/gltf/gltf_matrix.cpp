@@ -49,6 +49,7 @@ Quat unit_rotation_of_any(Quat q) {
 }
 
 GltfPlacement placement_of_matrix(std::span<const double> m) {
+  // Chosen by hand, not swept.
   constexpr double least_shear = 1e-4;  // of the lengths of the axes
   const std::array<Vec3, 3> columns{{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}}};
   const bool mirrors = dot(cross(columns[0], columns[1]), columns[2]) < 0;

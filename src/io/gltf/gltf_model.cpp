@@ -19,7 +19,7 @@ namespace kinemend {
 
 namespace {
 
-// Far beyond what scenes have; keeps the memory of hostile files within bounds.
+// Far beyond what scenes have; keeps the memory of hostile files within bounds. Chosen by hand.
 constexpr std::size_t most_gltf_nodes = 65536, most_gltf_elements = 131072;
 
 // Walks over an array of the root; faults get the place of their element.
@@ -132,6 +132,7 @@ GltfAccessor accessor_of(const GltfJson& json) {
 
 // Beyond this a number means nothing, and products of it overflow.
 void check_node_range(const GltfNode& node) {
+  // Chosen by hand, as in `read_sample`.
   constexpr double most = 1e100;
   for (const Vec3 v : {node.translation, node.scale}) {
     if (!(std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}) <= most))

@@ -16,6 +16,7 @@ namespace kinemend {
 namespace {
 
 std::string animation_list(const GltfModel& model) {
+  // Chosen by hand.
   constexpr std::size_t most_named = 20;
   std::vector<std::string> names;
   for (std::size_t a = 0; a < model.animations.size() && a < most_named; ++a)
@@ -52,6 +53,7 @@ std::size_t chosen_animation(const GltfFile& file, const GltfModel& model, std::
   const std::size_t last = is_named ? first + 1 : model.animations.size();
   const bool has_skin = !model.skins.empty();
   std::size_t looked_at = 0;
+  // Limits the time; chosen by hand.
   constexpr std::size_t most_looked_at = std::size_t{1} << 26;  // nodes
   for (std::size_t a = first; a < last && looked_at < most_looked_at; ++a) {
     if (moves_something(model, a, gltf_joints(model, a))) return a;
@@ -69,6 +71,7 @@ std::size_t chosen_animation(const GltfFile& file, const GltfModel& model, std::
 }
 
 std::string first_names(const std::vector<std::string>& names) {
+  // Chosen by hand.
   constexpr std::size_t most_named = 5;
   std::string text;
   for (std::size_t i = 0; i < names.size() && i < most_named; ++i)

@@ -173,6 +173,7 @@ class GltfTrackValues {
 // Follows the sign that the source has, so that its other keys still fit; where the rotation is a
 // quite different one, the sign of the key before.
 void follow_signs(GltfValues& values, const GltfCurve& curve) {
+  // Chosen by hand, not swept.
   constexpr double clear = 0.5;  // within 120 degrees
   for (std::size_t f = 0; f < values.frames.size(); ++f) {
     auto& now = values.frames[f];

@@ -13,8 +13,10 @@ namespace kinemend {
 
 namespace {
 
+// Chosen by hand (docs/formats/gltf.md).
 constexpr double gltf_rate_when_unknown_hz = 30;
 // The rates that films, games and cameras have. Whole ones first: short takes fit both kinds.
+// Chosen by hand.
 constexpr std::array<double, 16> usual_gltf_rates{
     24, 25, 30, 48, 50, 60, 90, 100, 120, 144, 23.976, 29.97, 59.94, 119.88, 239.76, 240};
 

@@ -61,6 +61,7 @@ void sincos_block(const double* __restrict degrees, std::size_t count, double* _
 
 void half_angle_sincos(const double* degrees, std::size_t count, double* sines, double* cosines) {
   sincos_block(degrees, count, sines, cosines);
+  // Degrees, beyond which the quick sines lose digits; chosen by hand, not swept.
   constexpr double exact_limit = 1e12;
   for (std::size_t i = 0; i < count; ++i) {
     if (std::fabs(degrees[i]) <= exact_limit) continue;

@@ -10,6 +10,7 @@ namespace kinemend {
 
 namespace {
 
+// For speed, not swept.
 constexpr std::size_t block_samples = 1024;
 
 struct Track {

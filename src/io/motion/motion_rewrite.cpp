@@ -99,6 +99,7 @@ class MotionRewriter {
   // A frame's angles follow from those of the frame before; numbers are read and written beside
   // that.
   std::string rewrite(const std::vector<DocumentEdit>& edits) {
+    // For speed, not swept.
     constexpr std::size_t pieces_at_once = 16;
     std::string out;
     out.reserve(document_.bytes.size() + document_.bytes.size() / 8 + 4096);
@@ -272,6 +273,7 @@ class MotionRewriter {
   // Whether angles that go on from `angles` without a jump differ from the digits of the next frame
   // that keeps them. Few takes ever ask: the table costs another walk over the text.
   bool meets_a_jump(const AngleContext& context, Angles angles) {
+    // For speed, not swept.
     constexpr std::size_t most_frames_ahead = 256;
     if (!table_) table_.emplace(clip_, document_);
     const std::size_t joints = clip_.joint_count();

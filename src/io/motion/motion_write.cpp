@@ -56,6 +56,7 @@ void check_lengths(const Take& clip) {
 
 // A motion that no channel can hold is not dropped in silence.
 void check_channels(const Take& clip, RestRotations rest) {
+  // Of rounding; chosen by hand, not swept.
   constexpr double tolerance_rad = 1e-6;
   const Skeleton& skeleton = clip.skeleton;
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {

@@ -39,6 +39,7 @@ void SourceFrames::hold(SourceBlock& block) {
 }
 
 unsigned MotionDocument::written_decimals() const {
+  // Chosen by hand.
   constexpr unsigned least = 4, least_of_radians = 6, most = 9;
   return std::clamp(decimals, degrees_per_value == 1 ? least : least_of_radians, most);
 }

@@ -12,6 +12,7 @@ namespace kinemend {
 
 namespace {
 
+// Chosen by hand.
 constexpr std::size_t most_head_lines = 32;
 
 enum class Part : std::uint8_t { w, x, y, z, tx, ty, tz, none };

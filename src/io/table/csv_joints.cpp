@@ -231,6 +231,7 @@ class JointReader {
   }
 
   void store(std::size_t place) {
+    // How far the length of a quaternion may be from 1. Chosen by hand, not swept.
     constexpr double tolerance = 1e-3;
     auto& rotations = clip_.rotations;
     if (rotations.size() + joints() > rotations.capacity()) reserve(text_.bytes.size());

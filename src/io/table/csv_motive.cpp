@@ -14,6 +14,7 @@ namespace kinemend {
 
 namespace {
 
+// Chosen by hand.
 constexpr std::string_view motive_first_word = "Format Version";
 constexpr std::size_t most_rows_above_axes = 12;
 

@@ -16,6 +16,7 @@ namespace kinemend {
 
 namespace {
 
+// Chosen by hand (docs/formats/csv.md).
 constexpr double csv_rate_when_unknown_hz = 120;
 
 class CsvReader {

@@ -50,6 +50,7 @@ class Table {
   void write_labels() { line("frame,time_s" + labels_); }
 
   void begin_row(std::int64_t frame, double time_s) {
+    // Microseconds. Chosen by hand.
     constexpr unsigned time_decimals = 6;
     out_.append(std::to_string(frame));
     out_.append(",");

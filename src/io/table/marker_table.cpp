@@ -252,6 +252,7 @@ double rounding_of(const std::vector<double>& times_s) {
 
 // The rate in use, or the whole number of hertz, that rounded times can stand for.
 double rate_of(double mean_step_s, double tolerance_s) {
+  // Chosen by hand.
   constexpr std::array<double, 20> in_use{23.976, 24,  25,  29.97,  30,  50,  59.94,
                                           60,     90,  100, 119.88, 120, 200, 239.76,
                                           240,    250, 300, 400,    500, 1000};

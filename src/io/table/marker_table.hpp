@@ -15,7 +15,7 @@
 
 namespace kinemend {
 
-/// A file that claims more markers than this is rejected.
+/// A file that claims more markers than this is rejected. Chosen by hand.
 inline constexpr std::size_t most_markers = 16384;
 
 /// A table with a frame in each row and the coordinates of markers in its cells, as in TRC and CSV

@@ -10,11 +10,12 @@ namespace kinemend {
 
 namespace {
 
+// See docs/formats/c3d.md and trc.md. Chosen by hand, not swept.
 constexpr double steps_of_a_jump = 20;
-// No measurement is finer than this.
+// No measurement is finer than this. Chosen by hand, not swept.
 constexpr double finest_resolution_m = 1e-4;
 constexpr double metres_of_unknown_unit = 0.001;
-// Of a marker whose usual step is not known.
+// Of a marker whose usual step is not known. Chosen by hand, not swept.
 constexpr double longest_jump_m = 0.05;
 
 // One marker's path.

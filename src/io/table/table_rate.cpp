@@ -11,6 +11,7 @@ namespace kinemend {
 
 double table_rate(const SourceText& text, Diagnostics& diagnostics, const RowRate& times,
                   const TableRate& said) {
+  // Between the rate that is stated and that of the times, relative. Chosen by hand, not swept.
   constexpr double tolerance = 0.01;
   const double stated = usable_rate(text, diagnostics, said.stated_hz, said.stated_place);
   if (stated > 0) {

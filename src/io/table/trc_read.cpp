@@ -13,6 +13,7 @@ namespace kinemend {
 
 namespace {
 
+// Chosen by hand (docs/formats/trc.md).
 constexpr double trc_rate_when_unknown_hz = 100;
 
 std::size_t whole(double number) {

@@ -14,6 +14,7 @@ namespace kinemend {
 
 namespace {
 
+// Chosen by hand (docs/formats/tsv.md).
 constexpr double tsv_rate_when_unknown_hz = 100;
 
 // NO_OF_FRAMES and the like.

@@ -77,6 +77,7 @@ class TsvWriter {
   }
 
   void write_row(std::size_t frame) {
+    // Microseconds. Chosen by hand.
     constexpr unsigned time_decimals = 6;
     out_.append(std::to_string(clip_.first_frame + static_cast<std::int64_t>(frame)));
     out_.append("\t");

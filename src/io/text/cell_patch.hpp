@@ -13,6 +13,7 @@
 namespace kinemend {
 
 /// More decimals than this are written as the fewest digits that read back as the same number.
+/// Chosen by hand.
 inline constexpr unsigned most_fixed_decimals = 9;
 
 /// Copies a table of numbers with some cells replaced.

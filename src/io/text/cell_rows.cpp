@@ -66,6 +66,7 @@ std::size_t next_line(std::string_view text, std::size_t begin) {
 }
 
 std::size_t estimate_rows(std::string_view text, std::size_t begin) {
+  // For speed.
   constexpr std::size_t spare = 16;
   return (text.size() - begin) / (line_from(text, begin).size() + 1) + spare;
 }

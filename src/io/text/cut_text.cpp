@@ -8,6 +8,7 @@ namespace kinemend {
 
 namespace {
 
+// Chosen by hand, not swept.
 constexpr std::size_t most_lines_compared = 100, least_lines_compared = 3;
 // Lines of other bones lie between those of one bone.
 constexpr std::size_t most_lines_passed = 20000;

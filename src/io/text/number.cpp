@@ -75,6 +75,7 @@ NumberToken read_number(const char* begin, const char* end, CommaStyle commas) {
 }
 
 NumberToken read_sample(const char* begin, const char* end, CommaStyle commas) {
+  // Beyond it sums and products overflow; chosen by hand.
   constexpr double largest = 1e100;
   NumberToken result = read_number(begin, end, commas);
   if (result.kind == TokenKind::number && std::fabs(result.value) > largest) {

@@ -16,9 +16,10 @@ namespace kinemend {
 
 namespace {
 
-// An unknown number is doubled from here until the energy is reached.
+// An unknown number is doubled from here until the energy is reached. Chosen by hand, not swept.
 constexpr Eigen::Index first_count = 32;
-// Beyond this share of all eigenvectors the full solver is faster.
+// Beyond this share of all eigenvectors the full solver is faster. For speed; the rest are limits
+// by definition, and not swept.
 constexpr Eigen::Index full_share = 6;
 constexpr Eigen::Index most_restarts = 1000;  // a limit for the solver
 constexpr double rounding = 1e-14;            // of the largest eigenvalue

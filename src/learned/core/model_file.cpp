@@ -24,7 +24,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Version 2 added the checksum.
+// Version 2 added the checksum. By definition.
 constexpr int format_version = 2;
 constexpr int first_with_checksum = 2;
 constexpr std::string_view format_key = "kinemend.model";

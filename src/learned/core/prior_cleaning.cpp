@@ -156,9 +156,12 @@ Vec3 turn_of(const PoseMatrix& poses, std::size_t frame, std::size_t part) {
   return {poses(frame, 3 * part), poses(frame, 3 * part + 1), poses(frame, 3 * part + 2)};
 }
 
-// From a frame to the next; where noise is strong, in medians of that.
+// From a frame to the next; where noise is strong, in medians of that. Chosen by hand, not swept;
+// docs/methods/wiener-details.md states what leaving flips to `auto` brings.
 constexpr double flip_deg = 60, flip_medians = 6;
-// Half of the running median that takes out the spikes that `auto` left.
+// Half of the running median that takes out the spikes that `auto` left. Chosen by
+// hand, not swept. The share of samples that do not turn too far is swept neither;
+// docs/methods/wiener-details.md states what leaving turns of 150 degrees to `auto` brings.
 constexpr std::size_t flip_half_frames = 3;
 constexpr double most_turns = 0.98;  // a few are noise
 

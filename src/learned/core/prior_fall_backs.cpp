@@ -7,6 +7,7 @@ namespace kinemend {
 
 namespace {
 
+// For messages, chosen by hand.
 constexpr double least_share = 0.005;  // less is not worth a word
 
 // The joint or marker of a part, -1 for the root position; nothing where the part is not selected.

@@ -12,11 +12,12 @@ namespace kinemend {
 
 namespace {
 
+// The rows `hold` of docs/methods/wiener-details.md state what other values do.
 constexpr std::size_t channels_of_part = 3;  // a rotation vector
 constexpr double mostly_own = 0.5;           // need
 constexpr double most_deviations = 1;        // of the noise, from what `auto` makes of a sample
 // A measurement is far from another result beyond so many medians of its channel's distances, and
-// beyond so much.
+// beyond so much. The same rows state what half and double of them do.
 constexpr double far_medians = 8, least_far_deg = 8;
 constexpr double crowded_share = 0.02;  // a share that `auto` does not repair well
 

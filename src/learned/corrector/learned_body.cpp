@@ -13,7 +13,8 @@ namespace {
 
 // Whether a part stays where its channels can say what it does.
 bool is_tame(const BodyChannels& body, std::size_t part) {
-  // Strong noise steps by less; a vector that goes round the other way, by about a turn.
+  // Strong noise steps by less; a vector that goes round the other way, by about a turn. Chosen by
+  // hand, not swept.
   constexpr double most_step_deg = 180;
   const auto vector_at = [&](std::size_t frame) {
     return Vec3{body.poses(frame, 3 * part), body.poses(frame, 3 * part + 1),
@@ -86,7 +87,7 @@ std::optional<KnownBody> known_body(const BodyLayout& layout, const NameMap& nam
     if (!fits) continue;
     body.track_of[part] = static_cast<std::int32_t>(found - tracks.numbers.begin());
   }
-  // Half of a body misleads the network more than none.
+  // Half of a body misleads the network more than none. Chosen by hand, not swept.
   constexpr double most_wild = 0.2;
   if (static_cast<double>(wild) > most_wild * static_cast<double>(wild + tame)) return std::nullopt;
   return body;

@@ -14,7 +14,7 @@
 
 namespace kinemend {
 
-/// Of what the network has learned from.
+/// Of what the network has learned from. Chosen by hand, as its training was.
 inline constexpr double shortest_learned_take_s = 0.5, lowest_learned_rate_hz = 20;
 
 /// Why the method has no say in a take; empty: it has one.

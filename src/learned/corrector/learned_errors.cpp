@@ -36,7 +36,8 @@ TrackError track_error(const MotionTake& take, const MotionResult& result, std::
 }
 
 bool is_worth_a_change(const TrackError& error) {
-  // Deviation that is taken out over the one that is left.
+  // Deviation that is taken out over the one that is left. Chosen by hand
+  // (docs/methods/learned.md), not swept.
   constexpr double least_share = 0.1;
   return error.removed > least_share * least_share * error.left;
 }
@@ -54,7 +55,7 @@ ColouredNoise removed_noise(std::span<const TrackError> errors) {
 
 double slow_noise(std::span<const TrackError> errors) {
   // Size of noise that is worth a word, degrees, and the most of its variance that is another 40 ms
-  // later.
+  // later. Chosen by hand, not swept.
   constexpr double least_deg = 1, most_quick_share = 0.25;
   std::vector<double> sizes, quick;
   for (const TrackError& error : errors) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "body/rotation_channels.hpp"
 #include "kinemend/error.hpp"
 #include "learned/corrector/live_motion_filter.hpp"
 #include "methods/auto/auto_scale.hpp"
@@ -122,7 +123,8 @@ class LearnedLive final : public LiveFilter {
   }
 
  private:
-  // Time constant with which the chart of a joint that no model knows follows it.
+  // Time constant with which the chart of a joint that no model knows follows it. Chosen by hand,
+  // not swept.
   static constexpr double follow_s = 0.05;
 
   struct Waiting {
@@ -145,14 +147,13 @@ class LearnedLive final : public LiveFilter {
 
   // A sample as a vector in degrees; nothing where it is not seen, or is no rotation.
   std::optional<Vec3> turned(StreamedTrack& track, Quat q, bool is_seen) const {
-    // A quaternion whose squared length is farther from 1 is no rotation.
-    constexpr double near_one = 0.1;
-    if (!is_seen || !(std::abs(dot(q, q) - 1) < near_one)) return std::nullopt;
+    if (!is_seen || !is_nearly_unit(q)) return std::nullopt;
     q = normalized(q);
     track.held = track.has_begun ? align_hemisphere(q, track.held) : q;
     if (track.known) {
       const Quat shown = track.known->before * q * track.known->after;
-      track.last = near(log(conjugate(track.known->reference) * shown), track.last);
+      track.last =
+          continue_within_a_turn(log(conjugate(track.known->reference) * shown), track.last);
       track.has_begun = true;
       return degrees_per_radian * track.last;
     }
@@ -168,13 +169,6 @@ class LearnedLive final : public LiveFilter {
     if (!is_seen || !std::isfinite(norm(p))) return std::nullopt;
     if (!std::exchange(track.has_begun, true)) track.origin = p;
     return degrees_per_unit_ * (p - track.origin);
-  }
-
-  // Past half a turn a vector goes on, but no joint that models know has turned once round.
-  static Vec3 near(Vec3 v, Vec3 last) {
-    constexpr double farthest = 210 * radians_per_degree;
-    const Vec3 next = continue_rotation_vector(v, last);
-    return norm(next) > farthest ? v : next;
   }
 
   void write(Frame& out) {

@@ -12,6 +12,7 @@ namespace kinemend {
 
 namespace {
 
+// Chosen by hand, not swept.
 constexpr std::size_t steps_filtered_together = 256;  // limits memory
 
 // Frames [first, last) lie between the first and the last of the steps.

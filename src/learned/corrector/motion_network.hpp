@@ -16,10 +16,11 @@ namespace kinemend {
 /// bank, then, of those between the first and the last, twice the level less the next, which keeps
 /// peaks better, then the smoothing by the measured noise), corrections in units of the channel's
 /// scales, and the logarithm of the variance of what will be wrong with the result, degrees
-/// squared.
+/// squared. By definition.
 inline constexpr std::size_t motion_smoothers = bank_levels + (bank_levels - 2) + 1;
 inline constexpr std::size_t motion_outputs = motion_smoothers + motion_scales + 1;
-/// Corrections that a known body adds to those of its channels.
+/// Corrections that a known body adds to those of its channels. Chosen by hand; the network has
+/// learned with it.
 inline constexpr std::size_t motion_body_corrections = 3;
 inline constexpr std::size_t first_body_correction = motion_scales - motion_body_corrections;
 

@@ -120,13 +120,13 @@ std::size_t drawn_index(std::span<const double> weights, Random& random) {
 }
 
 double random_rate_hz(Random& random) {
-  // Common rates; most takes keep the 120 Hz of the recordings.
+  // Common rates; most takes keep the 120 Hz of the recordings. Chosen by hand, not swept.
   static constexpr std::array<double, 6> rates{25, 30, 50, 60, 100, 120};
   return random.chance(0.3) ? rates[random.below(rates.size())] : 120;
 }
 
 double random_pace(Random& random) {
-  // Shares of the speed of the recorded motion.
+  // Shares of the speed of the recorded motion. Chosen by hand, not swept.
   constexpr double least = 0.7, fastest = 1.4;
   return random.uniform(least, fastest);
 }

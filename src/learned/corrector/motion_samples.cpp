@@ -219,7 +219,8 @@ MotionSample random_pair(const MotionPair& pair, std::size_t channels,
 }  // namespace
 
 MotionStatistics motion_statistics(const TrainingSequences& sequences) {
-  // Degrees, and degrees in 1/120 s: channels that hardly move are not blown up.
+  // Degrees, and degrees in 1/120 s: channels that hardly move are not blown up. Chosen by hand,
+  // not swept.
   constexpr double least_deviation = 1, least_speed_deg = 0.02;
   const ChannelMoments moments = channel_moments(sequences, 1);
   MotionStatistics result;

@@ -10,6 +10,7 @@ namespace kinemend {
 
 namespace {
 
+// Chosen by hand, not swept.
 constexpr std::size_t steps_read_together = 512;  // limits memory
 
 }  // namespace

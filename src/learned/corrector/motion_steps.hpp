@@ -10,9 +10,10 @@
 
 namespace kinemend {
 
-// Steps of the network a second: every fourth frame of 120 Hz. A model file is made for it.
+// Steps of the network a second: every fourth frame of 120 Hz. A model file is made for it. Chosen
+// by hand, not swept.
 inline constexpr double motion_steps_hz = 30;
-/// Changes are told per this part of a second.
+/// Changes are told per this part of a second. By definition.
 inline constexpr double motion_change_rate_hz = 120;
 /// The frame that a step looks at, where the take is that long.
 std::size_t frame_of_motion_step(std::size_t step, double frame_rate_hz);
@@ -42,22 +43,27 @@ struct MotionTake {
   }
 };
 
-/// What can be mixed: the levels of the bank, and the smoothing by the measured noise.
+/// What can be mixed: the levels of the bank, and the smoothing by the measured noise. By
+/// definition.
 inline constexpr std::size_t motion_levels = bank_levels + 1;
-/// Bands lie between neighbouring levels of the bank.
+/// Bands lie between neighbouring levels of the bank. By definition.
 inline constexpr std::size_t motion_bands = bank_levels - 1;
-/// Of these, the ones whose value counts beside their strength: below about 6 Hz.
+/// Of these, the ones whose value counts beside their strength: below about 6 Hz. Chosen by hand;
+/// the network has learned with it.
 inline constexpr std::size_t first_signed_band = 4;
 /// Strengths of bands about the step, the same against the whole take's, values of slow bands in
 /// units of the take's strength, share of samples that are missing; of the smoothing by the
-/// measured noise what it takes out, how it lies to the level of 50 ms, and whether it is known.
+/// measured noise what it takes out, how it lies to the level of 50 ms, and whether it is known. By
+/// definition.
 inline constexpr std::size_t missing_feature =
     2 * motion_bands + (motion_bands - first_signed_band);
 inline constexpr std::size_t motion_features = missing_feature + 4;
-/// Strengths of bands over the take, spread of its slowest level, whether it is a position.
+/// Strengths of bands over the take, spread of its slowest level, whether it is a position. By
+/// definition.
 inline constexpr std::size_t motion_take_features = motion_bands + 2;
 /// What corrections of a channel are measured by: the strengths of four bands about the step, and
-/// where samples are missing the spread of the channel.
+/// where samples are missing the spread of the channel. Chosen by hand; the network has learned
+/// with them.
 inline constexpr std::size_t motion_scales = 5;
 inline constexpr std::size_t scale_bands[motion_scales - 1] = {2, 4, 6, 8};
 

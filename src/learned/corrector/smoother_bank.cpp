@@ -12,7 +12,7 @@ namespace kinemend {
 namespace {
 
 // Deviations at which a Gaussian ends, 0.4 % of its peak; time that the line at an end is fitted
-// to.
+// to. Chosen by hand; the network has learned with them.
 constexpr double cut_deviations = 3.3;
 constexpr double line_s = 0.1;
 

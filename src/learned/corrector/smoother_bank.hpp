@@ -9,7 +9,7 @@
 namespace kinemend {
 
 /// The channel itself, and its means over Gaussians of these deviations, seconds: each band between
-/// two of them is half an octave.
+/// two of them is half an octave. Chosen by hand; the network has learned with them.
 inline constexpr std::array<double, 10> bank_widths_s{0.0125, 0.0177, 0.025,  0.0354, 0.05,
                                                       0.0708, 0.1,    0.1415, 0.2,    0.283};
 inline constexpr std::size_t bank_levels = bank_widths_s.size() + 1;

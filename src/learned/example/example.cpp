@@ -22,11 +22,13 @@ namespace kinemend {
 
 namespace {
 
-// The weight below which a sample counts as rejected.
+// The weight below which a sample counts as rejected. Chosen by hand, not swept.
 constexpr double rejected_weight = 0.01;
-// What is missing settles last, and weighs little in the objective.
+// What is missing settles last, and weighs little in the objective. Chosen by hand;
+// docs/methods/example-details.md states what other tolerances do.
 constexpr double tolerance_of_gaps = 1e-3;
 // The paper's p and lambda (sections 3.2 and 3.3), for the paper's solver, whose steps are short.
+// Its tolerance is chosen by hand, not swept.
 constexpr double papers_welsch_deg = 3, papers_lambda = 0.1, tolerance_of_papers = 1e-4;
 
 const OptionTable<ExampleOptions>& example_table() {

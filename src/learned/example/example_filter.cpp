@@ -18,9 +18,11 @@ constexpr std::size_t usual_iterations = 12;
 // Least relative area of two directions that count as independent.
 constexpr double least_area = 1e-12;
 
+// For speed, not swept.
 constexpr std::size_t frames_at_once = 64;  // a share of work; sums have its order
 // A frame of the result depends on frames within a window in the linear filter; in the other on
-// all, but negligibly on those beyond two windows.
+// all, but negligibly on those beyond two windows. The first follows by definition, the second is
+// chosen by hand, not swept.
 constexpr std::size_t linear_margin = 1, margin = 2;
 
 // The sum over all frames of summand(first, last), in an order independent of threads.

@@ -10,7 +10,7 @@ namespace kinemend {
 
 namespace {
 
-// Variances below this are rounding, square degrees.
+// Variances below this are rounding, square degrees. Not swept.
 constexpr double least_kept_variance = 1e-6;
 
 const std::vector<double>& variances(const Tensor& tensor, const char* name) {

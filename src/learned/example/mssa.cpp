@@ -14,7 +14,7 @@ namespace kinemend {
 
 namespace {
 
-// Number of sequence ends that are added to the covariance in one product.
+// Number of sequence ends that are added to the covariance in one product. For speed, not swept.
 constexpr std::size_t ends_at_once = 64;
 
 // Mean variance of each channel over the window: diagonal of C less `kept`.

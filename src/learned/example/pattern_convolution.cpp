@@ -18,11 +18,13 @@ namespace {
 std::size_t rows_of_block(std::size_t window_rows) { return (3 * window_rows) | 1; }
 
 // Frequencies whose matrices are computed at once, and values of G that are transformed for them.
+// For speed, not swept.
 constexpr std::size_t frequencies_at_once = 2;
 constexpr std::size_t patterns_at_once = 8192;
-// Blocks of about so many columns are transformed at once.
+// Blocks of about so many columns are transformed at once. For speed, not swept.
 constexpr std::size_t columns_at_once = 300;
-// Values of spectra that are computed before they are used: enough for products of matrices.
+// Values of spectra that are computed before they are used: enough for products of matrices. For
+// speed, not swept.
 constexpr std::size_t spectrum_values = std::size_t{3} << 19;
 
 // Memory that one piece of work after another uses, as many at once as there are threads.

@@ -26,6 +26,7 @@ class PatternConvolution {
   PatternConvolution(const std::vector<double>& patterns, std::size_t window_rows,
                      std::size_t row_values, std::size_t count);
 
+  // Limits memory; not swept.
   static constexpr std::size_t most_exact_bytes = std::size_t{1} << 24;
 
   /// image = A z; both `rows` x V, row-major.

@@ -15,11 +15,12 @@ namespace {
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Rows of E that are weighted at once.
+// Rows of E that are weighted at once. For speed, not swept.
 constexpr std::size_t gram_rows = 192;
 // Prepared matrices are written to fresh memory, which costs about half as much as their products.
+// Not swept.
 constexpr double cost_of_preparing = 1.5;
-// Columns of the inverse of a triangle that are multiplied at once.
+// Columns of the inverse of a triangle that are multiplied at once. For speed, not swept.
 constexpr std::size_t triangle_columns = 48;
 
 // E^T D^2 E of bases that are sampled at the clip's frames.

@@ -7,9 +7,9 @@ namespace kinemend {
 
 namespace {
 
-// A vector of a stretch is about 2 MB.
+// A vector of a stretch is about 2 MB. Limits memory; not swept.
 constexpr std::size_t values_at_once = std::size_t{1} << 18;
-// Length in margins, which limits the repeated work.
+// Length in margins, which limits the repeated work. For speed, not swept.
 constexpr std::size_t least_lengths = 4;
 
 }  // namespace

@@ -12,6 +12,7 @@ namespace kinemend {
 
 namespace {
 
+// Rounding; not swept.
 constexpr double same_rate = 1e-9;  // relative
 
 // Second derivatives of the spline through M equally spaced values, as a matrix. The third

@@ -29,7 +29,7 @@ struct WindowBases {
 };
 
 /// Bases that would have more values at the rate of the clip (32 MB) stay as the model has them, so
-/// that memory does not grow with the rate.
+/// that memory does not grow with the rate. Not swept.
 inline constexpr std::size_t most_sampled_values = std::size_t{1} << 22;
 
 /// The bases at the rate of a clip of `clip_frames` frames (1 or more), by a cubic spline through

@@ -14,7 +14,8 @@ namespace kinemend {
 
 namespace {
 
-// Sizes that a model file may ask for, the kinds of head, and axes of a rotation vector.
+// Sizes that a model file may ask for, the kinds of head, and axes of a rotation vector. Limits are
+// chosen by hand.
 constexpr std::size_t most_layers = 16, most_stride = 64, most_reach = 256, head_count = 5;
 constexpr std::size_t axes = 3;
 
@@ -145,7 +146,7 @@ std::size_t filter_feature_count(std::size_t channels, FilterInputs inputs) {
 // The mean square of second differences is six times the variance of white noise.
 float roughness_feature(double mean_square, float deviation) {
   // The floor against the logarithm of zero, and the mean and deviation that make the feature about
-  // normal.
+  // normal. Chosen by hand; networks have learned with them.
   constexpr float squares_of_white = 6, floor_deg = 0.02F, middle = -3, spread = 1.5F;
   const float own = std::sqrt(static_cast<float>(std::max(0.0, mean_square)) / squares_of_white);
   return (std::log((own + floor_deg) / deviation) - middle) / spread;

@@ -13,7 +13,7 @@ namespace kinemend {
 namespace {
 
 // Axes of a rotation vector; and the time within which what a network fills is bent to meet the
-// ends.
+// ends. Chosen by hand, not swept.
 constexpr std::size_t gap_axes = 3;
 constexpr double joining_s = 0.1;
 

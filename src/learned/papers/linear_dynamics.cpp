@@ -21,6 +21,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+// Chosen by hand, not swept.
 constexpr double largest_growth = 0.9999;  // of a step, so that the stationary covariance is finite
 constexpr double least_variance = 1e-6;    // square degrees: least measurement variance
 
@@ -52,6 +53,7 @@ MatrixXd stationary_spread(MatrixXd transition, const MatrixXd& drive) {
 
 // Eigenvalues on the negative axis and at zero have no real power.
 MatrixXd with_real_powers(const MatrixXd& transition) {
+  // Chosen by hand, not swept.
   constexpr double forgotten = 1e-6;  // an eigenvalue without memory
   const Eigen::EigenSolver<MatrixXd> solver(transition);
   Eigen::VectorXcd values = solver.eigenvalues();
@@ -102,6 +104,7 @@ LinearDynamicsFit::LinearDynamicsFit(std::size_t channels, std::size_t order)
 }
 
 void LinearDynamicsFit::add(const PoseMatrix& poses, double weight) {
+  // For speed, not swept.
   constexpr std::size_t block = 256;  // windows at a time
   if (poses.channels != channels_) throw Error(ErrorKind::usage, "poses of other channels");
   if (poses.frames < order_ + 1) return;

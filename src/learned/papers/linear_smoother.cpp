@@ -17,12 +17,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Not swept.
 constexpr double least_noise_deg = 1e-3;  // against division by zero
 // Gains have converged when a frame changes no covariance by more than this, relative to the
-// variances of the two directions.
+// variances of the two directions. Not swept.
 constexpr double settled_change = 1e-9;
 // Most covariances kept between the passes; beyond it they are recomputed from every
-// `segment_frames`-th.
+// `segment_frames`-th. Limits memory; not swept.
 constexpr std::size_t kept_numbers = std::size_t{1} << 24;
 constexpr std::size_t segment_frames = 128;
 

@@ -12,10 +12,12 @@ namespace {
 
 constexpr std::size_t live_axes = 3;  // of a rotation vector
 constexpr std::size_t reach = predicted_filter_reach;
-// What a pass sees: its first frame and those ahead, before the end of the stream and at it.
+// What a pass sees: its first frame and those ahead, before the end of the stream and at it. By
+// definition.
 constexpr std::size_t pass_rows = reach + 2 - LiveFilterNetwork::period;
 constexpr std::size_t most_rows = reach + 1;
-// The second differences about the first of these frames look one frame farther than its window.
+// The second differences about the first of these frames look one frame farther than its window. By
+// definition.
 constexpr std::size_t window_rows = 2 * reach + 2;
 
 std::size_t widest(const FilterNetwork& network) {

@@ -24,6 +24,7 @@ namespace kinemend {
 class LiveFilterNetwork {
  public:
   static constexpr std::size_t delay = predicted_filter_reach;  ///< frames
+  // Chosen by hand, not swept.
   static constexpr std::size_t period = 3;  ///< frames from one backward pass to the next
 
   /// `network` outlives this. Errors: `ErrorKind::usage` for one that fills gaps, has a stride, or

@@ -11,7 +11,8 @@ namespace kinemend {
 
 namespace {
 
-// Logarithms of the width of a Gaussian, frames: from 0.08, which keeps a sample, to 20.
+// Logarithms of the width of a Gaussian, frames: from 0.08, which keeps a sample, to 20. Chosen by
+// hand; networks have learned with them.
 constexpr float least_log = -2.5F, most_log = 3.0F;
 constexpr std::size_t taps = 2 * predicted_filter_reach + 1;
 

@@ -11,7 +11,8 @@
 
 namespace kinemend {
 
-/// Frames on either side of a frame that a predicted filter sees: 31 in all, at 120 Hz.
+/// Frames on either side of a frame that a predicted filter sees: 31 in all, at 120 Hz. As Mall et
+/// al. 2017 have it (section 3).
 inline constexpr std::size_t predicted_filter_reach = 15;
 
 /// How outputs o of a frame become its pose y; x is what was measured, s_c and m_c a scale and a

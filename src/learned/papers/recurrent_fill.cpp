@@ -22,6 +22,7 @@ namespace kinemend {
 
 namespace {
 
+// Chosen by hand, not swept.
 constexpr double most_within = 0.98;  // a few of the samples may be spikes
 
 // The body's frame needs a root in every frame, and rotation vectors the shortest way through gaps.

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "body/rotation_channels.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/representation.hpp"
 #include "learned/papers/live_filter_network.hpp"
@@ -106,23 +107,18 @@ class RecurrentLive final : public LiveFilter {
     }
   }
 
-  // What is none must not go on in the network's state.
-  static bool is_turn(Quat q) {
-    constexpr double near = 0.1;  // of the square of its length
-    return std::abs(dot(q, q) - 1) < near;
-  }
-
   void read(const Frame& in, LiveFilterNetwork::Input& input) {
     std::fill(missing_.begin(), missing_.end(), std::uint8_t{1});
     for (Known& known : tracks_) {
       const Quat q = known.before * in.rotations[known.joint] * known.after;
       if (known.track == 0) {
         input.root = root_of(in, q);
-        input.root_is_missing = !is_seen(in, known.joint) || !is_turn(input.root);
+        input.root_is_missing = !is_seen(in, known.joint) || !is_nearly_unit(input.root);
         continue;
       }
       if (!is_seen(in, known.joint)) continue;
-      const Vec3 v = near(log(normalized(conjugate(known.reference) * q)), known.last);
+      const Vec3 v =
+          continue_within_a_turn(log(normalized(conjugate(known.reference) * q)), known.last);
       if (!std::isfinite(norm(v))) continue;
       known.last = v;
       missing_[known.track - 1] = 0;
@@ -131,13 +127,6 @@ class RecurrentLive final : public LiveFilter {
       own[1] = static_cast<float>(degrees_per_radian * v.y);
       own[2] = static_cast<float>(degrees_per_radian * v.z);
     }
-  }
-
-  // Past half a turn a vector goes on, but no joint that models know has turned once round.
-  static Vec3 near(Vec3 v, Vec3 last) {
-    constexpr double farthest = 210 * radians_per_degree;
-    const Vec3 next = continue_rotation_vector(v, last);
-    return norm(next) > farthest ? v : next;
   }
 
   Quat root_of(const Frame& in, Quat q) const {

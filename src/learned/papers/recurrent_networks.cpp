@@ -24,6 +24,7 @@ bool are_same(const BodyLayout& one, const BodyLayout& other) {
 }
 
 bool has_rate_of(const FilterNetwork& network, double frame_rate_hz) {
+  // Chosen by hand, not swept.
   constexpr double same_rate = 0.01;  // share of the rate
   return std::abs(frame_rate_hz / network.rate_hz - 1) <= same_rate;
 }

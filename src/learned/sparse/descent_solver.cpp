@@ -19,9 +19,10 @@ namespace {
 using Vector = Eigen::VectorXf;
 using Map = Eigen::Map<const Eigen::VectorXf>;
 
+// For speed, not swept.
 constexpr std::size_t batch_signals = 64;  // a share of work
 // Of the absolute loss: rests count as at least this share of their median, so that weights stay
-// finite.
+// finite. Chosen by hand, not swept.
 constexpr float least_rest = 0.1F;
 
 // One signal: the atoms it uses, with their products under the weights of its rows.
@@ -225,6 +226,7 @@ class DescentBatch {
 
   // The steepest few of the atoms whose slope is beyond lambda.
   bool add_steep(std::span<const float> slopes, float lambda, std::size_t s) {
+    // For speed, not swept.
     constexpr std::size_t at_once = 6;  // atoms
     const float limit = 0.5F * lambda * (1 + static_cast<float>(settings_.tolerance));
     std::vector<std::pair<float, std::size_t>> steep;

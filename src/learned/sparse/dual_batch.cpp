@@ -13,12 +13,13 @@ namespace {
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 // Relaxation of the alternating directions, above 1 for fewer rounds; rounds from one measurement
-// of the gap to the next, for speed.
+// of the gap to the next, for speed. Not swept.
 constexpr double over_relaxation = 1.6;
 constexpr std::size_t measured_every = 10;
-// Penalties settle, so that the method converges.
+// Penalties settle, so that the method converges. Chosen by hand, not swept.
 constexpr std::size_t balanced_until = 300;
-// Ratio of the two residuals from which a penalty is changed, and by how much.
+// Ratio of the two residuals from which a penalty is changed, and by how much. Chosen by hand, not
+// swept.
 constexpr double balance_ratio = 3, balance_factor = 2;
 
 double clipped(double value, double size) { return std::clamp(value, -size, size); }

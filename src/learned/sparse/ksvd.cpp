@@ -20,6 +20,7 @@ using Vector = Eigen::VectorXf;
 using Column = Eigen::Map<Eigen::VectorXf>;
 using ConstColumn = Eigen::Map<const Eigen::VectorXf>;
 
+// For speed, not swept.
 constexpr std::size_t block_of_signals = 256;  // a share of work; sums have its order
 
 ConstColumn column(std::span<const float> values, std::size_t number, std::size_t rows) {

@@ -16,7 +16,8 @@ namespace {
 
 using Eigen::Index;
 
-// Windows that are in memory at once, and the values of theirs.
+// Windows that are in memory at once, and the values of theirs. Chosen by hand;
+// docs/methods/sparse-details.md states what more noise does.
 constexpr std::size_t least_windows = 16, most_windows = 256, chunk_values = std::size_t{1} << 20;
 constexpr double least_noise = 1e-5;  // body heights
 

@@ -10,7 +10,8 @@ namespace kinemend {
 
 namespace {
 
-// Sine of the angle at the middle of the hips, and length relative to the way between them.
+// Sine of the angle at the middle of the hips, and length relative to the way between them. Below
+// them the points are nearly on a line. Chosen by hand, not swept.
 constexpr double least_sine = 0.1;
 constexpr double least_length = 1e-9;
 

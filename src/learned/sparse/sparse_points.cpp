@@ -18,7 +18,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// The arc of a channel's degree: a quarter of the body height has one radian.
+// The arc of a channel's degree: a quarter of the body height has one radian. By definition
+// (docs/bodies.md). The lengths are chosen by hand, not swept.
 constexpr double degrees_per_height = 4 * degrees_per_radian;
 constexpr double least_bone = 1e-4;                      // body heights
 constexpr double shortest_end = 0.02, usual_end = 0.05;  // of a bone whose length is unknown

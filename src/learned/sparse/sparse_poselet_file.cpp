@@ -14,6 +14,7 @@ namespace kinemend {
 
 namespace {
 
+// Chosen by hand.
 constexpr std::size_t most_poselets = 100;  // that a model file may have
 
 std::string_view trimmed(std::string_view text) {

@@ -88,7 +88,7 @@ Place place_of_marker(const std::string& name) {
 
 // By the mean position of a standing body, in body heights: y up, x to the left.
 Place place_at(Vec3 mean) {
-  // Height of the hips, and how far to the side arms begin.
+  // Height of the hips, and how far to the side arms begin. Chosen by hand, not swept.
   constexpr double hips = 0.5, shoulders = 0.16;
   const Side side = mean.x > 0 ? Side::left : Side::right;
   if (std::abs(mean.x) > shoulders && mean.y > 0.5 * hips) return limb(side, false, false);

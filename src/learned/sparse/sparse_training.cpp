@@ -38,9 +38,9 @@ struct SparseTraining {
   bool local = false;
 };
 
-// Values of a window; limits memory.
+// Values of a window; limits memory. Chosen by hand.
 constexpr std::size_t largest_poselet_window = 16'384;
-// An atom stands for what several windows share.
+// An atom stands for what several windows share. Chosen by hand, not swept.
 constexpr std::size_t least_windows_per_atom = 4;
 
 const OptionTable<SparseTraining>& sparse_training_table() {

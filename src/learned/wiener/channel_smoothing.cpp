@@ -10,6 +10,7 @@ namespace kinemend {
 // Channels are scaled to the same noise, which is then isotropic.
 void smooth_channels(PoseMatrix& poses, std::span<const std::uint8_t> missing,
                      std::span<const double> noise, double frame_rate_hz) {
+  // Chosen by hand, not swept.
   constexpr std::size_t fewest_smoothed_frames = 16;  // fewer say nothing of a strength
   VectorTracks tracks(poses.frames, poses.channels / 3);
   SampleMarks marks(poses.frames, tracks.tracks());

@@ -21,7 +21,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Windows overlap by three quarters, so that neighbours are dependent.
+// Windows overlap by three quarters, so that neighbours are dependent. By definition; chunks are
+// for speed, not swept.
 constexpr double window_weight = 0.25;
 constexpr std::size_t chunk_windows = 16;  // a share of work
 
@@ -273,7 +274,7 @@ WienerResult wiener_filter(const WienerPrior& prior, const WienerTake& take,
                            const WienerSettings& settings) {
   if (take.poses.frames == 0) return {take.poses, {}};
   // At high rates windows are no longer than the take, as their length in frames is the side of a
-  // matrix.
+  // matrix. Chosen by hand, not swept.
   constexpr double usual_rate_hz = 240;
   const double whole_take_hz = static_cast<double>(take.poses.frames) / prior.window_s;
   const double rate_hz = std::min(take.rate_hz, std::max(usual_rate_hz, whole_take_hz));

@@ -19,6 +19,8 @@ namespace kinemend {
 namespace {
 
 // Widths of the Gaussians that the guard tries, each about 4/3 of the one before.
+// docs/methods/wiener-details.md states what the guard and `clearly` bring (rows `guard`); the
+// values are chosen by hand, not swept.
 constexpr std::array<double, 14> widths_s = {0.006, 0.008, 0.011, 0.014, 0.018, 0.024, 0.032,
                                              0.042, 0.055, 0.075, 0.1,   0.14,  0.19,  0.25};
 constexpr std::size_t track_channels = 3;  // a rotation vector
@@ -27,6 +29,7 @@ constexpr double clearly = 0.95;           // of the filter's risk
 constexpr double fewest_counted = 0.8;     // share of samples
 constexpr std::uint64_t probe_seed = 7;    // any will do
 
+// Chosen by hand, not swept.
 constexpr double most_of_typical = 25;         // a single difference, of the typical variance
 constexpr double least_guard_variance = 1e-6;  // square degrees
 constexpr double gap_fade_s = 0.1;  // depth in a gap at which the other estimate has gone
@@ -93,6 +96,7 @@ class Guard {
   }
 
  private:
+  // Chosen by hand, not swept.
   static constexpr std::size_t fewest_frames = 16;  // fewer say nothing of a risk
 
   bool is_mostly_counted(std::size_t channel) const {

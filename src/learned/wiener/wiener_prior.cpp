@@ -15,7 +15,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Keeps covariances positive definite when rounded to 16 bits.
+// Keeps covariances positive definite when rounded to 16 bits. Chosen by hand, not swept.
 constexpr double least_deviation = 1e-3;  // degrees
 
 Tensor tensor_of(const Rows& matrix, TensorType type) {

@@ -16,6 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Above this share of missing samples, one in so many, a channel is conditioned on the others.
+// Chosen by hand (docs/methods/wiener-details.md, step 4), not swept.
 constexpr Index guessed_share = 8;
 
 }  // namespace

@@ -9,6 +9,7 @@ namespace kinemend {
 /// the end of a typical bone so far. Markers: 1150 a body height (a degree stands for 1.5 mm),
 /// since optical systems see finer than angles are measured.
 inline double degrees_per_unit(const TakeView& take) {
+  // Chosen by hand (docs/methods/auto.md), not swept.
   constexpr double degrees_per_height = 1150;
   return take.markers ? degrees_per_height / take.body_height
                       : degrees_per_radian / radian_of_positions(take);

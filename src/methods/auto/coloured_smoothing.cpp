@@ -16,7 +16,7 @@ namespace kinemend {
 
 namespace {
 
-// Candidates.
+// Candidates. The range of `SmoothingTuning::models`, in fewer steps for speed; not swept.
 constexpr signal::CutoffGrid smoothing_cutoffs{0.003, 50, 24};
 
 class ColouredSmoothing {

@@ -15,6 +15,7 @@ namespace kinemend {
 
 namespace {
 
+// Frames of a period, for speed; not swept.
 constexpr std::size_t longest_step = 8;  // limits time and room
 
 // Sizes of the differences of order 1 or 2 by the frame at which they show a new measurement.

@@ -32,6 +32,7 @@ struct SamplePattern {
     return last < 0 ? 0 : 1 + static_cast<std::size_t>(last / step);
   }
 
+  // Rounding of the times of a clock.
   static constexpr double same_time = 1e-6;  ///< frames
 };
 

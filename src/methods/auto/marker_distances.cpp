@@ -14,6 +14,7 @@ namespace kinemend {
 
 namespace {
 
+// For speed, and by hand; not swept.
 constexpr std::size_t most_frames = 240;   // limits the time
 constexpr std::size_t fewest_frames = 12;  // of a median
 
@@ -42,7 +43,7 @@ double ratio_of(const VectorTracks& tracks, const SampleMarks& marked,
         std::sqrt(u.x * u.x * squares.x + u.y * u.y * squares.y + u.z * u.z * squares.z));
   }
   if (changes.size() < fewest_frames) return std::numeric_limits<double>::infinity();
-  // Median of the size of a normal number of deviation 1.
+  // Median of the size of a normal number of deviation 1. By definition, to four digits.
   constexpr double median_of_normal = 0.6745;
   return median_of(changes) / (median_of_normal * median_of(expected));
 }

@@ -64,6 +64,8 @@ double isotropic_level(std::span<const Vec3> track, std::span<const std::uint8_t
 // Huber's standard deviation of numbers with outliers: squares are limited to (2.5 deviations)^2.
 double huber_deviation(std::vector<double> numbers) {
   // Of normal numbers of deviation 1: the mean of squares that are limited so, and the median size.
+  // Where squares are cut is chosen by hand, not swept; the other two follow by definition, to four
+  // digits.
   constexpr double cut = 2.5, share_within_cut = 0.9775, median_size = 0.6745;
   constexpr int rounds = 10;  // of the fixed-point iteration
   if (numbers.empty()) return 0;

@@ -19,13 +19,14 @@ namespace kinemend {
 
 namespace {
 
-// Candidates and what keeps from a division by zero.
+// Candidates and what keeps from a division by zero. Chosen by hand (docs/methods/auto-details.md,
+// "What colour has the noise?"), not swept.
 constexpr std::array correlations{0.0, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.98};
 constexpr std::size_t strengths = 80;
 constexpr double least_deviation = 0.02, largest_deviation = 60;  // degrees
 constexpr signal::CutoffGrid model_cutoffs{0.003, 50, 16};
 constexpr double least_motion = 1e-3;  // degrees
-// Windows of single channels whose evidence is summed: limits the time.
+// Windows of single channels whose evidence is summed: limits the time. Not swept.
 constexpr std::size_t most_lanes = 2400;
 constexpr std::size_t fewest_noisy_frames = 24;  // of a window
 

@@ -12,7 +12,8 @@
 
 namespace kinemend {
 
-/// Takes of fewer frames are not changed.
+/// Takes of fewer frames are not changed. A third difference, by which noise is measured, spans
+/// four by definition.
 inline constexpr std::size_t fewest_clean_frames = 4;
 
 struct TrackCleaningSettings {

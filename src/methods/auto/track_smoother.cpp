@@ -80,7 +80,7 @@ class Smoothing {
 
   void run(std::span<const double> shares, ShareProgress* progress) {
     if (grid_.models().empty()) return;
-    // Tracks of three axes that fit a block of channels.
+    // Tracks of three axes that fit a block of channels. By definition.
     constexpr std::size_t together = signal::block_channels / 3;
     const std::size_t blocks = (chosen_.size() + together - 1) / together;
     if (progress) progress->begin_part(0.55, blocks);

@@ -80,6 +80,7 @@ HWY_INLINE LaneVec weigh(const VectorTrack& steps, const double* sample_weights,
 template <class Track>
 void bilateral_moves(const Track& track, const VectorTrack& steps, const double* sample_weights,
                      const BilateralKernel& kernel, VectorTrack& moves) {
+  // For speed, not swept.
   constexpr std::size_t block = 256;  // the band of a block fits the L1 cache
   const std::size_t k = kernel.half_width();
   std::vector<double> storage(k * (block + k + lane_room));

@@ -11,7 +11,7 @@ namespace kinemend {
 
 namespace {
 
-// Enough to fill vector registers, few enough to spread over threads.
+// Enough to fill vector registers, few enough to spread over threads. For speed, not swept.
 constexpr std::size_t most_in_block = 8;
 
 using ChannelFilter = std::function<void(PoseMatrix&)>;

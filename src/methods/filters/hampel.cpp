@@ -57,6 +57,7 @@ class Despiker {
 
  private:
   bool is_spike(std::size_t t, std::size_t first, std::size_t last) {
+    // Frames of a window; shorter ones are left alone. Chosen by hand, not swept.
     constexpr std::size_t least_frames = 5;
     if (last - first + 1 < least_frames) return false;
     const std::size_t middle = medoids_.find(first, last);

@@ -51,6 +51,7 @@ class NoiseMeter {
 
   template <class Sample>
   double measure(Sample a, Sample b, Sample c) {
+    // By which the estimate moves with each sample. Chosen by hand, not swept.
     constexpr double rate = 0.05;
     const double sample = second_difference(a, b, c) * noise_per_second_difference;
     noise_ *= sample > noise_ ? 1 + rate : 1 / (1 + rate);

@@ -56,6 +56,7 @@ Vec3 newton_step(const Pull& p) {
 }
 
 Vec3 spatial_median(std::span<const Vec3> points, std::size_t start) {
+  // Newton's steps, and where they end as a share of the spread: rounding. Not swept.
   constexpr int most_steps = 16;
   constexpr double near_enough = 1e-6;
   Vec3 best = points[start];

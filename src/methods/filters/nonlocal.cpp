@@ -19,8 +19,6 @@ namespace kinemend {
 
 namespace {
 
-// The automatic bandwidth of the causal filter, as a share of the noise.
-constexpr double causal_noise_share = 0.8;
 // How far the root position is averaged when the window is the whole take: beyond, the body is
 // elsewhere.
 const double travel_window_s = NonlocalOptions{}.window_s;
@@ -138,7 +136,6 @@ class NonlocalCleaner final : public Cleaner {
     settings.patch = 2 * offline.patch_radius + 1;
     settings.neighbours = offline.neighbours;
     settings.bandwidth = offline.bandwidth;
-    settings.noise_share = causal_noise_share;
     return make_causal_nonlocal(settings, pose_joints(like.joints->skeleton));
   }
 

@@ -33,6 +33,7 @@ class RunningNoise {
   }
 
  private:
+  // Before which no noise is known, and over which it is measured. Chosen by hand, not swept.
   static constexpr std::size_t least_frames = 8;
   static constexpr std::size_t most_frames = 256;
   std::size_t count_ = 0;

@@ -17,7 +17,7 @@ struct CausalNonlocalSettings {
   std::size_t neighbours = 0;  ///< the most similar patches alone; 0: all of the window
   /// The paper's sigma, radians; 0: `noise_share` times the noise measured in the frames so far.
   double bandwidth = 0;
-  double noise_share = 0.8;
+  double noise_share = 0.8;  ///< chosen by hand (docs/methods/nonlocal.md); no sweep is stored
 };
 
 /// `joints` are those that belong to the pose. The root position stays as it is: where a body was

@@ -160,6 +160,7 @@ class Averager {
     }
 
    private:
+    // Chosen by hand, not swept.
     static constexpr double least_spread = 0.5;  // square frames, below which no speed is estimated
     double weights_ = 1, offsets_ = 0, squares_ = 0;
     Vec3 moves_, products_;
@@ -438,6 +439,7 @@ std::size_t NonlocalTake::frames() const {
 }
 
 double best_bandwidth(const NonlocalTake& take, const NonlocalSettings& settings, double variance) {
+  // At which risks are estimated: up to 384 frames over the take, for speed; not swept.
   constexpr std::size_t block = 64, most_blocks = 6;
   std::vector<double> bandwidths, risks;
   for (int step = 0; step < 8; ++step) {

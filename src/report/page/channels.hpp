@@ -11,14 +11,15 @@
 namespace kinemend::page {
 
 /// Half a quantum is the largest error of a value, unless it is too large for 2^30 quanta. These
-/// are the coarsest quanta: speeds and accelerations of short takes deserve finer ones.
+/// are the coarsest quanta: speeds and accelerations of short takes deserve finer ones. Chosen by
+/// hand, not swept.
 inline constexpr double rotation_quantum_deg = 0.04;
 /// Of positions, file units: a seventeen thousandth of the body, 0.1 mm of a person.
 double position_quantum(double body_height);
 
-/// More samples than this, of one take, and not every frame goes in.
+/// More samples than this, of one take, and not every frame goes in. Chosen by hand, not swept.
 inline constexpr std::size_t most_samples = 10'000'000;
-/// More than this, and frames go in in two parts.
+/// More than this, and frames go in in two parts. Chosen by hand, not swept.
 inline constexpr std::size_t most_samples_at_once = 2'500'000;
 inline constexpr std::size_t stride_of_parts = 8;
 

@@ -123,6 +123,7 @@ std::vector<std::int32_t> quantised(std::span<const double> values, double quant
 }
 
 double quantum_for(double quantum, double largest) {
+  // The 2^30 of channels.hpp, by definition.
   constexpr double most = 1 << 30;
   return std::max(quantum, largest / most);
 }

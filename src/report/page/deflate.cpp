@@ -38,6 +38,7 @@ void append_little(std::string& bytes, std::uint32_t value) {
 
 // RFC 1950, section 9.
 std::uint32_t adler32_of(std::string_view bytes) {
+  // By definition.
   constexpr std::uint32_t prime = 65521;
   std::uint32_t a = 1, b = 0;
   for (const char byte : bytes) {
@@ -51,6 +52,7 @@ std::uint32_t adler32_of(std::string_view bytes) {
 
 // Stored blocks (RFC 1951, section 3.2.4) in the frame of RFC 1950.
 std::string deflated(std::string_view bytes) {
+  // By definition.
   constexpr std::size_t most = 65535;
   std::string result = "\x78\x01";
   std::size_t first = 0;

@@ -11,15 +11,18 @@ namespace kinemend::page {
 
 namespace {
 
+// For speed, not swept.
 constexpr std::size_t most_frames = 120, fewest_frames = 24;
-// So many distances are measured at most, whatever the number of markers.
+// So many distances are measured at most, whatever the number of markers. For speed, not swept.
 constexpr std::size_t most_distances = 4'000'000;
 constexpr std::size_t most_markers = 1000;
-// Share of the frames looked at in which both markers must be observed.
+// Share of the frames looked at in which both markers must be observed. Chosen by hand, not swept.
 constexpr double least_together = 0.2;
 // Limits: the longest line, of the body's height, and how much a distance may vary, of itself.
+// Chosen by hand, not swept.
 constexpr double longest_line = 0.4, largest_change = 0.35;
-// How much more distance counts as one unit of change: neighbours first where all is rigid.
+// How much more distance counts as one unit of change: neighbours first where all is rigid. Chosen
+// by hand, not swept.
 constexpr double weight_of_length = 0.25;
 
 struct Candidate {

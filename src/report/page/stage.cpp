@@ -18,6 +18,7 @@ using check::BodyPoints, feet::along, feet::Up;
 // The level that nearly all of the body stays above in nearly all frames looked at.
 template <class PointAt>
 double lowest_level(std::size_t frames, std::size_t points, Up up, const PointAt& at) {
+  // Frames, evenly over the take: for speed, not swept.
   constexpr std::size_t looked_at = 500;
   std::vector<double> lowest;
   const std::size_t count = std::min(frames, looked_at);

@@ -39,6 +39,7 @@ Stage stage_for(const Take& take, const Report& report) {
 // The motion in quanta as fine as they may be for a page of about two megabytes at most, of which
 // its program takes a third.
 Channels fine_channels(const Take& before, const Take* after, double body_height, bool is_served) {
+  // Chosen by hand, not swept.
   constexpr double most_bytes = 1'000'000, least_share = 1.0 / 64, served_share = 1.0 / 16;
   // Nobody mails what is served, and somebody waits for it.
   if (is_served) return page::channels_of(before, after, body_height, served_share);
