@@ -5,12 +5,12 @@
 #include <string_view>
 #include <utility>
 
-#include "check/feet.hpp"
+#include "feet/body_points.hpp"
 #include "feet/legs.hpp"
 #include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/metrics.hpp"
 
-namespace kinemend::check {
+namespace kinemend::feet {
 
 namespace {
 
@@ -36,7 +36,7 @@ std::vector<Foot> feet_of(const Skeleton& skeleton, const KnownNames& names) {
   std::vector<Foot> feet;
   Skeleton known = skeleton;
   known.names = known_names(skeleton.names, names);
-  for (const std::size_t ankle : feet::ankles_of(known)) {
+  for (const std::size_t ankle : ankles_of(known)) {
     Foot foot{skeleton.names[ankle], points_below(skeleton, ankle)};
     if (foot.points.empty()) foot.points.push_back(ankle);
     feet.push_back(std::move(foot));
@@ -118,4 +118,4 @@ BodyPoints body_points(const Take& clip, const std::vector<std::size_t>& markers
   return body;
 }
 
-}  // namespace kinemend::check
+}  // namespace kinemend::feet
