@@ -113,10 +113,12 @@ struct CheckFigures {
   std::optional<double> floor_cm;        ///< distance of the floor from height 0
 };
 
-/// What a joint may do at most.
+/// What a joint may do at most. The defaults are those of the knee of a Unitree G1, by its
+/// published description: its speed, and the acceleration that its torque gives to shank and foot
+/// (docs/check-robot.md).
 struct JointLimits {
-  double speed_deg_s = 1146;           ///< 20 rad/s, the knee of a Unitree G1 (> 0)
-  double acceleration_deg_s2 = 20000;  ///< above what people do; docs/check-robot.md (> 0)
+  double speed_deg_s = 1146;           ///< 20 rad/s (> 0)
+  double acceleration_deg_s2 = 72700;  ///< 139 N m / 0.1096 kg m2 (> 0)
 };
 
 /// Limits of the joints whose names match a pattern of a shell (`matches_wildcards`).
@@ -132,11 +134,11 @@ struct RobotSettings {
   /// Time over which speeds and accelerations are differences: a step of a controller at 50 Hz, or
   /// one frame where frames are longer (0.001 to 1).
   double step_s = 0.02;
-  double penetration_cm = 3;  ///< depth of a foot below its standing level (>= 0)
-  double floating_cm = 3;     ///< height of a standing foot above the floor (>= 0)
-  double jump_deg = 15;       ///< of a joint within one frame (> 0)
+  double penetration_cm = 5;  ///< depth of a foot below its standing level (>= 0)
+  double floating_cm = 5;     ///< height of a standing foot above the floor (>= 0)
+  double jump_deg = 30;       ///< of a joint within one frame (> 0)
   double jump_cm = 10;        ///< of the root or a marker within one frame (> 0)
-  double floor_cm = 2;        ///< distance of the floor from height 0 (>= 0)
+  double floor_cm = 5;        ///< distance of the floor from height 0 (>= 0)
 };
 
 /// When something becomes a finding.

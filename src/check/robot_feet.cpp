@@ -20,10 +20,10 @@ namespace {
 
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
-// Feet by frame: how far the lowest point is above its standing level, in metres, and whether the
-// foot stands.
+// Feet by frame, in metres: how far the point nearest to its standing level is above it, how deep
+// the foot is below the lowest of these levels, and whether it stands.
 struct FeetByFrame {
-  std::vector<std::vector<double>> heights;
+  std::vector<std::vector<double>> heights, depths;
   std::vector<std::vector<std::uint8_t>> stands;
 };
 
@@ -37,10 +37,25 @@ std::vector<double> heights_of(const std::vector<feet::SolePoint>& points, std::
   return lowest;
 }
 
+// A toe that points down is lower than where it stands; the floor is where the lowest point stands.
+std::vector<double> depths_of(const std::vector<feet::SolePoint>& points, std::size_t frames) {
+  double floor = nowhere;
+  for (const feet::SolePoint& point : points) floor = std::min(floor, point.level);
+  std::vector<double> deepest(frames);
+  for (const feet::SolePoint& point : points) {
+    for (std::size_t f = 0; f < frames; ++f) {
+      if (point.seen[f] != 0) deepest[f] = std::max(deepest[f], floor - point.heights[f]);
+    }
+  }
+  return deepest;
+}
+
 FeetByFrame feet_by_frame(const BodyPoints& body, Up up) {
   FeetByFrame all;
   for (const Foot& foot : body.feet) {
-    all.heights.push_back(heights_of(sole_points(body, foot, up), body.frames));
+    const std::vector<feet::SolePoint> points = sole_points(body, foot, up);
+    all.heights.push_back(heights_of(points, body.frames));
+    all.depths.push_back(depths_of(points, body.frames));
     all.stands.emplace_back(body.frames);
   }
   return all;
@@ -69,12 +84,9 @@ void mark_contacts(const Take& clip, const CheckSettings& settings, const BodyPo
   }
 }
 
-double largest(const std::vector<double>& values, const FrameSpan& span, double sign) {
-  double found = 0;
-  for (std::size_t f = span.first; f <= span.last; ++f) {
-    if (values[f] != nowhere) found = std::max(found, sign * values[f]);
-  }
-  return found;
+double deepest_in(const std::vector<double>& depths, const FrameSpan& span) {
+  return *std::max_element(depths.begin() + static_cast<std::ptrdiff_t>(span.first),
+                           depths.begin() + static_cast<std::ptrdiff_t>(span.last + 1));
 }
 
 void put_larger(double value, std::optional<double>& known) {
@@ -84,12 +96,12 @@ void put_larger(double value, std::optional<double>& known) {
 void report_penetration(const BodyPoints& body, const FeetByFrame& all,
                         const RobotSettings& settings, CheckReport& report) {
   for (std::size_t i = 0; i < body.feet.size(); ++i) {
-    const std::vector<double>& heights = all.heights[i];
-    put_larger(100 * largest(heights, {0, body.frames - 1}, -1), report.figures.penetration_cm);
-    const auto is_deep = [&](std::size_t f) { return -100 * heights[f] > settings.penetration_cm; };
+    const std::vector<double>& depths = all.depths[i];
+    put_larger(100 * deepest_in(depths, {0, body.frames - 1}), report.figures.penetration_cm);
+    const auto is_deep = [&](std::size_t f) { return 100 * depths[f] > settings.penetration_cm; };
     for (const FrameSpan& span : runs_where(body.frames, is_deep)) {
       report.findings.push_back({FindingKind::penetration, Severity::warning, body.feet[i].name,
-                                 span.first, span.last, 100 * largest(heights, span, -1), "cm",
+                                 span.first, span.last, 100 * deepest_in(depths, span), "cm",
                                  "goes below the level on which it stands"});
     }
   }

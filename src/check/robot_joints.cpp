@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/quantiles.hpp"
 #include "check/checks.hpp"
 #include "check/runs.hpp"
 #include "kinemend/experimental/text.hpp"
@@ -112,20 +113,22 @@ double miss(Vec3 before, Vec3 from, Vec3 to, Vec3 after) {
 }
 
 // The steps whose sides miss each other by more than `limit` while the steps beside them miss less:
-// half as much after a jump that stays, as much about a single wrong sample, which is a spike.
+// half as much after a jump that stays, as much about a single wrong sample, which is a spike. A
+// track that jitters misses often; only what is far above that is a jump.
 template <class Value, class Seen>
 std::vector<std::pair<std::size_t, double>> jumps_of(std::size_t frames, double limit,
                                                      const Value& value, const Seen& seen) {
-  constexpr double most_beside = 0.75;
+  constexpr double most_beside = 0.75, usual_share = 0.9, times_usual = 6;
   std::vector<double> misses(frames);
   for (std::size_t f = 1; f + 2 < frames; ++f) {
     if (seen(f - 1) && seen(f) && seen(f + 1) && seen(f + 2))
       misses[f] = miss(value(f - 1), value(f), value(f + 1), value(f + 2));
   }
+  const double least = std::max(limit, times_usual * quantile_of(misses, usual_share));
   std::vector<std::pair<std::size_t, double>> jumps;
   for (std::size_t f = 1; f + 2 < frames; ++f) {
     const double beside = std::max(misses[f - 1], misses[f + 1]);
-    if (misses[f] > limit && beside < most_beside * misses[f]) jumps.emplace_back(f, misses[f]);
+    if (misses[f] > least && beside < most_beside * misses[f]) jumps.emplace_back(f, misses[f]);
   }
   return jumps;
 }
