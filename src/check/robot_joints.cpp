@@ -124,7 +124,8 @@ std::vector<std::pair<std::size_t, double>> jumps_of(std::size_t frames, double 
     if (seen(f - 1) && seen(f) && seen(f + 1) && seen(f + 2))
       misses[f] = miss(value(f - 1), value(f), value(f + 1), value(f + 2));
   }
-  const double least = std::max(limit, times_usual * quantile_of(misses, usual_share));
+  std::vector<double> sorted = misses;
+  const double least = std::max(limit, times_usual * quantile_of(sorted, usual_share));
   std::vector<std::pair<std::size_t, double>> jumps;
   for (std::size_t f = 1; f + 2 < frames; ++f) {
     const double beside = std::max(misses[f - 1], misses[f + 1]);

@@ -71,20 +71,51 @@ bool are_a_pair(std::string_view left, std::string_view right) {
   return sides && a.substr(1) == b.substr(1);
 }
 
-// The sum over pairs of the person with the most markers.
+struct MarkerPair {
+  std::size_t left = 0, right = 0;
+  double variation = 0;  ///< standard deviation of the distance over its mean
+};
+
+double distance_variation(const Take& take, std::size_t left, std::size_t right) {
+  constexpr std::size_t looked_at = 400;
+  double sum = 0, squares = 0, count = 0;
+  for (std::size_t f = 0; f < take.frame_count(); f += 1 + take.frame_count() / looked_at) {
+    if (!take.is_observed(f, left) || !take.is_observed(f, right)) continue;
+    const double distance = norm(take.position(f, left) - take.position(f, right));
+    sum += distance, squares += distance * distance, ++count;
+  }
+  return sum > 0 ? std::sqrt(std::max(0.0, squares * count - sum * sum)) / sum : 1;
+}
+
+std::vector<MarkerPair> pairs_of(const Take& take, const std::vector<std::size_t>& markers,
+                                 std::size_t frame) {
+  std::vector<MarkerPair> pairs;
+  for (const std::size_t left : markers) {
+    for (const std::size_t right : markers) {
+      const bool is_seen = take.is_observed(frame, left) && take.is_observed(frame, right);
+      if (is_seen && are_a_pair(take.names[left], take.names[right]))
+        pairs.push_back({left, right, distance_variation(take, left, right)});
+    }
+  }
+  return pairs;
+}
+
+// From right to left of the person with the most markers: the pairs whose distance hardly changes
+// are on pelvis and shoulders, not on feet and hands.
 Vec3 across_markers(const Take& take, std::size_t frame) {
+  constexpr double steady = 0.03, times_steadiest = 2;
   const std::vector<Subject> subjects = subjects_of(take);
   const auto largest = std::max_element(
       subjects.begin(), subjects.end(),
       [](const Subject& a, const Subject& b) { return a.markers.size() < b.markers.size(); });
+  if (largest == subjects.end()) return {};
+  const std::vector<MarkerPair> pairs = pairs_of(take, largest->markers, frame);
+  double most = 1;
+  for (const MarkerPair& pair : pairs) most = std::min(most, times_steadiest * pair.variation);
+  most = std::max(most, steady);
   Vec3 across;
-  if (largest == subjects.end()) return across;
-  for (const std::size_t left : largest->markers) {
-    for (const std::size_t right : largest->markers) {
-      const bool is_seen = take.is_observed(frame, left) && take.is_observed(frame, right);
-      if (is_seen && are_a_pair(take.names[left], take.names[right]))
-        across += take.position(frame, left) - take.position(frame, right);
-    }
+  for (const auto& [left, right, variation] : pairs) {
+    if (variation <= most) across += take.position(frame, left) - take.position(frame, right);
   }
   return across;
 }

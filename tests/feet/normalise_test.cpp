@@ -145,7 +145,7 @@ TEST(Normalise, MovesMarkersAsTheJointsUnderThem) {
   EXPECT_GT((at("LUpLeg") - at("RUpLeg")).x, 5);
   const Vec3 way = markers.position(markers.frame_count() - 1, 0) - markers.position(0, 0);
   EXPECT_GT(way.z, 100) << "it walks forward";
-  EXPECT_LT(std::fabs(way.x), 30);
+  EXPECT_LT(std::fabs(way.x), 45) << "but for what the pelvis turns in a stride";
   EXPECT_EQ(markers.source.document, nullptr);
 }
 
