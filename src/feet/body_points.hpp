@@ -27,7 +27,7 @@ struct BodyPoints {
   double frame_rate_hz = 0;
   std::vector<Vec3> positions;         ///< F x P
   std::vector<std::uint8_t> observed;  ///< F x P; empty means all
-  std::vector<Vec3> centres;           ///< F: root, or mean of the markers seen
+  std::vector<Vec3> centres;           ///< F: pelvis, or mean of the markers seen
   std::vector<Foot> feet;
   double height = 0;  ///< of the body
 

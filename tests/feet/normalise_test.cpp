@@ -149,6 +149,37 @@ TEST(Normalise, MovesMarkersAsTheJointsUnderThem) {
   EXPECT_EQ(markers.source.document, nullptr);
 }
 
+TEST(Normalise, PutsThePelvisAtTheOriginWhereTheRootStaysBehind) {
+  const Take walk = elsewhere(take_of("walk"), 1, {120, 7, -40});
+  // A root that stays at 0 above the hips, which move.
+  Take take = walk;
+  Skeleton& skeleton = take.skeleton;
+  skeleton.names.insert(skeleton.names.begin(), "Reference");
+  for (std::int32_t& parent : skeleton.parents) ++parent;
+  skeleton.parents.insert(skeleton.parents.begin(), -1);
+  skeleton.offsets.insert(skeleton.offsets.begin(), Vec3{});
+  skeleton.rest_rotations.insert(skeleton.rest_rotations.begin(), Quat{});
+  skeleton.channels.insert(skeleton.channels.begin(), skeleton.channels[0]);
+  for (EndSite& site : skeleton.end_sites) ++site.parent;
+  take.translated_joints = {1};
+  take.rotations.clear();
+  take.positions.clear();
+  for (std::size_t f = 0; f < walk.frame_count(); ++f) {
+    take.rotations.push_back({});
+    for (std::size_t j = 0; j < walk.joint_count(); ++j)
+      take.rotations.push_back(walk.rotation(f, j));
+    take.positions.insert(take.positions.end(), {Vec3{}, walk.root_position(f)});
+  }
+  take.validate();
+  normalise(take, both());
+  Take plain = walk;
+  normalise(plain, both());
+  for (const std::size_t f : {std::size_t{0}, walk.frame_count() - 1}) {
+    const Vec3 hips = forward_kinematics(take, f).positions[1];
+    EXPECT_LT(norm(hips - plain.root_position(f)), 1e-8) << f;
+  }
+}
+
 TEST(Normalise, RefusesWhatItCannotMove) {
   Take chain = take_of("spin");
   EXPECT_THROW(normalise(chain, both()), Error) << "no feet";
