@@ -77,11 +77,12 @@ std::size_t read_rows(const std::string& path, std::size_t file, FoundRows& rows
 
 void add_rows(const std::vector<std::string>& paths, std::size_t file, FoundRows& all) {
   FoundRows own;
-  if (const std::size_t malformed = read_rows(paths[file], file, own); malformed > 0)
-    say_warning(fmt::format("{}: ignored {}", paths[file], counted(malformed, "malformed line")));
-  if (own.empty()) {
+  const std::size_t malformed = read_rows(paths[file], file, own);
+  // A shard without takes has an empty file.
+  if (own.empty() && malformed > 0)
     throw Error(ErrorKind::unreadable_input, fmt::format("{}: holds no row", paths[file]));
-  }
+  if (malformed > 0)
+    say_warning(fmt::format("{}: ignored {}", paths[file], counted(malformed, "malformed line")));
   for (auto& [name, row] : own) {
     const auto known = all.find(name);
     if (known != all.end() && without_times(known->second.json) != without_times(row.json)) {
@@ -243,6 +244,8 @@ int merge_batch(const Arguments& arguments) {
   check_outputs(paths, folder, arguments);
   FoundRows rows;
   for (std::size_t file = 0; file < paths.size(); ++file) add_rows(paths, file, rows);
+  if (rows.empty())
+    throw Error(ErrorKind::unreadable_input, fmt::format("{}: holds no row", paths.front()));
   const WholeBatch whole = whole_batch(paths);
   const Merged result = merged(rows, whole.takes);
   make_folder(folder);

@@ -122,6 +122,16 @@ TEST_F(BatchMerge, NamesShardsThatAreMissingAndTakesThatAreToDo) {
   EXPECT_EQ(figures.at("cleaned").get<int>() + figures.at("to_do").get<int>(), 8);
 }
 
+TEST_F(BatchMerge, AShardWithoutTakesIsNotMissing) {
+  fs::create_directories(folder / "raw");
+  put(folder / "raw/one.bvh", hand_take());
+  clean_shards(3, "parts");
+  const Ran merged = run(merge_words(3, "parts", "merged"));
+  EXPECT_EQ(merged.code, 0) << merged.err;
+  EXPECT_EQ(merged.err, "");
+  EXPECT_THAT(merged.out, HasSubstr("1 cleaned"));
+}
+
 TEST_F(BatchMerge, ALineThatWasCutCountsAsNone) {
   make_tree(4);
   clean_shards(1, "a");
@@ -157,8 +167,10 @@ TEST_F(BatchMerge, RefusesRowsThatDoNotBelongTogether) {
   EXPECT_EQ(rows.code, 3);
   EXPECT_THAT(rows.err, HasSubstr("differently"));
   fs::remove(folder / "b/rows.jsonl");
-  put(folder / "b/rows.jsonl", "");
-  EXPECT_EQ(run({"batch", "--merge", "b/rows.jsonl", "-o", "merged"}).code, 3);
+  for (const char* text : {"", "dear\n"}) {
+    put(folder / "b/rows.jsonl", text);
+    EXPECT_EQ(run({"batch", "--merge", "b/rows.jsonl", "-o", "merged"}).code, 3) << text;
+  }
   put(folder / "b/summary.json", "[]");
   fs::copy_file(folder / "a/rows.jsonl", folder / "b/rows.1-of-1.jsonl");
   const Ran odd = run({"batch", "--merge", "b/rows.1-of-1.jsonl", "-o", "merged"});
