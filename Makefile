@@ -20,7 +20,7 @@ need = @tools/install_packages packages.txt
 WINDOWS := $(BUILD)/windows/cli/kinemend.exe
 WINE ?= /usr/lib/wine/wine64
 
-.PHONY: help setup build windows windows-test libcxx wasm wasm-test demo deb deb-test install-test test test-all asan asan-build asan-test lint format page bench bench-quick \
+.PHONY: help setup build windows windows-test libcxx wasm wasm-test demo deb deb-test install-test cluster-test test test-all asan asan-build asan-test lint format page bench bench-quick \
   papers papers-quick pictures fuzz soak nightly clean FORCE
 
 help: ## this list
@@ -155,15 +155,19 @@ fuzz: ## fuzz each target for a minute (FUZZ_SECONDS=60)
 	$(need) core test sanitize
 	tools/run_fuzzers $${FUZZ_SECONDS:-60}
 
+cluster-test: build ## an array of 8 in a Slurm cluster of its own, one task killed and requeued, is one run (needs root)
+	$(need) core cluster
+	tools/cluster_test $(BUILD)/$(PRESET)/cli/kinemend
+
 soak: $(BUILD)/$(TESTS)/.built ## mutated input, kills, threads and lossy streams for five minutes (SOAK_SECONDS=300)
 	tools/soak $(BUILD)/$(TESTS) $${SOAK_SECONDS:-300}
 
-nightly: ## what continuous integration leaves out: sanitisers, packages in a fresh root, browser, soak, analysis of includers
+nightly: ## what continuous integration leaves out: sanitisers, packages in a fresh root, a cluster, browser, soak, analysis of includers
 	$(need)
 	tools/lint --includers
 	$(MAKE) asan ASAN=asan-all
 	$(MAKE) libcxx windows-test
-	$(MAKE) fuzz soak test-all deb-test install-test bench-quick
+	$(MAKE) fuzz soak test-all deb-test install-test cluster-test bench-quick
 
 clean: ## remove everything that was built
 	rm -rf $(BUILD)

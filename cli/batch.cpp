@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "batch_list.hpp"
+#include "batch_merge.hpp"
 #include "batch_record.hpp"
 #include "batch_summary.hpp"
 #include "clean_flags.hpp"
@@ -436,6 +437,7 @@ int run_batch(const Arguments& arguments) {
   batch.folder = arguments.text("output_dir");
   if (batch.folder.empty())
     throw Error(ErrorKind::usage, "batch: --output-dir is missing (see kinemend batch -h)");
+  if (arguments.flag("merge")) return merge_batch(arguments);
   const std::vector<std::string> inputs = inputs_of(arguments);
   batch.plan = make_cleaning(arguments);
   plan_index(arguments, inputs, batch);
@@ -511,10 +513,14 @@ std::vector<Flag> batch_flags() {
       text_flag("files", "PATTERN", "Input",
                 "in folders, clean only files whose name matches PATTERN",
                 "* stands for any text, ? for any character. Quote the pattern."),
-      text_flag("shard", "I/N", "Work", "clean part I of N",
-                "Only the names of the takes decide to which part they belong, so that N jobs on "
-                "any machines clean each take once. Run once more without --shard to write the "
-                "summary of all parts.")};
+      text_flag(
+          "shard", "I/N", "Work", "clean part I of N",
+          "Only the names of the takes decide to which part they belong, so that N jobs on "
+          "any machines clean each take once. Run once more without --shard, or with --merge, "
+          "to write the summary of all parts."),
+      switch_flag("merge", "Work", "put rows of shards together: IN are files of rows",
+                  "Writes the rows and the summary of one run to --output-dir, and cleans "
+                  "nothing.")};
   append(flags, cleaning_flags());
   flags.push_back(jobs_flag());
   for (Flag& flag : flags) {
@@ -546,7 +552,7 @@ Command batch_command() {
       "folder. The totals and the ten takes that most need review are printed. Skeleton files "
       "(ASF) "
       "are copied along.";
-  command.positionals = {{"IN", "folder or take", 0, 1000000, {}}};
+  command.positionals = {{"IN", "folder or take; with --merge a file of rows", 0, 1000000, {}}};
   command.flags = batch_flags();
   command.group_heading = "With --method %";
   command.groups = method_groups();
@@ -554,6 +560,7 @@ Command batch_command() {
   command.examples = {
       {"kinemend batch raw -o clean", "clean every take below raw, to the same place below clean"},
       {"kinemend batch raw -o clean --shard 3/8", "the third of eight jobs on a cluster"},
+      {"kinemend batch --merge clean/rows.*-of-8.jsonl -o clean", "rows and totals of all eight"},
       {"find raw -name '*.c3d' | kinemend batch --list - -o clean", "clean a list of takes"}};
   command.run = run_batch;
   return command;

@@ -4,7 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
+#include <span>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -15,12 +18,22 @@
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"
 #include "page_report.hpp"
+#include "robot_limits.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
 namespace kinemend::cli {
 
 namespace {
+
+// --robot, or an option that only concerns it.
+bool wants_robot(const Arguments& arguments) {
+  const std::span<const FigureRule> figures = check_figures();
+  return arguments.flag("robot") || arguments.given("limits") ||
+         std::any_of(figures.begin(), figures.end(), [&](const FigureRule& figure) {
+           return figure.of_robot && arguments.given(std::string(figure.limit));
+         });
+}
 
 CheckSettings check_settings(const Arguments& arguments) {
   CheckSettings settings;
@@ -29,6 +42,7 @@ CheckSettings check_settings(const Arguments& arguments) {
   if (arguments.given("metres_per_unit"))
     settings.metres_per_unit = arguments.number("metres_per_unit");
   settings.names = names_of_map(arguments.text("map"));
+  if (wants_robot(arguments)) settings.robot = robot_settings(arguments.text("limits"));
   return settings;
 }
 
@@ -56,6 +70,7 @@ ReportFiles checked_outputs(const Arguments& arguments) {
   files.reads("FILE", inputs)
       .reads("--map", arguments.text("map"))
       .reads("--asf", arguments.text("asf"))
+      .reads("--limits", arguments.text("limits"))
       .writes("--gaps-out", gaps_out);
   reports.add_to(files);
   files.check(arguments.flag("json"));
@@ -103,6 +118,18 @@ Flag without_default(Flag flag) {
   return flag;
 }
 
+std::vector<Flag> robot_flags() {
+  Flag limits = text_flag("limits", "FILE", "Checks", "limits of joints for --robot, in TOML",
+                          "speed_deg_s and acceleration_deg_s2 for all joints, and tables such as "
+                          "[joints.\"*Knee\"] for joints by name. Implies --robot.");
+  limits.completion = Completion::file;
+  return {
+      switch_flag("robot", "Checks", "also check what a robot or a simulated body cannot follow",
+                  "Joints that are too fast, jumps, feet in or above the floor, and times in "
+                  "the air. The JSON also lists when heels and toes stand."),
+      std::move(limits)};
+}
+
 std::vector<Flag> check_flags() {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Flag gaps_out = text_flag(
@@ -122,6 +149,7 @@ std::vector<Flag> check_flags() {
       without_default(number_flag("metres_per_unit", "m", 0, 1e-9, 1e6, "Checks",
                                   "length of a file unit, if the take does not state it")),
   };
+  append(list, robot_flags());
   list.push_back(map_flag());
   append(list, reading_flags("a repair becomes an error"));
   for (const FigureRule& entry : check_figures()) {
@@ -153,7 +181,8 @@ Command check_command() {
   command.examples = {
       {"kinemend check walk.c3d", "what is wrong with it"},
       {"kinemend check *.bvh --max-spikes 0 --max-gap-s 0.2", "as a check in a script"},
-      {"kinemend check walk.bvh --gaps-out gaps.csv", "frozen and bridged spans as a side file"}};
+      {"kinemend check walk.bvh --gaps-out gaps.csv", "frozen and bridged spans as a side file"},
+      {"kinemend check walk.bvh --robot --max-jumps 0", "before a robot learns from it"}};
   command.run = run_check;
   return command;
 }

@@ -10,6 +10,8 @@
 #include "commands.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/experimental/normalise.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "kinemend/io.hpp"
 #include "run_files.hpp"
 #include "takes.hpp"
@@ -71,6 +73,48 @@ Take turned(const Take& take, const Arguments& arguments) {
                     take.source.name, axis_name(from)));
   }
   return turn_axes(take, from, to);
+}
+
+/// "analog channels, force plates": what a file holds beside its markers and would not follow.
+std::string rest_of(const Take& take) {
+  if (take.has_joints()) return "";
+  std::vector<std::string> names;
+  for (const SourceFact& fact : take.source.facts) names.push_back(fact.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+void say_normalised(const Take& take, const Normalised& done, const Arguments& arguments) {
+  const std::string& name = take.source.name;
+  const std::string unit = take.has_joints() ? unit_name(take.metres_per_unit) : take.unit;
+  const std::string_view shown = unit.empty() ? "units" : std::string_view(unit);
+  if (arguments.flag("floor_at_zero")) {
+    say(fmt::format("{}: moved by {} {} along {}: the feet stand at 0", name, figure(done.raised),
+                    shown, axis_name(done.up)));
+  }
+  if (arguments.flag("face_forward")) {
+    say(fmt::format(
+        "{}: turned by {} deg about {}, then moved by {}, {}, {} {}: the first frame "
+        "is at the origin and faces {}",
+        name, figure(done.turned_deg), axis_name(done.up), figure(done.moved.x),
+        figure(done.moved.y), figure(done.moved.z), shown, axis_name(forward_axis(done.up))));
+  }
+}
+
+void normalise_take(Take& take, const Arguments& arguments) {
+  NormaliseSettings settings;
+  settings.floor_at_zero = arguments.flag("floor_at_zero");
+  settings.face_forward = arguments.flag("face_forward");
+  if (!settings.floor_at_zero && !settings.face_forward) return;
+  settings.names = names_of_map(arguments.text("map"));
+  if (arguments.given("up")) settings.up = axis_named(arguments.text("up"));
+  if (const std::string rest = rest_of(take); !rest.empty()) {
+    const std::string line = fmt::format(
+        "{}: {} left out: they do not follow when markers are moved", take.source.name, rest);
+    if (arguments.flag("strict"))
+      throw Error(ErrorKind::quality_limit, line + " (an error under --strict)");
+    say_warning(line);
+  }
+  say_normalised(take, normalise(take, settings), arguments);
 }
 
 /// 0 where nothing tells. A guess is said, so ask once a take.
@@ -144,6 +188,7 @@ int run_convert(const Arguments& arguments) {
   RunFiles()
       .reads("IN", input)
       .reads("--asf", arguments.text("asf"))
+      .reads("--map", arguments.text("map"))
       .writes("OUT", output, input)
       .check();
   if (!arguments.given("to")) check_take_ending(output);
@@ -160,6 +205,7 @@ int run_convert(const Arguments& arguments) {
     const double metres = metres_per_unit_of(take);
     take = in_unit(take, arguments.text("unit"), metres);
   }
+  normalise_take(take, arguments);
   check_has_place(take, format, output);
   take = fitted(std::move(take), format, arguments);
   for (const std::string& line :
@@ -182,7 +228,16 @@ std::vector<Flag> change_flags() {
   Flag unit = text_flag("unit", "", "Change", "convert lengths to this unit",
                         "Without it, joint positions that become markers are in millimetres.");
   unit.spec.choices = {"mm", "cm", "m"};
-  return {std::move(fps), std::move(up), std::move(from_up), std::move(unit)};
+  Flag floor =
+      switch_flag("floor_at_zero", "Change", "move the take until its feet stand at height 0",
+                  "By the lowest level on which a foot stands as a rule; of markers the "
+                  "lowest marker of a foot. The distance is printed.");
+  Flag forward = switch_flag(
+      "face_forward", "Change",
+      "turn and move the take so that it starts at the origin, facing forward",
+      "Forward is z where y is up, and x where z is up. Angle and distance are printed.");
+  return {std::move(fps),   std::move(up),      std::move(from_up), std::move(unit),
+          std::move(floor), std::move(forward), map_flag()};
 }
 
 }  // namespace
@@ -232,7 +287,9 @@ Command convert_command() {
        "a file that other programs cannot read, in the plainest form"},
       {"kinemend convert 35_01.amc 35_01.bvh", "the skeleton is 35.asf in the same folder"},
       {"kinemend convert walk.c3d walk.trc --up y --unit m", "for OpenSim"},
-      {"kinemend convert walk.bvh walk.glb", "for viewers and game engines"}};
+      {"kinemend convert walk.bvh walk.glb", "for viewers and game engines"},
+      {"kinemend convert walk.bvh home.bvh --floor-at-zero --face-forward",
+       "feet at height 0, start at the origin"}};
   command.run = run_convert;
   return command;
 }

@@ -52,7 +52,7 @@ PUBLIC = {header: room for room, headers in {
     "corrupt": "corrupt",
     "synth": "synth",
     "fill": "fill gap_plan",
-    "feet": "feet",
+    "feet": "feet normalise",
     "methods/core": "cleaner methods",
     "learned/core": "model train",
     "pipeline": "clean stream",

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kinemend/cleaner.hpp"
+#include "kinemend/feet.hpp"
 #include "kinemend/gaps.hpp"
 #include "kinemend/skeleton.hpp"
 #include "kinemend/take.hpp"
@@ -32,7 +33,16 @@ enum class FindingKind : std::uint8_t {
   repeated_frames,  ///< whole frames equal to the previous one
   zero_frames,      ///< whole frames of zeros
   calibration,      ///< a calibration pose at the start
-  left_out          ///< points that are angles or forces
+  left_out,         ///< points that are angles or forces
+  // Those that follow are of `CheckSettings::robot`.
+  joint_speed,         ///< a joint turns faster than its limit
+  joint_acceleration,  ///< a joint accelerates more than its limit
+  penetration,         ///< a foot goes below the level on which it stands
+  floating,            ///< a foot stands above the floor, or the body is in the air without falling
+  flight,              ///< no foot touches the floor, and the body falls or the time is too short
+                       ///< to tell
+  jump,                ///< a rotation or a position changes within one frame and stays changed
+  floor                ///< the floor is not at height 0
 };
 /// "gap", "euler_flip", ...
 std::string_view to_string(FindingKind kind);
@@ -66,6 +76,8 @@ struct TrackHealth {
   std::size_t bridged = 0;         ///< spans
   std::size_t swaps = 0;
   std::size_t flips = 0;
+  double peak_speed_deg_s = 0;          ///< only with `CheckSettings::robot`, of joints
+  double peak_acceleration_deg_s2 = 0;  ///< the same
   double noise = 0;  ///< standard deviation per axis: degrees of joints, file units of markers
 };
 
@@ -92,6 +104,41 @@ struct CheckFigures {
   std::optional<double> sink_cm;     ///< largest depth
   double length_change_percent = 0;  ///< largest of any bone or rigid pair
   std::size_t flips = 0;
+  // Only with `CheckSettings::robot`; those of feet need feet, a direction that is up and a scale.
+  std::optional<double> joint_speed_deg_s, joint_acceleration_deg_s2;  ///< largest of any joint
+  std::optional<std::size_t> jumps;
+  std::optional<std::size_t> flights;    ///< also those that do not fall
+  std::optional<double> penetration_cm;  ///< largest depth of a foot below its standing level
+  std::optional<double> floating_cm;     ///< largest height above the floor of a foot that stands
+  std::optional<double> floor_cm;        ///< distance of the floor from height 0
+};
+
+/// What a joint may do at most. The defaults are those of the knee of a Unitree G1, by its
+/// published description: its speed, and the acceleration that its torque gives to shank and foot
+/// (docs/check-robot.md).
+struct JointLimits {
+  double speed_deg_s = 1146;           ///< 20 rad/s (> 0)
+  double acceleration_deg_s2 = 72700;  ///< 139 N m / 0.1096 kg m2 (> 0)
+};
+
+/// Limits of the joints whose names match a pattern of a shell (`matches_wildcards`).
+struct NamedJointLimits {
+  std::string pattern;
+  JointLimits limits;
+};
+
+/// What a take has to keep to if a robot or a simulated body imitates it.
+struct RobotSettings {
+  JointLimits limits;                    ///< of joints that no pattern matches
+  std::vector<NamedJointLimits> joints;  ///< the last one that matches counts
+  /// Time over which speeds and accelerations are differences: a step of a controller at 50 Hz, or
+  /// one frame where frames are longer (0.001 to 1).
+  double step_s = 0.02;
+  double penetration_cm = 5;  ///< depth of a foot below its standing level (>= 0)
+  double floating_cm = 5;     ///< height of a standing foot above the floor (>= 0)
+  double jump_deg = 30;       ///< of a joint within one frame (> 0)
+  double jump_cm = 10;        ///< of the root or a marker within one frame (> 0)
+  double floor_cm = 5;        ///< distance of the floor from height 0 (>= 0)
 };
 
 /// When something becomes a finding.
@@ -107,6 +154,7 @@ struct CheckSettings {
   /// Metres in a file unit. Empty: what the take says, else what makes the body a person.
   std::optional<double> metres_per_unit;
   KnownNames names;  ///< what joints or markers of feet are called where names do not tell
+  std::optional<RobotSettings> robot;  ///< none: these checks are left out
 };
 
 /// One of several people in a take of markers.
@@ -114,6 +162,12 @@ struct SubjectHealth {
   std::string name;
   std::size_t markers = 0;
   std::optional<double> slide_cm, sink_cm;  ///< as in `CheckFigures`
+};
+
+/// What only `CheckSettings::robot` finds.
+struct RobotFindings {
+  std::vector<std::string> sides;     ///< of the legs: "left", "right"
+  std::vector<FootContact> contacts;  ///< of heels and toes, of joints; frames of the take
 };
 
 struct CheckReport {
@@ -130,6 +184,7 @@ struct CheckReport {
                                         ///< are checked for each person
   std::vector<Finding> findings;        ///< worst first
   std::vector<MarkerSwap> swaps;
+  std::optional<RobotFindings> robot;
   std::vector<NamedGap> stale;  ///< frozen and bridged spans, by track, then frame, for a side
                                 ///< file of gaps
 };

@@ -139,6 +139,7 @@ struct FigureRule {
   std::string_view limit;  ///< name of the limit: "max_gap_s"
   bool is_count = false;
   bool more_is_better = false;  ///< the limit is a minimum
+  bool of_robot = false;        ///< known only with `CheckSettings::robot`
 };
 std::span<const FigureRule> check_figures();
 std::span<const FigureRule> comparison_figures();

@@ -48,26 +48,6 @@ void report_feet(const BodyPoints& body, Up up, const CheckSettings& settings,
   if (!depths.empty()) put_largest(sink_cm, report.figures.sink_cm);
 }
 
-// Acceleration of the least-squares parabola through heights, m/s^2, downwards.
-double fall(const BodyPoints& body, Up up, const FrameSpan& span) {
-  // With time centred, the second moment separates the quadratic term from the linear one.
-  const auto count = static_cast<double>(span.length());
-  const double middle = 0.5 * static_cast<double>(span.first + span.last);
-  double mean_square = 0, mean_height = 0;
-  for (std::size_t f = span.first; f <= span.last; ++f) {
-    const double t = (static_cast<double>(f) - middle) / body.frame_rate_hz;
-    mean_square += t * t / count;
-    mean_height += along(body.centres[f], up) / count;
-  }
-  double top = 0, bottom = 0;
-  for (std::size_t f = span.first; f <= span.last; ++f) {
-    const double t = (static_cast<double>(f) - middle) / body.frame_rate_hz;
-    top += (t * t - mean_square) * (along(body.centres[f], up) - mean_height);
-    bottom += (t * t - mean_square) * (t * t - mean_square);
-  }
-  return bottom > 0 ? -2 * top / bottom : 0;
-}
-
 // In the air a body falls at 9.81 m/s^2, and the pelvis does so within a third. A hanging or
 // sitting body falls more slowly, so that only a rate that is too high can be detected.
 void report_rate_of_fall(const BodyPoints& body, Up up, CheckReport& report) {

@@ -21,6 +21,28 @@ void check_range(double value, const char* name) {
   throw Error(ErrorKind::usage, fmt::format("{} {} is outside 0 to 1e9", name, value));
 }
 
+void check_above_0(double value, const char* name) {
+  if (value > 0 && value <= 1e9) return;
+  throw Error(ErrorKind::usage, fmt::format("{} {} is not above 0, up to 1e9", name, value));
+}
+
+void validate(const JointLimits& limits) {
+  check_above_0(limits.speed_deg_s, "speed_deg_s");
+  check_above_0(limits.acceleration_deg_s2, "acceleration_deg_s2");
+}
+
+void validate(const RobotSettings& settings) {
+  validate(settings.limits);
+  for (const NamedJointLimits& joint : settings.joints) validate(joint.limits);
+  if (!(settings.step_s >= 0.001 && settings.step_s <= 1))
+    throw Error(ErrorKind::usage, fmt::format("step_s {} is outside 0.001 to 1", settings.step_s));
+  check_range(settings.penetration_cm, "penetration_cm");
+  check_range(settings.floating_cm, "floating_cm");
+  check_above_0(settings.jump_deg, "jump_deg");
+  check_above_0(settings.jump_cm, "jump_cm");
+  check_range(settings.floor_cm, "floor_cm");
+}
+
 void validate(const CheckSettings& settings) {
   check_range(settings.noise_deg, "noise_deg");
   check_range(settings.noise_cm, "noise_cm");
@@ -29,6 +51,7 @@ void validate(const CheckSettings& settings) {
   check_range(settings.sink_cm, "sink_cm");
   check_range(settings.length_change_percent, "length_change_percent");
   if (settings.metres_per_unit) check_range(*settings.metres_per_unit, "metres_per_unit");
+  if (settings.robot) validate(*settings.robot);
 }
 
 // The checks saw the take without its calibration frames.
@@ -40,6 +63,11 @@ void shift_frames(CheckReport& report, std::size_t frames) {
   for (NamedGap& gap : report.stale) {
     gap.first_frame += frames;
     gap.last_frame += frames;
+  }
+  if (!report.robot) return;
+  for (FootContact& contact : report.robot->contacts) {
+    contact.first_frame += frames;
+    contact.last_frame += frames;
   }
 }
 
@@ -134,6 +162,11 @@ CheckReport check_joints(const Take& clip, const CheckSettings& settings) {
   check::check_frames(motion, report);
   check::check_unit(clip, settings, report);
   check::check_body(motion, settings, report);
+  if (settings.robot) {
+    check::check_joint_limits(motion, *settings.robot, report);
+    check::check_jumps(motion, *settings.robot, report);
+    check::check_robot_feet(motion, settings, report);
+  }
   shift_frames(report, report.calibration_frames);
   check::check_zero_frames(clip, report);
   check::check_euler_flips(clip, report);
@@ -159,6 +192,10 @@ CheckReport check_markers(const Take& clip, const CheckSettings& settings) {
     check::check_lengths(labelled, subject.markers, settings, report);
   check::check_frames(labelled, markers, report);
   check::check_body(labelled, subjects, settings, report);
+  if (settings.robot) {
+    check::check_jumps(labelled, markers, *settings.robot, report);
+    check::check_robot_feet(labelled, subjects, settings, report);
+  }
   report_left_out(clip, markers, report);
   check::sort_worst_first(report.findings);
   return report;

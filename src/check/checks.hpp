@@ -62,4 +62,18 @@ void check_body(const Take& clip, const CheckSettings& settings, CheckReport& re
 void check_body(const Take& clip, const std::vector<Subject>& subjects,
                 const CheckSettings& settings, CheckReport& report);
 
+/// Joints against their limits of speed and acceleration. The root and what carries the body with
+/// it have no limits.
+void check_joint_limits(const Take& clip, const RobotSettings& settings, CheckReport& report);
+/// Rotations and positions that change within one frame and stay changed. Those of positions need
+/// the scale: `check_unit` comes before.
+void check_jumps(const Take& clip, const RobotSettings& settings, CheckReport& report);
+void check_jumps(const Take& clip, const std::vector<std::size_t>& markers,
+                 const RobotSettings& settings, CheckReport& report);
+/// Feet in or above the floor and times in the air, for a take with `CheckSettings::robot`; of
+/// joints also heels and toes that stand, and the height of the floor. `check_unit` comes before.
+void check_robot_feet(const Take& clip, const CheckSettings& settings, CheckReport& report);
+void check_robot_feet(const Take& clip, const std::vector<Subject>& subjects,
+                      const CheckSettings& settings, CheckReport& report);
+
 }  // namespace kinemend::check

@@ -12,17 +12,6 @@ namespace {
 
 using feet::ContactThresholds, feet::sole_point, feet::SolePoint, feet::touches;
 
-// Heights and speeds are means over this time on either side. Chosen by hand, not swept.
-constexpr double reach_s = 0.02;
-
-std::vector<SolePoint> sole_points(const BodyPoints& body, const Foot& foot, Up up) {
-  std::vector<SolePoint> points;
-  points.reserve(foot.points.size());
-  for (const std::size_t index : foot.points)
-    points.push_back(sole_point(body, index, up, ContactThresholds{}, reach_s));
-  return points;
-}
-
 // Follows, from frame to frame, the touching point that moves least, about which the foot turns.
 Contact measure(const std::vector<SolePoint>& points,
                 const std::vector<std::vector<std::uint8_t>>& touching, std::size_t foot,
@@ -50,6 +39,16 @@ Contact measure(const std::vector<SolePoint>& points,
 }
 
 }  // namespace
+
+std::vector<SolePoint> sole_points(const BodyPoints& body, const Foot& foot, Up up) {
+  // Heights and speeds are means over this time on either side. Chosen by hand, not swept.
+  constexpr double reach_s = 0.02;
+  std::vector<SolePoint> points;
+  points.reserve(foot.points.size());
+  for (const std::size_t index : foot.points)
+    points.push_back(sole_point(body, index, up, ContactThresholds{}, reach_s));
+  return points;
+}
 
 std::vector<Contact> find_contacts(const BodyPoints& body, Up up) {
   // Chosen by hand, not swept.
@@ -86,6 +85,25 @@ std::vector<FrameSpan> find_flights(const BodyPoints& body, Up up) {
     }
   }
   return runs_where(body.frames, [&](std::size_t f) { return clear[f] != 0; });
+}
+
+double fall(const BodyPoints& body, Up up, const FrameSpan& span) {
+  // With time centred, the second moment separates the quadratic term from the linear one.
+  const auto count = static_cast<double>(span.length());
+  const double middle = 0.5 * static_cast<double>(span.first + span.last);
+  double mean_square = 0, mean_height = 0;
+  for (std::size_t f = span.first; f <= span.last; ++f) {
+    const double t = (static_cast<double>(f) - middle) / body.frame_rate_hz;
+    mean_square += t * t / count;
+    mean_height += along(body.centres[f], up) / count;
+  }
+  double top = 0, bottom = 0;
+  for (std::size_t f = span.first; f <= span.last; ++f) {
+    const double t = (static_cast<double>(f) - middle) / body.frame_rate_hz;
+    top += (t * t - mean_square) * (along(body.centres[f], up) - mean_height);
+    bottom += (t * t - mean_square) * (t * t - mean_square);
+  }
+  return bottom > 0 ? -2 * top / bottom : 0;
 }
 
 }  // namespace kinemend::check

@@ -1,4 +1,4 @@
-// Feet of a take in metres, their contacts with the floor, and flights, for the checks of the body.
+// Contacts of feet with the floor, and flights, for the checks of the body.
 #pragma once
 
 #include <cstddef>
@@ -6,18 +6,15 @@
 
 #include "check/checks.hpp"
 #include "feet/body_points.hpp"
+#include "feet/sole_point.hpp"
 #include "kinemend/check.hpp"
 
 namespace kinemend::check {
 
-using feet::along, feet::BodyPoints, feet::find_up, feet::Foot, feet::Up;
+using feet::along, feet::body_points, feet::BodyPoints, feet::find_up, feet::Foot, feet::Up;
 
-/// Joints with end sites, in metres. Feet are found by names and by their descendants.
-BodyPoints body_points(const Take& clip, double metres_per_unit, const KnownNames& names = {});
-/// Markers, in metres. Feet are found by the names of the marker sets in use (LTOE, RHEE, L_MT5,
-/// ...).
-BodyPoints body_points(const Take& clip, const std::vector<std::size_t>& markers,
-                       double metres_per_unit, const KnownNames& names = {});
+/// The points of a foot, smoothed over 20 ms on either side.
+std::vector<feet::SolePoint> sole_points(const BodyPoints& body, const Foot& foot, Up up);
 
 /// A span in which a foot stands.
 struct Contact {
@@ -33,5 +30,9 @@ std::vector<Contact> find_contacts(const BodyPoints& body, Up up);
 
 /// Spans in which every point of every foot is clear of the floor.
 std::vector<FrameSpan> find_flights(const BodyPoints& body, Up up);
+
+/// Acceleration of the body in a flight, m/s^2, downwards: that of the least-squares parabola
+/// through the heights of its centre.
+double fall(const BodyPoints& body, Up up, const FrameSpan& span);
 
 }  // namespace kinemend::check

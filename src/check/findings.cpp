@@ -8,7 +8,7 @@
 namespace kinemend {
 
 std::string_view to_string(FindingKind kind) {
-  static constexpr std::array<std::string_view, 16> names{"gap",
+  static constexpr std::array<std::string_view, 23> names{"gap",
                                                           "spike",
                                                           "frozen",
                                                           "bridged",
@@ -23,7 +23,14 @@ std::string_view to_string(FindingKind kind) {
                                                           "repeated_frames",
                                                           "zero_frames",
                                                           "calibration",
-                                                          "left_out"};
+                                                          "left_out",
+                                                          "joint_speed",
+                                                          "joint_acceleration",
+                                                          "penetration",
+                                                          "floating",
+                                                          "flight",
+                                                          "jump",
+                                                          "floor"};
   return names[static_cast<std::size_t>(kind)];
 }
 
@@ -38,13 +45,29 @@ namespace {
 
 // Findings that affect most uses of a take come first.
 std::size_t rank_of(FindingKind kind) {
-  static constexpr std::array<FindingKind, 16> order{
-      FindingKind::swap,    FindingKind::zero_frames, FindingKind::rate,
-      FindingKind::unit,    FindingKind::spike,       FindingKind::gap,
-      FindingKind::frozen,  FindingKind::bridged,     FindingKind::repeated_frames,
-      FindingKind::length,  FindingKind::slide,       FindingKind::sink,
-      FindingKind::noise,   FindingKind::euler_flip,  FindingKind::calibration,
-      FindingKind::left_out};
+  static constexpr std::array<FindingKind, 23> order{FindingKind::swap,
+                                                     FindingKind::zero_frames,
+                                                     FindingKind::jump,
+                                                     FindingKind::rate,
+                                                     FindingKind::unit,
+                                                     FindingKind::spike,
+                                                     FindingKind::gap,
+                                                     FindingKind::frozen,
+                                                     FindingKind::bridged,
+                                                     FindingKind::joint_speed,
+                                                     FindingKind::joint_acceleration,
+                                                     FindingKind::repeated_frames,
+                                                     FindingKind::length,
+                                                     FindingKind::slide,
+                                                     FindingKind::sink,
+                                                     FindingKind::penetration,
+                                                     FindingKind::floating,
+                                                     FindingKind::noise,
+                                                     FindingKind::euler_flip,
+                                                     FindingKind::flight,
+                                                     FindingKind::floor,
+                                                     FindingKind::calibration,
+                                                     FindingKind::left_out};
   return static_cast<std::size_t>(std::find(order.begin(), order.end(), kind) - order.begin());
 }
 

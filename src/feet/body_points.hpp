@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "kinemend/rotation.hpp"
+#include "kinemend/skeleton.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::feet {
 
@@ -25,7 +27,7 @@ struct BodyPoints {
   double frame_rate_hz = 0;
   std::vector<Vec3> positions;         ///< F x P
   std::vector<std::uint8_t> observed;  ///< F x P; empty means all
-  std::vector<Vec3> centres;           ///< F: root, or mean of the markers seen
+  std::vector<Vec3> centres;           ///< F: pelvis, or mean of the markers seen
   std::vector<Foot> feet;
   double height = 0;  ///< of the body
 
@@ -34,6 +36,13 @@ struct BodyPoints {
     return observed.empty() || observed[frame * points + point] != 0;
   }
 };
+
+/// Joints with end sites, in metres. Feet are found by names and by their descendants.
+BodyPoints body_points(const Take& clip, double metres_per_unit, const KnownNames& names = {});
+/// Markers, in metres. Feet are found by the names of the marker sets in use (LTOE, RHEE, L_MT5,
+/// ...).
+BodyPoints body_points(const Take& clip, const std::vector<std::size_t>& markers,
+                       double metres_per_unit, const KnownNames& names = {});
 
 /// A direction along an axis.
 struct Up {

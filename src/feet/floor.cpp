@@ -2,9 +2,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "feet/floor.hpp"
+#include "feet/sole_point.hpp"
 
 namespace kinemend::feet {
 
@@ -73,6 +75,16 @@ std::vector<double> depths_below_floor(const std::vector<Vec3>& places, Up up, d
                                    [&](double depth) { return std::fabs(depth) < close_to; });
   if (static_cast<double>(close) < most_share * static_cast<double>(places.size())) return {};
   return depths;
+}
+
+double floor_height(const BodyPoints& body, Up up) {
+  constexpr double reach_s = 0.02;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Foot& foot : body.feet) {
+    for (const std::size_t point : foot.points)
+      lowest = std::min(lowest, sole_point(body, point, up, ContactThresholds{}, reach_s).level);
+  }
+  return lowest;
 }
 
 }  // namespace kinemend::feet

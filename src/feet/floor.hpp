@@ -14,4 +14,8 @@ namespace kinemend::feet {
 std::vector<double> depths_below_floor(const std::vector<Vec3>& places, Up up, double close,
                                        double metre);
 
+/// The height of the lowest level on which a point of a foot stands as a rule. The body has feet
+/// and frames.
+double floor_height(const BodyPoints& body, Up up);
+
 }  // namespace kinemend::feet

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "base/measure.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
@@ -85,17 +87,34 @@ std::string findings_text(const TakeFacts& take, const CheckReport& report, bool
 
 std::string tracks_text(const CheckReport& report) {
   const ShownUnit shown = shown_unit(report.noise_unit);
-  Table table({Align::left, Align::right, Align::right, Align::right, Align::right, Align::right,
-               Align::right, Align::right});
-  table.add({report.is_markers ? "marker" : "joint", "gaps", "frames missing", "longest", "spikes",
-             "frozen or bridged", report.is_markers ? "swaps" : "flips",
-             report.noise_unit.empty() ? "noise" : "noise " + shown.name});
+  const bool with_rates = report.robot && !report.is_markers;
+  std::vector<Align> columns(with_rates ? 10 : 8, Align::right);
+  columns.front() = Align::left;
+  Table table(columns);
+  std::vector<std::string> heading = {report.is_markers ? "marker" : "joint",
+                                      "gaps",
+                                      "frames missing",
+                                      "longest",
+                                      "spikes",
+                                      "frozen or bridged",
+                                      report.is_markers ? "swaps" : "flips",
+                                      report.noise_unit.empty() ? "noise" : "noise " + shown.name};
+  if (with_rates) heading.insert(heading.end(), {"peak deg/s", "peak deg/s2"});
+  table.add(heading);
   for (const TrackHealth& track : report.tracks) {
-    table.add({printable_name(track.name), grouped(track.gaps), grouped(track.missing_frames),
-               grouped(track.longest_gap), grouped(track.spikes),
-               grouped(track.frozen + track.bridged),
-               grouped(report.is_markers ? track.swaps : track.flips),
-               figure(shown.factor * track.noise)});
+    std::vector<std::string> row = {printable_name(track.name),
+                                    grouped(track.gaps),
+                                    grouped(track.missing_frames),
+                                    grouped(track.longest_gap),
+                                    grouped(track.spikes),
+                                    grouped(track.frozen + track.bridged),
+                                    grouped(report.is_markers ? track.swaps : track.flips),
+                                    figure(shown.factor * track.noise)};
+    if (with_rates) {
+      row.insert(row.end(),
+                 {figure(track.peak_speed_deg_s), figure(track.peak_acceleration_deg_s2)});
+    }
+    table.add(row);
   }
   return "\n" + table.text();
 }

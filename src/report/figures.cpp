@@ -17,6 +17,10 @@ Value slide_of(const FootSlide& slide) {
   return slide.contact_steps > 0 ? Value(slide.per_frame) : std::nullopt;
 }
 
+Value count_of(const std::optional<std::size_t>& count) {
+  return count ? Value(static_cast<double>(*count)) : std::nullopt;
+}
+
 template <class Figures>
 std::vector<FigureRule> rules_of(const Figures& figures) {
   std::vector<FigureRule> rules;
@@ -61,7 +65,32 @@ std::span<const CheckFigure> check_figure_table() {
         [](const CheckFigures& f) -> Value { return f.sink_cm; }},
        {{"flips", "Euler flips", "", "max_flips", true},
         {FindingKind::euler_flip, FindingKind::euler_flip},
-        [](const CheckFigures& f) -> Value { return static_cast<double>(f.flips); }}});
+        [](const CheckFigures& f) -> Value { return static_cast<double>(f.flips); }},
+       {{"joint_speed_deg_s", "fastest joint", "deg/s", "max_joint_speed", false, false, true},
+        {FindingKind::joint_speed, FindingKind::joint_speed},
+        [](const CheckFigures& f) { return f.joint_speed_deg_s; }},
+       {{"joint_acceleration_deg_s2", "largest acceleration of a joint", "deg/s2",
+         "max_joint_acceleration", false, false, true},
+        {FindingKind::joint_acceleration, FindingKind::joint_acceleration},
+        [](const CheckFigures& f) { return f.joint_acceleration_deg_s2; }},
+       {{"jumps", "jumps", "", "max_jumps", true, false, true},
+        {FindingKind::jump, FindingKind::jump},
+        [](const CheckFigures& f) { return count_of(f.jumps); }},
+       {{"flights", "times in the air", "", "max_flights", true, false, true},
+        {FindingKind::floating, FindingKind::flight},
+        [](const CheckFigures& f) { return count_of(f.flights); }},
+       {{"penetration_cm", "depth below the level of standing", "cm", "max_penetration_cm", false,
+         false, true},
+        {FindingKind::penetration, FindingKind::penetration},
+        [](const CheckFigures& f) { return f.penetration_cm; }},
+       {{"floating_cm", "height of a standing foot above the floor", "cm", "max_floating_cm", false,
+         false, true},
+        {FindingKind::floating, FindingKind::floating},
+        [](const CheckFigures& f) { return f.floating_cm; }},
+       {{"floor_cm", "distance of the floor from height 0", "cm", "max_floor_cm", false, false,
+         true},
+        {FindingKind::floor, FindingKind::floor},
+        [](const CheckFigures& f) { return f.floor_cm; }}});
   return table;
 }
 

@@ -82,17 +82,22 @@ Json json_of(const FeetFigures& figures) {
           {"knee_pop_deg", figures.knee_pop_deg}};
 }
 
+Json contact_json(const std::string& side, const FootContact& contact, std::int64_t first_frame) {
+  return {{"side", side},
+          {"part", to_string(contact.part)},
+          {"first_frame", frame_number(contact.first_frame, first_frame)},
+          {"last_frame", frame_number(contact.last_frame, first_frame)}};
+}
+
 Json contacts_json(const FeetReport& report, std::int64_t first_frame) {
   Json contacts = Json::array();
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {
     const FootContact& contact = report.contacts[i];
     const bool is_held = report.held[i] != 0;
-    contacts.push_back({{"side", report.sides[contact.leg]},
-                        {"part", to_string(contact.part)},
-                        {"first_frame", frame_number(contact.first_frame, first_frame)},
-                        {"last_frame", frame_number(contact.last_frame, first_frame)},
-                        {"held", is_held},
-                        {"reason", is_held ? Json() : Json(report.reasons[i])}});
+    Json json = contact_json(report.sides[contact.leg], contact, first_frame);
+    json["held"] = is_held;
+    json["reason"] = is_held ? Json() : Json(report.reasons[i]);
+    contacts.push_back(std::move(json));
   }
   return contacts;
 }
@@ -163,6 +168,13 @@ Json subjects_json(const CheckReport& report) {
   return list;
 }
 
+Json robot_json(const RobotFindings& robot, std::int64_t first_frame) {
+  Json contacts = Json::array();
+  for (const FootContact& contact : robot.contacts)
+    contacts.push_back(contact_json(robot.sides[contact.leg], contact, first_frame));
+  return {{"contacts", std::move(contacts)}};
+}
+
 // What only one command has, between the verdict and the figures.
 void add_own(const TakeFacts& take, const CleanOutcome& outcome, Depth depth, Json& json) {
   json["method"] = outcome.report.method;
@@ -175,9 +187,10 @@ void add_own(const TakeFacts& take, const CleanOutcome& outcome, Depth depth, Js
   json["fall_backs"] = fall_backs_json(outcome.report);
   json["leftovers"] = leftovers_json(outcome.leftovers);
 }
-void add_own(const TakeFacts& /*take*/, const CheckReport& report, Depth /*depth*/, Json& json) {
+void add_own(const TakeFacts& take, const CheckReport& report, Depth /*depth*/, Json& json) {
   json["noise"] = noise_json(report.noise, report.frame_rate_hz);
   json["subjects"] = subjects_json(report);
+  if (report.robot) json["robot"] = robot_json(*report.robot, take.first_frame);
 }
 void add_own(const TakeFacts& /*take*/, const FillOutcome& /*outcome*/, Depth /*depth*/,
              Json& /*json*/) {}

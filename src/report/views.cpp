@@ -48,6 +48,7 @@ std::vector<ReportFigure> figures(const TakeFacts& take, const CleanOutcome& out
 std::vector<ReportFigure> figures(const TakeFacts& /*take*/, const CheckReport& report) {
   std::vector<ReportFigure> list;
   for (const CheckFigure& figure : check_figure_table()) {
+    if (figure.rule.of_robot && !report.robot) continue;
     list.push_back({std::string(figure.rule.name), std::string(figure.rule.label),
                     figure.get(report.figures), figure.rule.is_count, unit_of(figure, report)});
   }
@@ -125,16 +126,24 @@ ReportTracks tracks(const TakeFacts& take, const CleanOutcome& outcome) {
 ReportTracks tracks(const TakeFacts& /*take*/, const CheckReport& report) {
   using Row = TrackHealth;
   const std::vector<Row>& rows = report.tracks;
-  return {report.noise_unit,
-          names_of(rows),
-          {column("gaps", "gaps", rows, &Row::gaps),
-           column("longest_gap", "longest gap, frames", rows, &Row::longest_gap),
-           column("missing_frames", "frames missing", rows, &Row::missing_frames),
-           column("spikes", "spikes", rows, &Row::spikes),
-           column("frozen", "frozen", rows, &Row::frozen),
-           column("bridged", "bridged", rows, &Row::bridged),
-           column("swaps", "swaps", rows, &Row::swaps), column("flips", "flips", rows, &Row::flips),
-           column("noise", "noise", rows, &Row::noise)}};
+  ReportTracks result{
+      report.noise_unit,
+      names_of(rows),
+      {column("gaps", "gaps", rows, &Row::gaps),
+       column("longest_gap", "longest gap, frames", rows, &Row::longest_gap),
+       column("missing_frames", "frames missing", rows, &Row::missing_frames),
+       column("spikes", "spikes", rows, &Row::spikes),
+       column("frozen", "frozen", rows, &Row::frozen),
+       column("bridged", "bridged", rows, &Row::bridged),
+       column("swaps", "swaps", rows, &Row::swaps), column("flips", "flips", rows, &Row::flips),
+       column("noise", "noise", rows, &Row::noise)}};
+  if (report.robot && !report.is_markers) {
+    result.columns.push_back(
+        column("peak_speed_deg_s", "peak speed, deg/s", rows, &Row::peak_speed_deg_s));
+    result.columns.push_back(column("peak_acceleration_deg_s2", "peak acceleration, deg/s2", rows,
+                                    &Row::peak_acceleration_deg_s2));
+  }
+  return result;
 }
 
 ReportTracks tracks_of_markers(const TakeFacts& take, const MarkerComparison& comparison) {

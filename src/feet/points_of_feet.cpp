@@ -5,12 +5,12 @@
 #include <string_view>
 #include <utility>
 
-#include "check/feet.hpp"
+#include "feet/body_points.hpp"
 #include "feet/legs.hpp"
 #include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/metrics.hpp"
 
-namespace kinemend::check {
+namespace kinemend::feet {
 
 namespace {
 
@@ -31,12 +31,24 @@ std::vector<std::size_t> points_below(const Skeleton& skeleton, std::size_t join
   return points;
 }
 
+// The pelvis: some roots stay at the origin, and a joint below them carries the body. The first
+// joint that has several children.
+std::size_t carrier_of(const Skeleton& skeleton) {
+  std::vector<std::size_t> children(skeleton.joint_count());
+  for (const std::int32_t parent : skeleton.parents) {
+    if (parent >= 0) ++children[static_cast<std::size_t>(parent)];
+  }
+  const auto found =
+      std::find_if(children.begin(), children.end(), [](std::size_t count) { return count > 1; });
+  return found == children.end() ? 0 : static_cast<std::size_t>(found - children.begin());
+}
+
 // Ankles with their descendants: the ankle itself rolls over the foot.
 std::vector<Foot> feet_of(const Skeleton& skeleton, const KnownNames& names) {
   std::vector<Foot> feet;
   Skeleton known = skeleton;
   known.names = known_names(skeleton.names, names);
-  for (const std::size_t ankle : feet::ankles_of(known)) {
+  for (const std::size_t ankle : ankles_of(known)) {
     Foot foot{skeleton.names[ankle], points_below(skeleton, ankle)};
     if (foot.points.empty()) foot.points.push_back(ankle);
     feet.push_back(std::move(foot));
@@ -88,8 +100,8 @@ BodyPoints body_points(const Take& clip, double metres_per_unit, const KnownName
   if (body.feet.empty()) return body;
   body.positions = joint_positions(clip, true);
   for (Vec3& p : body.positions) p = metres_per_unit * p;
-  for (std::size_t f = 0; f < body.frames; ++f)
-    body.centres.push_back(metres_per_unit * clip.root_position(f));
+  const std::size_t carrier = carrier_of(clip.skeleton);
+  for (std::size_t f = 0; f < body.frames; ++f) body.centres.push_back(body.at(f, carrier));
   return body;
 }
 
@@ -118,4 +130,4 @@ BodyPoints body_points(const Take& clip, const std::vector<std::size_t>& markers
   return body;
 }
 
-}  // namespace kinemend::check
+}  // namespace kinemend::feet
