@@ -178,10 +178,11 @@ class ChangedNpz {
     return *npz_array(document_, name, unlimited);
   }
 
-  // `value(i)`: the new sample i, where `is_same(i)` does not hold. Returns whether a number was
-  // replaced that is not finite.
-  template <std::size_t size, class IsSame, class Value>
-  bool change(const std::string& name, std::size_t samples, IsSame is_same, Value value) {
+  // `value(i)`: the new sample i, where `is_same(i)` does not hold. Returns whether one was
+  // replaced that is missing, `is_seen(i)` being false, or that was not finite.
+  template <std::size_t size, class IsSeen, class IsSame, class Value>
+  bool change(const std::string& name, std::size_t samples, IsSeen is_seen, IsSame is_same,
+              Value value) {
     const NpyArray before = array(name);
     std::vector<double> values(size * samples);
     bool is_changed = false, is_mended = false;
@@ -192,7 +193,7 @@ class ChangedNpz {
           std::none_of(sample.begin(), sample.end(), [](double v) { return std::isnan(v); });
       if (is_finite && is_same(i)) continue;
       is_changed = true;
-      is_mended = is_mended || !is_finite;
+      is_mended = is_mended || !is_finite || !is_seen(i);
       const std::array<double, size> now = value(i);
       std::copy(now.begin(), now.end(), sample.begin());
     }
@@ -204,6 +205,7 @@ class ChangedNpz {
     const std::size_t joints = take_.joint_count();
     return change<4>(
         "rotations", take_.rotations.size(),
+        [&](std::size_t i) { return take_.is_observed(i / joints, i % joints); },
         [&](std::size_t i) {
           return take_.rotations[i] == original_.rotations[i] &&
                  take_.is_observed(i / joints, i % joints) ==
@@ -216,9 +218,17 @@ class ChangedNpz {
   }
 
   bool change_positions() {
+    const std::size_t points = take_.point_count();
+    const auto is_seen = [&](const Take& take, std::size_t i) {
+      return take.has_joints() ? take.is_position_observed(i / points, i % points)
+                               : take.is_observed(i / points, i % points);
+    };
     return change<3>(
-        "positions", take_.positions.size(),
-        [&](std::size_t i) { return take_.positions[i] == original_.positions[i]; },
+        "positions", take_.positions.size(), [&](std::size_t i) { return is_seen(take_, i); },
+        [&](std::size_t i) {
+          return take_.positions[i] == original_.positions[i] &&
+                 is_seen(take_, i) == is_seen(original_, i);
+        },
         [&](std::size_t i) {
           const Vec3 v = take_.positions[i];
           return std::array<double, 3>{v.x, v.y, v.z};
