@@ -11,7 +11,7 @@ import numpy as np
 
 from . import rotations
 from .curves import BoneCurves
-from .takes import frame_grid, places_on_grid
+from .takes import frame_grid, places_on_grid, usual_rate
 
 BONE_PATH = re.compile(r'^pose\.bones\["((?:[^"\\]|\\.)*)"\]\.(location|rotation_quaternion|rotation_euler|rotation_axis_angle)$')
 ROTATION_PATHS = {"QUATERNION": "rotation_quaternion", "AXIS_ANGLE": "rotation_axis_angle"}
@@ -184,7 +184,7 @@ class Rig:
         self.sent_rotations = rotations.multiply(self.rest, local)
         self.sent_positions = np.stack([self._positions(j, self.times) for j in [0, *movers]], axis=1)
         take = {
-            "fps": np.float64(frames_per_second / self.step), "names": np.array([joint.name for joint in joints]),
+            "fps": np.float64(usual_rate(frames_per_second / self.step)), "names": np.array([joint.name for joint in joints]),
             "parents": np.array([self.parent_of(joint) for joint in joints], np.int32), "offsets": offsets,
             "rest_rotations": self.rest, "rotations": self.sent_rotations, "positions": self.sent_positions,
             "metres_per_unit": np.float64(self.metres_per_unit),

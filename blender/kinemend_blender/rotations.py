@@ -88,10 +88,11 @@ def to_euler_near(q, order, near):
 
     locked = level < 1e-6
     if locked.any():
+        # Only the sum or the difference of the outer angles is told.
         up = np.sign(np.sin(beta))
-        both = np.arctan2(even * up * r[:, first, second], r[:, second, second])
-        rest = _wrapped(both - (wanted[:, 0] - up * wanted[:, 2])) / 2
-        share = np.stack([rest, _wrapped(beta - wanted[:, 1]), -up * rest], axis=-1)
+        outer = np.arctan2(up * r[:, first, second], r[:, second, second])
+        rest = _wrapped(outer - (wanted[:, 0] - even * up * wanted[:, 2])) / 2
+        share = np.stack([rest, _wrapped(beta - wanted[:, 1]), -even * up * rest], axis=-1)
         change = np.where(locked[:, None], share, change)
     angles = np.empty_like(near)
     angles[:, columns] = wanted + change

@@ -39,6 +39,12 @@ def frame_grid(times, tolerance=0.01):
     return float(times[0]), step, int(round((times[-1] - times[0]) / step)) + 1
 
 
+def usual_rate(frames_per_second):
+    """The whole number next to a rate that a rounded frame time gave: 120 for 1 / 0.008333. 23.976 stays."""
+    whole = round(frames_per_second)
+    return float(whole) if abs(frames_per_second - whole) < 1e-4 * frames_per_second else float(frames_per_second)
+
+
 def places_on_grid(times, first, step, count, tolerance=0.01):
     """The index in the grid of each time; -1 for a time that lies between frames or outside."""
     index = (np.asarray(times, float) - first) / step
