@@ -20,7 +20,7 @@ need = @tools/install_packages packages.txt
 WINDOWS := $(BUILD)/windows/cli/kinemend.exe
 WINE ?= /usr/lib/wine/wine64
 
-.PHONY: help setup build windows windows-test libcxx wasm wasm-test demo deb deb-test install-test test test-all asan asan-build asan-test lint format page bench bench-quick \
+.PHONY: help setup build windows windows-test libcxx wasm wasm-test blender-addon blender-test demo deb deb-test install-test test test-all asan asan-build asan-test lint format page bench bench-quick \
   papers papers-quick pictures fuzz soak nightly clean FORCE
 
 help: ## this list
@@ -82,6 +82,14 @@ wasm: ## the module for JavaScript by Emscripten: build/wasm/wasm/kinemend.mjs a
 
 wasm-test: build wasm ## the module in Node writes the same bytes as the program on twenty takes
 	tools/compare_programs $(BUILD)/$(PRESET)/cli/kinemend tools/wasm_program
+
+blender-addon: ## the Blender add-on: build/blender/kinemend_blender-0.1.0.zip
+	@tools/make_blender_addon
+
+blender-test: $(BUILD)/$(TESTS)/.built ## run the add-on within Blender, without a window
+	$(need) core test blender
+	@cmake --preset $(TESTS) >/dev/null
+	ctest --preset $(TESTS) -R blender
 
 deb: $(BUILD)/$(PRESET)/.packaged ## the Debian packages kinemend and libkinemend-dev, in build/deb
 	tools/make_deb $(BUILD)/$(PRESET)
@@ -163,7 +171,7 @@ nightly: ## what continuous integration leaves out: sanitisers, packages in a fr
 	tools/lint --includers
 	$(MAKE) asan ASAN=asan-all
 	$(MAKE) libcxx windows-test
-	$(MAKE) fuzz soak test-all deb-test install-test bench-quick
+	$(MAKE) fuzz soak test-all blender-test deb-test install-test bench-quick
 
 clean: ## remove everything that was built
 	rm -rf $(BUILD)

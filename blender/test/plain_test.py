@@ -7,6 +7,7 @@ Without NumPy everything is skipped; with PROGRAM, which is kinemend, takes go t
 import itertools
 import math
 import pathlib
+import re
 import subprocess
 import sys
 import unittest
@@ -116,6 +117,15 @@ class Grid(unittest.TestCase):
     def test_rates_of_rounded_frame_times(self):
         self.assertEqual(takes.usual_rate(1 / 0.008333), 120)
         self.assertEqual(takes.usual_rate(24000 / 1001), 24000 / 1001)
+
+
+class Package(unittest.TestCase):
+    def test_every_file_states_the_version_of_the_project(self):
+        root = pathlib.Path(__file__).resolve().parents[2]
+        version = re.search(r"project\(kinemend VERSION ([\d.]+)", (root / "CMakeLists.txt").read_text()).group(1)
+        addon = root / "blender" / "kinemend_blender"
+        self.assertIn(f'\nversion = "{version}"\n', (addon / "blender_manifest.toml").read_text())
+        self.assertIn(f'"version": ({version.replace(".", ", ")}),', (addon / "__init__.py").read_text())
 
 
 class FakeKeys:
