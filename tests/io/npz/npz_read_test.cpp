@@ -96,9 +96,9 @@ TEST(NpzReader, ARefusalNamesTheArray) {
       {"objects", "array \"names\": elements of type \"|O\" are not read"},
       {"cut", "the archive has no directory: the file is cut off"}};
   for (const auto& [name, message] : expected) {
+    const std::string bytes = npz_fixture(std::string("bad/") + name);
     const std::string found =
-        message_of([&] { read_npz_bytes(npz_fixture(std::string("bad/") + name)); },
-                   ErrorKind::unreadable_input);
+        message_of([&] { read_npz_bytes(bytes); }, ErrorKind::unreadable_input);
     EXPECT_NE(found.find(message), found.npos) << name << ": " << found;
   }
 }
