@@ -20,7 +20,7 @@ need = @tools/install_packages packages.txt
 WINDOWS := $(BUILD)/windows/cli/kinemend.exe
 WINE ?= /usr/lib/wine/wine64
 
-.PHONY: help setup build windows windows-test libcxx wasm wasm-test blender-addon blender-test demo deb deb-test install-test test test-all asan asan-build asan-test lint format page bench bench-quick \
+.PHONY: help setup build windows windows-test libcxx wasm wasm-test blender-addon blender-test blender-pictures demo deb deb-test install-test test test-all asan asan-build asan-test lint format page bench bench-quick \
   papers papers-quick pictures fuzz soak nightly clean FORCE
 
 help: ## this list
@@ -86,10 +86,13 @@ wasm-test: build wasm ## the module in Node writes the same bytes as the program
 blender-addon: ## the Blender add-on: build/blender/kinemend_blender-0.1.0.zip
 	@tools/make_blender_addon
 
-blender-test: $(BUILD)/$(TESTS)/.built ## run the add-on within Blender, without a window
+blender-test: $(BUILD)/$(TESTS)/.built ## run the add-on within Blender, without a window and in one on no screen
 	$(need) core test blender
 	@cmake --preset $(TESTS) >/dev/null
 	ctest --preset $(TESTS) -R blender
+
+blender-pictures: blender-test ## the pictures of docs/blender.md again
+	cp $(BUILD)/$(TESTS)/blender/*.png docs/pictures/
 
 deb: $(BUILD)/$(PRESET)/.packaged ## the Debian packages kinemend and libkinemend-dev, in build/deb
 	tools/make_deb $(BUILD)/$(PRESET)

@@ -149,7 +149,7 @@ class KINEMEND_OT_compare(bpy.types.Operator):
 class KINEMEND_OT_report(bpy.types.Operator):
     """Open the report of the cleaned action in the browser"""
     bl_idname = "kinemend.report"
-    bl_label = "Open Report"
+    bl_label = "Report in the Browser"
 
     @classmethod
     def poll(cls, context):
@@ -172,7 +172,6 @@ class KINEMEND_PT_panel(bpy.types.Panel):
 
     def draw(self, context):
         layout, settings = self.layout, context.scene.kinemend
-        layout.use_property_split = True
         for name in ("method", "strength", "bones"):
             layout.prop(settings, name)
         if settings.bones == "NAME":
@@ -181,12 +180,12 @@ class KINEMEND_PT_panel(bpy.types.Panel):
         layout.prop(settings, "root_position")
         layout.prop(settings, "use_range")
         if settings.use_range:
-            layout.prop(settings, "first")
-            layout.prop(settings, "last")
+            row = layout.row(align=True)
+            row.prop(settings, "first")
+            row.prop(settings, "last")
         layout.operator("kinemend.clean", icon="BRUSHES_ALL")
-        row = layout.row(align=True)
-        row.operator("kinemend.compare", icon="FILE_REFRESH")
-        row.operator("kinemend.report", icon="URL")
+        layout.operator("kinemend.compare", icon="FILE_REFRESH")
+        layout.operator("kinemend.report", icon="URL")
 
 
 def draw_menu(menu, _context):

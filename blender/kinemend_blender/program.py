@@ -88,17 +88,25 @@ def read_report(path):
         return json.load(file)["takes"][0]
 
 
-def time_marks(entry, most=200):
-    """Times at which something was repaired: (frame index from 0, text), in order; smoothing everywhere is no mark."""
-    found = {}
-    for finding in entry["findings"]:
-        if finding["verdict"] == "denoised" or finding["kind"] == "noise":
-            continue
-        key = (finding["first_frame"] - entry["first_frame"], finding["kind"])
-        found.setdefault(key, []).append(finding["track"] or "take")
-    marks = []
-    for (frame, kind), tracks in sorted(found.items()):
-        names = list(dict.fromkeys(tracks))
-        more = f" +{len(names) - 1}" if len(names) > 1 else ""
-        marks.append((frame, f"{kind}: {names[0]}{more}"))
-    return marks[:most]
+def time_marks(entry, most=40, apart_s=0.25):
+    """Times at which something was repaired: (frame index from 0, text), in order. Smoothing everywhere is no mark.
+
+    Repairs of one kind that follow within `apart_s` are one mark. Of more than `most` marks those on the most tracks are kept.
+    """
+    repairs = [each for each in entry["findings"] if each["verdict"] != "denoised" and each["kind"] != "noise"]
+    repairs.sort(key=lambda each: (each["kind"], each["first_frame"]))
+    apart = apart_s * entry["frame_rate_hz"]
+    groups = []
+    for each in repairs:
+        last = groups[-1][-1] if groups else None
+        if last is None or last["kind"] != each["kind"] or each["first_frame"] - last["first_frame"] > apart:
+            groups.append([])
+        groups[-1].append(each)
+    groups = sorted(groups, key=lambda group: len({each["track"] for each in group}), reverse=True)[:most]
+    return sorted((group[0]["first_frame"] - entry["first_frame"], _mark_text(group)) for group in groups)
+
+
+def _mark_text(group):
+    tracks = list(dict.fromkeys(each["track"] or "take" for each in group))
+    more = f" +{len(tracks) - 1}" if len(tracks) > 1 else ""
+    return f"{group[0]['kind']}: {tracks[0]}{more}"

@@ -207,9 +207,11 @@ class Program(unittest.TestCase):
         def finding(kind, verdict, track, frame):
             return {"kind": kind, "verdict": verdict, "track": track, "first_frame": frame}
 
-        entry = {"first_frame": 1, "findings": [finding("spike", "despiked", "Arm", 8), finding("noise", "denoised", "Arm", 1),
-                                                finding("spike", "despiked", "Leg", 8), finding("gap", "filled", None, 3)]}
-        self.assertEqual(program.time_marks(entry), [(2, "gap: take"), (7, "spike: Arm +1")])
+        entry = {"first_frame": 1, "frame_rate_hz": 100.0, "findings": [
+            finding("spike", "despiked", "Arm", 8), finding("noise", "denoised", "Arm", 1),
+            finding("spike", "despiked", "Leg", 20), finding("gap", "filled", None, 3), finding("spike", "despiked", "Arm", 90)]}
+        self.assertEqual(program.time_marks(entry), [(2, "gap: take"), (7, "spike: Arm +1"), (89, "spike: Arm")])
+        self.assertEqual(program.time_marks(entry, most=1), [(7, "spike: Arm +1")])
 
     def test_a_program_that_is_not_there_is_a_line_for_the_user(self):
         with self.assertRaisesRegex(program.ProgramError, "is not found"):
