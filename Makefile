@@ -117,8 +117,8 @@ test: $(BUILD)/$(TESTS)/.built ## build and run the tests (real takes too where 
 	@cat $(BUILD)/$(TESTS)/left_out.txt
 	ctest --preset $(TESTS) -j $(JOBS) $(CTEST_ARGUMENTS)
 
-test-all: ## the same, with training, pages and browser installed, so that nothing is left out
-	$(need) core test page browser train
+test-all: ## the same, with training, pages, browser and Blender installed, so that nothing is left out
+	$(need) core test page browser train blender
 	$(MAKE) test
 
 asan-build:
@@ -174,7 +174,7 @@ nightly: ## what continuous integration leaves out: sanitisers, packages in a fr
 	tools/lint --includers
 	$(MAKE) asan ASAN=asan-all
 	$(MAKE) libcxx windows-test
-	$(MAKE) fuzz soak test-all blender-test deb-test install-test bench-quick
+	$(MAKE) fuzz soak test-all deb-test install-test bench-quick
 
 clean: ## remove everything that was built
 	rm -rf $(BUILD)

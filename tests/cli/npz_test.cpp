@@ -39,6 +39,18 @@ TEST_F(Npz, ArraysThatTheProgramDoesNotKnowStay) {
   EXPECT_EQ(contents(folder / "same.npz"), contents(folder / "clean.npz"));
 }
 
+TEST_F(Npz, ABatchPassesOverArraysOfOtherThings) {
+  fs::create_directory(folder / "raw");
+  for (const char* const name : {"good/joints.npz", "bad/nothing.npz"}) {
+    const fs::path path = fs::path(KINEMEND_TEST_FIXTURES) / "npz" / name;
+    fs::copy_file(path, folder / "raw" / path.filename());
+  }
+  const Ran ran = run({"batch", "raw", "-o", "out"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_TRUE(fs::exists(folder / "out/joints.npz"));
+  EXPECT_FALSE(fs::exists(folder / "out/nothing.npz"));
+}
+
 TEST_F(Npz, ADamagedFileIsOneLineAndExitCode3) {
   put(folder / "cut.npz", contents(fs::path(KINEMEND_TEST_FIXTURES) / "npz/bad/cut.npz"));
   const Ran ran = run({"clean", "cut.npz"});

@@ -424,11 +424,25 @@ std::vector<std::string> other_npz_arrays(const NpzDocument& document) {
 
 NpzTake take_of_npz(const NpzDocument& document) { return NpzDecoder(document).decode(); }
 
+// Archives of arrays hold anything, so an array of the layout is looked for.
 int sniff_npz(std::string_view head) {
-  if (!head.starts_with(zip_header_mark) || head.size() < zip_header_bytes) return 0;
-  constexpr std::size_t size_of_name = 26;
-  const std::string_view name = head.substr(zip_header_bytes, zip_number(head, size_of_name, 2));
-  return name.ends_with(npy_ending) ? 100 : 0;
+  constexpr int of_the_layout = 100, of_arrays = 20;
+  const auto name_at = [&](std::size_t place) {
+    constexpr std::size_t size_of_name = 26;
+    return head.size() < place + zip_header_bytes
+               ? std::string_view()
+               : head.substr(place + zip_header_bytes, zip_number(head, place + size_of_name, 2));
+  };
+  if (!head.starts_with(zip_header_mark) || !name_at(0).ends_with(npy_ending)) return 0;
+  for (std::size_t place = 0; place != head.npos;
+       place = head.find(zip_header_mark, place + zip_header_bytes)) {
+    std::string_view name = name_at(place);
+    if (!name.ends_with(npy_ending)) continue;
+    name.remove_suffix(npy_ending.size());
+    if (std::find(npz_names.begin(), npz_names.end(), name) != npz_names.end())
+      return of_the_layout;
+  }
+  return of_arrays;
 }
 
 TakeResult read_npz(std::string bytes, std::string_view name, const ReadOptions& options) {

@@ -105,6 +105,9 @@ TEST(NpzReader, ARefusalNamesTheArray) {
 
 TEST(NpzReader, IsFoundByContent) {
   EXPECT_EQ(read_take(npz_fixture("good/joints"), "take").take.source.format, "npz");
+  EXPECT_EQ(sniff_npz(npz_fixture("good/joints")), 100);
+  EXPECT_EQ(sniff_npz(npz_fixture("good/markers")), 100);
+  EXPECT_LT(sniff_npz(npz_fixture("bad/nothing")), 50);
   EXPECT_EQ(sniff_npz("PK\3\4 and other zips"), 0);
   EXPECT_EQ(sniff_npz("PK"), 0);
 }
