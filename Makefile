@@ -20,7 +20,7 @@ need = @tools/install_packages packages.txt
 WINDOWS := $(BUILD)/windows/cli/kinemend.exe
 WINE ?= /usr/lib/wine/wine64
 
-.PHONY: help setup build windows windows-test libcxx wasm wasm-test demo deb deb-test install-test cluster-test test test-all asan asan-build asan-test lint format page bench bench-quick \
+.PHONY: help setup build windows windows-test libcxx wasm wasm-test demo deb deb-test install-test cluster-test test test-all asan asan-build asan-test lint format page bench bench-quick blender-addon blender-test blender-pictures \
   papers papers-quick pictures fuzz soak nightly clean FORCE
 
 help: ## this list
@@ -83,6 +83,17 @@ wasm: ## the module for JavaScript by Emscripten: build/wasm/wasm/kinemend.mjs a
 wasm-test: build wasm ## the module in Node writes the same bytes as the program on twenty takes
 	tools/compare_programs $(BUILD)/$(PRESET)/cli/kinemend tools/wasm_program
 
+blender-addon: ## the Blender add-on: build/blender/kinemend_blender-0.1.0.zip
+	@tools/make_blender_addon
+
+blender-test: $(BUILD)/$(TESTS)/.built ## run the add-on within Blender, without a window and in one on no screen
+	$(need) core test blender
+	@cmake --preset $(TESTS) >/dev/null
+	ctest --preset $(TESTS) -R blender
+
+blender-pictures: blender-test ## the pictures of docs/blender.md again
+	cp $(BUILD)/$(TESTS)/blender/*.png docs/pictures/
+
 deb: $(BUILD)/$(PRESET)/.packaged ## the Debian packages kinemend and libkinemend-dev, in build/deb
 	tools/make_deb $(BUILD)/$(PRESET)
 
@@ -106,8 +117,8 @@ test: $(BUILD)/$(TESTS)/.built ## build and run the tests (real takes too where 
 	@cat $(BUILD)/$(TESTS)/left_out.txt
 	ctest --preset $(TESTS) -j $(JOBS) $(CTEST_ARGUMENTS)
 
-test-all: ## the same, with training, pages and browser installed, so that nothing is left out
-	$(need) core test page browser train
+test-all: ## the same, with training, pages, browser and Blender installed, so that nothing is left out
+	$(need) core test page browser train blender
 	$(MAKE) test
 
 asan-build:

@@ -30,16 +30,17 @@ bool is_skeleton(const fs::path& path) {
   return format != nullptr && format->name == "asf";
 }
 
-// Many programs write CSV files; only those with the header of a take count.
+// Many programs write CSV and npz files; only those that begin as a take count.
 bool looks_like_take(const fs::path& path) {
   const Format* format = format_of_path(path);
   if (format == nullptr || format->read == nullptr) return false;
-  if (format->name != "csv") return true;
+  if (format->name != "csv" && format->name != "npz") return true;
   std::string head(4096, '\0');
   std::ifstream file(path, std::ios::binary);
   file.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(file.gcount()));
-  return format->sniff(head) > 0;
+  constexpr int likely = 50;
+  return format->sniff(head) >= likely;
 }
 
 void add_folder(const fs::path& folder, const fs::path& output, const std::string& pattern,

@@ -11,6 +11,7 @@
 #include "io/c3d/c3d.hpp"
 #include "io/fbx/fbx.hpp"
 #include "io/gltf/gltf.hpp"
+#include "io/npz/npz.hpp"
 #include "io/table/tables.hpp"
 #include "io/text/text.hpp"
 #include "kinemend/error.hpp"
@@ -109,6 +110,7 @@ TakeResult with_joints(TakeResult result) {
 // Of a scene that cannot be written in place.
 std::vector<std::string> lost_of_scene(const Take& take, std::string_view format) {
   if (format == "glb" || format == "gltf") return lost_beside_gltf(take);
+  if (format == "npz") return lost_beside_npz(take);
   return format == "fbx" ? lost_beside_fbx(take) : std::vector<std::string>{};
 }
 
@@ -177,6 +179,13 @@ std::span<const Format> formats() {
        &read_fbx,
        &write_fbx,
        &write_fbx_markers},
+      {"npz",
+       "Arrays of NumPy, joints or markers",
+       {".npz"},
+       &sniff_npz,
+       &read_npz,
+       &write_npz,
+       &write_npz},
   };
   return list;
 }

@@ -37,7 +37,7 @@ TEST_F(Endings, OfFormatsThatAreNotWrittenAreRefusedByEveryCommand) {
                                                {"clean", "walk.bvh", "--dry-run"},
                                                {"view", "walk.bvh"}})
       expect_refused(words, output,
-                     ".bvh, .amc, .asf, .c3d, .trc, .tsv, .csv, .glb, .vrm, .gltf, .fbx");
+                     ".bvh, .amc, .asf, .c3d, .trc, .tsv, .csv, .glb, .vrm, .gltf, .fbx, .npz");
     expect_refused({"plot", "walk.bvh"}, output, "only .svg");
   }
   expect_refused({"plot", "walk.bvh"}, "out.bvh", "only .svg");

@@ -143,7 +143,7 @@ TEST(Formats, AreFoundByContentThenByName) {
   EXPECT_EQ(
       message_of([] { read_joints(std::string("garbage"), "take"); }, ErrorKind::unreadable_input),
       "take:1: not a motion file of a known format (bvh, amc, asf, c3d, trc, tsv, csv, "
-      "glb, gltf, fbx)");
+      "glb, gltf, fbx, npz)");
   EXPECT_EQ(message_of([] { read_joints(std::string(), "take"); }, ErrorKind::unreadable_input),
             "take:1: the file is empty");
   ReadOptions options;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/held_samples.hpp"
 #include "io/memory_limit.hpp"
 #include "io/table/csv_skeleton.hpp"
 #include "io/text/cell_patch.hpp"
@@ -17,9 +18,6 @@ namespace kinemend {
 namespace {
 
 constexpr unsigned shortest_digits = most_fixed_decimals + 1;
-
-bool is_missing(Vec3 v) { return std::isnan(v.x + v.y + v.z); }
-bool is_missing(Quat q) { return std::isnan(q.w); }
 
 std::vector<const CsvGroup*> groups_of(const std::vector<CsvGroup>& groups, CsvGroup::Kind kind) {
   std::vector<const CsvGroup*> found;
@@ -51,24 +49,6 @@ std::size_t width_of(const MarkerTable& table, const std::vector<CsvGroup>& grou
     width = std::max(width, *std::max_element(group.columns.begin(), group.columns.end()) + 1);
   }
   return width;
-}
-
-// Gives each missing sample of a track the one before, or the next where there is none before.
-template <class Sample>
-void hold(std::vector<Sample>& samples, std::size_t track, std::size_t stride, Sample otherwise) {
-  const Sample* last = nullptr;
-  for (std::size_t i = track; i < samples.size(); i += stride) {
-    if (!is_missing(samples[i])) {
-      if (last == nullptr) {
-        for (std::size_t k = track; k < i; k += stride) samples[k] = samples[i];
-      }
-      last = &samples[i];
-    } else if (last != nullptr) {
-      samples[i] = *last;
-    }
-  }
-  for (std::size_t i = track; i < samples.size() && last == nullptr; i += stride)
-    samples[i] = otherwise;
 }
 
 class JointReader {
@@ -231,16 +211,14 @@ class JointReader {
   }
 
   void store(std::size_t place) {
-    // How far the length of a quaternion may be from 1. Chosen by hand, not swept.
-    constexpr double tolerance = 1e-3;
     auto& rotations = clip_.rotations;
     if (rotations.size() + joints() > rotations.capacity()) reserve(text_.bytes.size());
     for (const auto& [w, x, y, z] : columns_.rotations) {
       const Quat raw{values_[w], values_[x], values_[y], values_[z]};
-      const Quat rotation = rotation_from_cells(raw.w, raw.x, raw.y, raw.z);
+      const Quat rotation = rotation_of_values(raw.w, raw.x, raw.y, raw.z);
       if (is_missing(rotation)) {
         rotation_missing_.add(place);
-      } else if (std::fabs(norm(raw) - 1) > tolerance) {
+      } else if (std::fabs(norm(raw) - 1) > unit_length_tolerance) {
         not_unit_.add(place);
       }
       rotations.push_back(rotation);
@@ -265,13 +243,14 @@ class JointReader {
       clip_.observed.resize(clip_.rotations.size());
       for (std::size_t i = 0; i < clip_.observed.size(); ++i)
         clip_.observed[i] = is_missing(clip_.rotations[i]) ? 0 : 1;
-      for (std::size_t j = 0; j < joints(); ++j) hold(clip_.rotations, j, joints(), Quat{});
+      for (std::size_t j = 0; j < joints(); ++j) hold_missing(clip_.rotations, j, joints(), Quat{});
     }
     if (position_missing_.count == 0) return;
     const auto& offsets = clip_.skeleton.offsets;
     for (std::size_t k = 0; k < clip_.point_count(); ++k) {
       const std::int32_t joint = k == 0 ? 0 : clip_.translated_joints[k - 1];
-      hold(clip_.positions, k, clip_.point_count(), offsets[static_cast<std::size_t>(joint)]);
+      hold_missing(clip_.positions, k, clip_.point_count(),
+                   offsets[static_cast<std::size_t>(joint)]);
     }
     document_.positions = clip_.positions;
   }
@@ -333,7 +312,7 @@ class JointRewriter {
   void compare_rotation(std::size_t frame, std::size_t joint) {
     const auto& [w, x, y, z] = columns_.rotations[joint];
     const Quat before =
-        rotation_from_cells(patch_.value(w), patch_.value(x), patch_.value(y), patch_.value(z));
+        rotation_of_values(patch_.value(w), patch_.value(x), patch_.value(y), patch_.value(z));
     Quat now = clip_.rotation(frame, joint);
     const bool known = clip_.is_observed(frame, joint);
     const bool is_number = !patch_.is_no_number(w) && !patch_.is_no_number(x) &&
@@ -367,17 +346,6 @@ class JointRewriter {
 };
 
 }  // namespace
-
-Quat rotation_from_cells(double w, double x, double y, double z) {
-  const Quat raw{w, x, y, z};
-  const double length = norm(raw);
-  if (!(length > 0) || !std::isfinite(length)) {
-    return {not_a_number, not_a_number, not_a_number, not_a_number};
-  }
-  // Digits that stand for a unit quaternion exactly come back as they are.
-  constexpr double tolerance = 1e-12;
-  return std::fabs(length - 1) <= tolerance ? raw : normalized(raw);
-}
 
 Take read_csv_joints(const SourceText& text, Diagnostics& diagnostics, const CsvHeader& header,
                      CsvDocument& document, RowLabels& labels) {

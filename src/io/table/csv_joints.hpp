@@ -17,9 +17,6 @@ struct JointColumns {
   bool has_root = false;
 };
 
-/// Rotation of a row's four values: NaN where one is missing or all are zero; of unit norm.
-Quat rotation_from_cells(double w, double x, double y, double z);
-
 /// Reads a table of joints. Repairs: `skeleton_missing`, `rotation_missing`, `position_missing`,
 /// `rotation_not_unit`, `value_not_finite`, `row_too_short`. Errors: `unreadable_input`, naming the
 /// line.

@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Kinemend for Blender: cleans the motion of an armature by the program kinemend, into a new action."""
+
+bl_info = {
+    "name": "Kinemend",
+    "author": "The Kinemend authors",
+    "version": (0, 1, 0),
+    "blender": (3, 4, 0),
+    "location": "3D View > Sidebar > Kinemend; Dope Sheet > Key",
+    "description": "Cleans motion capture: jitter, spikes, sliding feet",
+    "category": "Animation",
+}
+
+try:
+    import bpy  # noqa: F401
+except ModuleNotFoundError:
+    pass  # plain Python, in tests: the modules that know nothing of Blender can be used
+else:
+    from .interface import register, unregister  # noqa: F401

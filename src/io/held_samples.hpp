@@ -1,0 +1,52 @@
+// Missing samples of joints that formats without gaps mark by NaN: how they are told and held.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "kinemend/rotation.hpp"
+
+namespace kinemend {
+
+inline bool is_missing(Vec3 v) { return std::isnan(v.x + v.y + v.z); }
+inline bool is_missing(Quat q) { return std::isnan(q.w); }
+
+/// The rotation of four values of a file: NaN where one is missing or all are zero; of unit norm.
+inline Quat rotation_of_values(double w, double x, double y, double z) {
+  const Quat raw{w, x, y, z};
+  const double length = norm(raw);
+  if (!(length > 0) || !std::isfinite(length)) {
+    constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+    return {missing, missing, missing, missing};
+  }
+  // Digits that stand for a unit quaternion exactly come back as they are.
+  constexpr double tolerance = 1e-12;
+  return std::fabs(length - 1) <= tolerance ? raw : normalized(raw);
+}
+
+/// Beyond this a quaternion of a file is not of length 1 by rounding; it is scaled with a repair.
+inline constexpr double unit_length_tolerance = 1e-3;
+
+/// Gives each missing sample of a track the one before, or the next where there is none before;
+/// `otherwise` where the track has none.
+template <class Sample>
+void hold_missing(std::vector<Sample>& samples, std::size_t track, std::size_t stride,
+                  Sample otherwise) {
+  const Sample* last = nullptr;
+  for (std::size_t i = track; i < samples.size(); i += stride) {
+    if (!is_missing(samples[i])) {
+      if (last == nullptr) {
+        for (std::size_t k = track; k < i; k += stride) samples[k] = samples[i];
+      }
+      last = &samples[i];
+    } else if (last != nullptr) {
+      samples[i] = *last;
+    }
+  }
+  for (std::size_t i = track; i < samples.size() && last == nullptr; i += stride)
+    samples[i] = otherwise;
+}
+
+}  // namespace kinemend

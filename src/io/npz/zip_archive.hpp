@@ -1,0 +1,59 @@
+// Zip archives, as NumPy writes them: finds their members, unpacks them, and packs others.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kinemend {
+
+/// A member of an archive by its places in the bytes.
+struct ZipMember {
+  std::string name;
+  std::size_t begin = 0;  ///< of its local header
+  std::size_t end = 0;    ///< where the next member, or the directory, begins
+  std::size_t data = 0;   ///< of its packed bytes
+  std::size_t packed_bytes = 0;
+  std::size_t raw_bytes = 0;
+  std::uint32_t checksum = 0;
+  std::uint16_t packing = 0;
+  std::uint16_t flags = 0;
+  std::size_t entry = 0;  ///< of its entry in the directory
+  std::size_t entry_bytes = 0;
+};
+
+struct ZipArchive {
+  std::string name;  ///< of the file, for messages
+  std::vector<ZipMember> members;
+  std::size_t directory = 0;
+  std::size_t directory_end = 0;
+
+  /// Null where there is none of that name.
+  const ZipMember* find(std::string_view member) const;
+};
+
+/// Reads the directory of an archive below 4 GiB. Errors: `unreadable_input` with the byte, also
+/// for members that overlap or have one name.
+ZipArchive read_zip(std::string_view bytes, std::string_view name);
+/// The unpacked bytes of a member. Errors: `unreadable_input`: damaged, encrypted, of a packing
+/// other than stored and deflated, or more than `most_bytes`.
+std::string zip_content(std::string_view bytes, const ZipArchive& archive, const ZipMember& member,
+                        std::size_t most_bytes);
+
+/// A member to write.
+struct ZipContent {
+  std::string name;
+  std::string bytes;
+  bool is_deflated = false;
+};
+/// A new archive. Errors: `usage` beyond 4 GiB.
+std::string make_zip(const std::vector<ZipContent>& contents);
+/// The archive with other contents for the members of these names, which stay stored or deflated,
+/// or with new members at the end. Every other member keeps its bytes. Errors: as `make_zip`.
+std::string rewrite_zip(std::string_view bytes, const ZipArchive& archive,
+                        const std::map<std::string, std::string>& contents);
+
+}  // namespace kinemend
