@@ -11,6 +11,7 @@
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/experimental/vmc.hpp"
 #include "live/frame_clock.hpp"
+#include "live/running_changes.hpp"
 #include "live/vmc_messages.hpp"
 #include "live/vmc_stream.hpp"
 #include "motion/take_checks.hpp"
@@ -26,7 +27,6 @@ constexpr double quiet_share = 0.3;
 constexpr double silence_s = 0.25;
 // A bone that is missing for longer is gone, and frames are complete without it.
 constexpr std::size_t memory_frames = 60;
-constexpr std::size_t noise_frames = 600;
 constexpr std::size_t most_named_bones = 5;
 // A change below what a float resolves keeps the sender's bytes.
 constexpr double least_change = 1e-6;
@@ -53,8 +53,7 @@ class VmcSession::Work {
         chosen_(bones_.count(), options.bones.empty() ? 1 : 0),
         age_(bones_.count(), memory_frames),
         in_frame_(bones_.count(), 0),
-        squares_(bones_.count(), 0),
-        square_counts_(bones_.count(), 0) {
+        changes_(bones_.count()) {
     for (const std::string& name : options.bones)
       chosen_[static_cast<std::size_t>(bones_.find(name))] = 1;
     last_.rotations.resize(bones_.count());
@@ -110,12 +109,10 @@ class VmcSession::Work {
   std::size_t waiting_bytes() const { return queue_bytes_; }
   std::vector<std::string> take_notes() { return std::exchange(notes_, {}); }
 
-  std::vector<BoneNoise> noise() const {
-    std::vector<BoneNoise> all;
+  std::vector<TrackChange> changes() const {
+    std::vector<TrackChange> all;
     for (std::size_t b = 0; b < bones_.count(); ++b) {
-      if (square_counts_[b] == 0) continue;
-      constexpr double degrees = 180 / 3.14159265358979323846;
-      all.push_back({bones_.name(b), degrees * std::sqrt(squares_[b])});
+      if (changes_.has(b)) all.push_back({bones_.name(b), in_degrees(changes_.rms(b))});
     }
     return all;
   }
@@ -239,7 +236,7 @@ class VmcSession::Work {
     const Quat from = frame.rotations[pose.bone];
     const Quat to = stream_.rotation(pose.bone);
     const double change = angle_between(from, to);
-    if (usable) note_change(pose.bone, change);
+    if (usable) changes_.add(pose.bone, change);
     // What cannot be used is replaced in full.
     const double share = usable ? options_.strength : 1;
     bool changed = false;
@@ -260,12 +257,6 @@ class VmcSession::Work {
     const Vec3 step = share * (stream_.position(pose.bone) - from);
     if (finite && norm(step) <= least_change * (1 + norm(from))) return false;
     return set_vmc_position(bytes, pose.place, from + step);
-  }
-
-  void note_change(std::size_t bone, double change) {
-    square_counts_[bone] = std::min(square_counts_[bone] + 1, noise_frames);
-    const auto count = static_cast<double>(square_counts_[bone]);
-    squares_[bone] += (change * change - squares_[bone]) / count;
   }
 
   void count_other(std::string_view name) {
@@ -298,8 +289,7 @@ class VmcSession::Work {
   std::vector<std::uint8_t> chosen_;  ///< by bone
   std::vector<std::size_t> age_;      ///< frames since the bone was there, at most memory_frames
   std::vector<std::uint8_t> in_frame_;
-  std::vector<double> squares_;  ///< of changes, radians
-  std::vector<std::size_t> square_counts_;
+  RunningChanges changes_;  ///< of rotations, radians
   std::deque<Waiting> queue_;
   std::size_t queue_bytes_ = 0;
   std::size_t sent_ = 0;                      ///< datagrams
@@ -330,7 +320,7 @@ const VmcCounts& VmcSession::counts() const noexcept { return work_->counts(); }
 std::size_t VmcSession::latency_frames() const noexcept { return work_->latency_frames(); }
 double VmcSession::measured_hz() const noexcept { return work_->measured_hz(); }
 std::size_t VmcSession::waiting_bytes() const noexcept { return work_->waiting_bytes(); }
-std::vector<BoneNoise> VmcSession::noise() const { return work_->noise(); }
+std::vector<TrackChange> VmcSession::changes() const { return work_->changes(); }
 std::vector<std::string> VmcSession::take_notes() { return work_->take_notes(); }
 
 }  // namespace kinemend

@@ -414,11 +414,11 @@ TEST(VmcSession, KeepsTheBytesOfWhatAMethodDoesNotChange) {
 TEST(VmcSession, TellsTheNoiseOfEachBone) {
   VmcRelay relay("gaussian");
   relay.send_frames(0, 120);
-  const std::vector<BoneNoise> noise = relay.session.noise();
+  const std::vector<TrackChange> noise = relay.session.changes();
   EXPECT_EQ(noise.size(), 20);
-  for (const BoneNoise& bone : noise) {
-    EXPECT_GT(bone.change_deg, 1) << bone.name;
-    EXPECT_LT(bone.change_deg, 4) << bone.name;
+  for (const TrackChange& bone : noise) {
+    EXPECT_GT(bone.rms, 1) << bone.name;
+    EXPECT_LT(bone.rms, 4) << bone.name;
   }
 }
 

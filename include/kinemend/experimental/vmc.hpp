@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/cleaner.hpp"
+#include "kinemend/experimental/live.hpp"
 
 namespace kinemend {
 
@@ -36,12 +36,6 @@ struct VmcCounts {
   std::size_t not_osc = 0;        ///< datagrams that are not OSC; they pass unchanged
   std::size_t other_bones = 0;    ///< poses of bones that are in no table; they pass unchanged
   std::size_t settled = 0;        ///< how often all that waited left early, for want of motion
-};
-
-/// How much a bone changed, which is about its noise.
-struct BoneNoise {
-  std::string name;
-  double change_deg = 0;  ///< root of the mean square of the last 600 frames or so
 };
 
 /// One sender of VMC. Takes its datagrams and gives them in the same order, each with its size,
@@ -72,7 +66,8 @@ class VmcSession {
   std::size_t latency_frames() const noexcept;  ///< constant
   double measured_hz() const noexcept;          ///< of the last seconds; 0: not measured yet
   std::size_t waiting_bytes() const noexcept;
-  std::vector<BoneNoise> noise() const;
+  /// Of each bone that was cleaned.
+  std::vector<TrackChange> changes() const;
   /// Messages since the last call: bones without a place, a rate that is not the one expected.
   std::vector<std::string> take_notes();
 
