@@ -76,6 +76,7 @@ class VmcLoop {
     output_ = connect_to(plan.to, Transport::udp, error);
     if (!output_)
       throw Error(ErrorKind::cannot_write, fmt::format("{}: {}", to_string(plan.to), error));
+    tell(fmt::format("method {}", plan.cleaner->name()));
     tell(fmt::format("{} frames of delay, {:.3g} ms at {:.6g} Hz", latency_frames_, delay_ms(),
                      plan.options.frame_rate_hz));
     tell(fmt::format("waiting for VMC at {} (UDP), sending to {}", place_of(input_),

@@ -208,7 +208,6 @@ int run_vmc_stream(const Arguments& arguments, const Method& method, const Clean
   if (method.name == "hampel" && plan.options.strength > 0) plan.options.strength = 1;
   const auto status = status_of(arguments);
   plan.status = status.get();
-  if (!plan.quiet) say(fmt::format("method {}", method.name));
   run_vmc(plan);
   return 0;
 }
