@@ -5,8 +5,9 @@
 
 #include <array>
 #include <iterator>
+#include <utility>
 
-#include "io/text/text.hpp"
+#include "io/text/number.hpp"
 #include "kinemend/rotation.hpp"
 
 namespace kinemend {
