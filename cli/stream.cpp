@@ -121,6 +121,7 @@ LiveOptions options_of(const Arguments& arguments, const Method& method) {
   if (method.name == "hampel" && options.strength > 0) options.strength = 1;
   options.frame_rate_hz = arguments.given("fps") ? arguments.number("fps") : 0;
   options.neuron = arguments.given("neuron");
+  options.feet = arguments.flag("feet");
   options.numbered = arguments.flag("numbered");
   // Only datagrams overtake one another.
   options.datagrams = arguments.given("udp");
@@ -196,6 +197,7 @@ VmcPlan vmc_plan_of(const Arguments& arguments) {
   if (plan.to.host.empty()) throw Error(ErrorKind::usage, "stream: --to-vmc needs HOST:PORT");
   plan.options.bones = arguments.list("bones");
   plan.options.strength = arguments.number("strength");
+  plan.options.feet = arguments.flag("feet");
   if (arguments.given("fps")) plan.options.frame_rate_hz = arguments.number("fps");
   plan.stall_s = static_cast<double>(arguments.whole("stall_ms")) / 1000;
   plan.quiet = arguments.flag("quiet");
@@ -334,6 +336,9 @@ std::vector<Flag> stream_flags() {
       method,
       number_flag("strength", "", 1, 0, 1, "Cleaning",
                   "blend between the input (0) and the cleaned motion (1)"),
+      switch_flag(
+          "feet", "Cleaning", "hold feet that stand where they are",
+          "For joints. It moves legs only, and adds no delay. Knees may move less smoothly."),
       bones,
       endpoint_flag("to_tcp", "HOST:PORT", "Output", "send cleaned frames to a TCP server"),
       endpoint_flag("to_udp", "HOST:PORT", "Output",

@@ -13,7 +13,7 @@ Take with_feet_held(Take clip) {
   const TakeView view = view_of(clip);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     Frame frame = frame_of(view, f);
-    feet.hold(frame);
+    feet.hold(frame.rotations, frame.positions);
     std::copy(frame.rotations.begin(), frame.rotations.end(), &clip.rotation(f, 0));
   }
   return clip;

@@ -12,11 +12,14 @@ namespace kinemend::feet {
 namespace {
 
 // Travel over this time tells how fast a point is: noise counts less than over one frame.
-constexpr double speed_s = 0.1;
+constexpr double speed_s = 0.07;
 // The floor is the lowest place of this time.
 constexpr double floor_s = 2;
 // A correction that is farther than this share of the body's height is no slide.
 constexpr double most_offset = 0.06;
+// In which a correction fades to a third once the foot lifts. The swing hides it; a knee that
+// catches up sooner pops.
+constexpr double fade_s = 0.15;
 
 std::size_t live_frames(const LegMotion& motion, double seconds) {
   return static_cast<std::size_t>(std::max(1.0, std::round(seconds * motion.frame_rate_hz)));
@@ -42,10 +45,10 @@ LiveFeet::LiveFeet(const Take& like) : legs_(find_legs(like.skeleton)) {
   feet_.resize(legs_.size());
 }
 
-void LiveFeet::hold(Frame& frame) {
+void LiveFeet::hold(std::vector<Quat>& rotations, const std::vector<Vec3>& positions) {
   if (feet_.empty()) return;
-  one_.rotations = frame.rotations;
-  one_.positions = frame.positions;
+  one_.rotations = rotations;
+  one_.positions = positions;
   update_poses(one_, legs_, motion_);
   if (!up_) up_ = up_of(motion_, std::nullopt);
   if (!up_) return;
@@ -64,12 +67,9 @@ void LiveFeet::hold(Frame& frame) {
     target.rotation = pose.ankle;
     target.place = pose.ankle_at + foot.offset;
     const LegRotations solved = solve_leg(pose, model, target, {}, FeetSettings{}.soft_reach);
-    frame.rotations[model.hip.index] =
-        align_hemisphere(solved.hip, frame.rotations[model.hip.index]);
-    frame.rotations[model.knee.index] =
-        align_hemisphere(solved.knee, frame.rotations[model.knee.index]);
-    frame.rotations[model.ankle.index] =
-        align_hemisphere(solved.ankle, frame.rotations[model.ankle.index]);
+    rotations[model.hip.index] = align_hemisphere(solved.hip, rotations[model.hip.index]);
+    rotations[model.knee.index] = align_hemisphere(solved.knee, rotations[model.knee.index]);
+    rotations[model.ankle.index] = align_hemisphere(solved.ankle, rotations[model.ankle.index]);
   }
 }
 
@@ -120,7 +120,7 @@ void LiveFeet::move(Foot& foot) const {
       foot.target = place + foot.offset;
     }
   } else {
-    const double fade = std::exp(-3 / (FeetSettings{}.blend_s * motion_.frame_rate_hz));
+    const double fade = std::exp(-1 / (fade_s * motion_.frame_rate_hz));
     foot.offset = fade * foot.offset;
   }
   foot.anchor = anchor;

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "feet/leg_motion.hpp"
-#include "kinemend/cleaner.hpp"
 #include "kinemend/feet.hpp"
 
 namespace kinemend::feet {
@@ -22,7 +21,8 @@ class LiveFeet {
   /// `like`: a take of joints, whose frames do not matter.
   explicit LiveFeet(const Take& like);
 
-  void hold(Frame& frame);
+  /// The rotations (J) and positions of a frame, as a take has them.
+  void hold(std::vector<Quat>& rotations, const std::vector<Vec3>& positions);
   std::size_t feet() const { return feet_.size(); }
   bool stands(std::size_t foot) const { return feet_[foot].anchor >= 0; }
 

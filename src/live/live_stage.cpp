@@ -72,6 +72,7 @@ LiveStage::LiveStage(const Cleaner& cleaner, const LiveOptions& options, LiveHea
       stream_(stream_of(cleaner, header_, options)),
       waiting_(stream_->latency_frames() + 1),
       changes_(std::max(header_.skeleton.joint_count(), header_.markers.size())) {
+  if (options.feet && header_.markers.empty()) feet_.emplace(clip_like(header_));
   const std::string text = writer_->header_text(stream_->latency_frames());
   sink_({true, text});
 }
@@ -221,6 +222,7 @@ void LiveStage::give() {
   const Waiting& waiting = waiting_[given_++ % waiting_.size()];
   note_changes(waiting.frame);
   if (strength_ < 1) blend(waiting.frame);
+  if (feet_) feet_->hold(out_.rotations, out_.positions);
   ++counts_.frames_out;
   sink_({false, writer_->write(out_, waiting.number)});
 }

@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
+#include "feet/live_feet.hpp"
 #include "kinemend/experimental/live.hpp"
 #include "kinemend/stream.hpp"
 #include "live/frame_reader.hpp"
@@ -80,6 +82,7 @@ class LiveStage {
   std::size_t pushed_ = 0, given_ = 0;
   std::vector<Overtaker> overtakers_;  ///< by number, at most `reorder_` between calls
   RunningChanges changes_;             ///< of joints, radians, or of markers
+  std::optional<feet::LiveFeet> feet_;
   Frame last_, made_, out_;
   std::int64_t last_number_ = -1;
   std::size_t missed_ = 0;  ///< frames without a number that were lost since the last frame

@@ -13,13 +13,15 @@ constexpr std::size_t warm_frames = 60;
 
 }  // namespace
 
-VmcStream::VmcStream(const Cleaner& cleaner, const VmcBones& bones, double frame_rate_hz, Give give)
+VmcStream::VmcStream(const Cleaner& cleaner, const VmcBones& bones, double frame_rate_hz, bool feet,
+                     Give give)
     : cleaner_(cleaner),
       bones_(bones),
       frame_rate_hz_(frame_rate_hz),
       give_(std::move(give)),
       present_(bones.count(), 0),
-      offsets_(bones.count()) {
+      offsets_(bones.count()),
+      holds_feet_(feet) {
   // A method that cannot clean a humanoid says so before there is a sender.
   const std::vector<std::uint8_t> all(bones.count(), 1);
   latency_ = make_stream(cleaner, bones.take_of(all, offsets_, frame_rate_hz))->latency_frames();
@@ -51,7 +53,9 @@ void VmcStream::push(VmcFrame frame) {
 
 void VmcStream::begin_anew() {
   is_outdated_ = false;
-  stream_ = make_stream(cleaner_, bones_.take_of(present_, offsets_, frame_rate_hz_));
+  const Take like = bones_.take_of(present_, offsets_, frame_rate_hz_);
+  stream_ = make_stream(cleaner_, like);
+  if (holds_feet_) feet_.emplace(like);
   joints_.assign(bones_.count(), 0);
   order_.clear();
   for (std::size_t bone = 0; bone < bones_.count(); ++bone) {
@@ -79,6 +83,7 @@ void VmcStream::pass(const VmcFrame& frame) {
   const std::size_t number = made_++;
   if (number < given_) return;
   ++given_;
+  if (feet_) feet_->hold(out_.rotations, out_.positions);
   // The frame is among those kept: there are more of them than the filter looks ahead.
   give_(number, history_[number + history_.size() - pushed_]);
 }

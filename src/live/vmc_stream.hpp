@@ -8,8 +8,10 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "feet/live_feet.hpp"
 #include "kinemend/stream.hpp"
 #include "live/vmc_bones.hpp"
 
@@ -29,7 +31,8 @@ class VmcStream {
   using Give = std::function<void(std::size_t number, const VmcFrame& frame)>;
 
   /// `cleaner` and `bones` must outlive the stream. Errors: as of `make_stream`.
-  VmcStream(const Cleaner& cleaner, const VmcBones& bones, double frame_rate_hz, Give give);
+  VmcStream(const Cleaner& cleaner, const VmcBones& bones, double frame_rate_hz, bool feet,
+            Give give);
 
   std::size_t latency_frames() const { return latency_; }
   bool has(std::size_t bone) const { return present_[bone] != 0; }
@@ -59,6 +62,8 @@ class VmcStream {
   std::size_t kept_frames_ = 0;
   bool is_outdated_ = false;  ///< a bone is not in the stream yet
   std::unique_ptr<Stream> stream_;
+  bool holds_feet_ = false;
+  std::optional<feet::LiveFeet> feet_;
   std::deque<VmcFrame> history_;
   std::size_t pushed_ = 0;  ///< frames
   std::size_t given_ = 0;   ///< frames

@@ -422,6 +422,52 @@ TEST(VmcSession, TellsTheNoiseOfEachBone) {
   }
 }
 
+TEST(VmcSession, HoldsAFootThatStands) {
+  // The body drifts by 6 cm a second above feet that turn with nothing.
+  const auto at = [](std::size_t f) {
+    VmcBody body;
+    body["root"] = {{0, 0, 0}, {1, 0, 0, 0}};
+    body["Hips"] = {{0.001 * static_cast<double>(f), 0.9, 0}, {1, 0, 0, 0}};
+    body["Head"] = {{0, 0.7, 0}, {1, 0, 0, 0}};
+    for (const double side : {-1.0, 1.0}) {
+      const std::string name = side < 0 ? "Left" : "Right";
+      body[name + "UpperLeg"] = {{0.1 * side, 0, 0}, exp(Vec3{-0.2, 0, 0})};
+      body[name + "LowerLeg"] = {{0, -0.42, 0}, exp(Vec3{0.4, 0, 0})};
+      body[name + "Foot"] = {{0, -0.42, 0}, exp(Vec3{-0.2, 0, 0})};
+      body[name + "Toes"] = {{0, -0.06, 0.12}, {1, 0, 0, 0}};
+    }
+    return body;
+  };
+  const auto foot_x = [](const VmcBody& b) {
+    const Quat upper = b.at("LeftUpperLeg").rotation;
+    return b.at("Hips").position.x +
+           rotate(upper,
+                  Vec3{0, -0.42, 0} + rotate(b.at("LeftLowerLeg").rotation, Vec3{0, -0.42, 0}))
+               .x;
+  };
+  for (const bool feet : {false, true}) {
+    VmcOptions options;
+    options.feet = feet;
+    VmcRelay relay("one-euro", options);
+    std::vector<double> xs;
+    for (std::size_t f = 0; f < 60; ++f) {
+      std::vector<std::string> messages = {vmc_root(at(f).at("root"))};
+      for (const auto& [name, pose] : at(f)) {
+        if (name != "root") messages.push_back(vmc_bone(name, pose));
+      }
+      relay.send(osc_bundle(messages), frame_s * static_cast<double>(f));
+    }
+    relay.session.settle();
+    for (const std::string& datagram : relay.out) xs.push_back(foot_x(vmc_poses(datagram)));
+    const double slide = xs[50] - xs[20];
+    if (feet) {
+      EXPECT_LT(slide, 0.001);
+    } else {
+      EXPECT_GT(slide, 0.02);
+    }
+  }
+}
+
 TEST(VmcSession, RunsWithTheLearnedMethod) {
   VmcRelay relay("learned", {}, {{"live", true}});
   relay.send_frames(0, 150);

@@ -23,7 +23,10 @@ enum class LiveFormat {
 
 struct LiveOptions {
   LiveFormat format = LiveFormat::bvh;
-  double strength = 1;       ///< 0..1: geodesic blend from the frame as it came to the cleaned one
+  double strength = 1;  ///< 0..1: geodesic blend from the frame as it came to the cleaned one
+  /// Joints: a foot that is low and slow is held where it is, with no more delay. It moves legs
+  /// alone, and horizontally. A skeleton whose legs are not recognised stays as it is.
+  bool feet = false;
   double frame_rate_hz = 0;  ///< 0.1 to 100,000; 0: that of the header, or 30 where it has none
   /// A motion line begins with the number of its frame, which counts up by one. Lost, late and
   /// duplicate frames are recognised by it.

@@ -19,6 +19,7 @@ struct VmcOptions {
   /// Unity's humanoid, and the root ("root"). A name that the humanoid lacks is a bone of its own.
   std::vector<std::string> bones;
   double strength = 1;  ///< 0..1: geodesic blend from the pose as it came to the cleaned one
+  bool feet = false;    ///< as `LiveOptions::feet`
   /// Datagrams that wait for their bones; when they are more, all of them leave at once.
   std::size_t most_waiting_bytes = std::size_t{4} << 20;
 };
