@@ -49,7 +49,7 @@ function show(s) {
   const bars = at("bars");
   bars.replaceChildren();
   const most = Math.max(1, ...(l ? l.bars : []).map(b => b.count));
-  for (const b of l ? l.bars : []) row(bars, [[`below ${number(b.below_ms)} ms`, ""], [number(b.count), "n"]], b.count / most);
+  for (const b of l ? l.bars : []) row(bars, [[`below ${number(b.below_ms)} ms`, ""], [b.count.toLocaleString("en"), "n"]], b.count / most);
   const all = at("senders");
   all.replaceChildren();
   for (const sender of s.senders) {

@@ -411,6 +411,23 @@ TEST(VmcSession, KeepsTheBytesOfWhatAMethodDoesNotChange) {
   EXPECT_EQ(relay.out, relay.in);
 }
 
+TEST(VmcSession, KeepsTheSignOfEachQuaternion) {
+  VmcRelay relay("gaussian");
+  std::mt19937 random(2);
+  for (std::size_t f = 0; f < 40; ++f) {
+    VmcBody body = vmc_noisy(f);
+    for (auto& [name, pose] : body)
+      pose.rotation = random() % 2 == 0 ? -pose.rotation : pose.rotation;
+    relay.send(vmc_datagram(f, body), frame_s * static_cast<double>(f));
+  }
+  relay.session.settle();
+  for (std::size_t f = 0; f < 40; ++f) {
+    const VmcBody before = vmc_poses(relay.in[f]);
+    for (const auto& [name, pose] : vmc_poses(relay.out[f]))
+      ASSERT_GT(dot(pose.rotation, before.at(name).rotation), 0.9) << name << f;
+  }
+}
+
 TEST(VmcSession, TellsTheNoiseOfEachBone) {
   VmcRelay relay("gaussian");
   relay.send_frames(0, 120);
