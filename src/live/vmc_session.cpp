@@ -241,8 +241,8 @@ class VmcSession::Work {
     const double share = usable ? options_.strength : 1;
     bool changed = false;
     if (share > 0 && (!usable || change > least_change)) {
-      const Quat near = usable ? came.rotation : from;
-      changed = set_vmc_rotation(bytes, pose.place, align_hemisphere(slerp(from, to, share), near));
+      // From the pose as it came, whose sign the result keeps.
+      changed = set_vmc_rotation(bytes, pose.place, slerp(from, to, share));
     }
     return clean_position(pose, frame, share, bytes) || changed;
   }
