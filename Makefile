@@ -179,6 +179,7 @@ nightly: ## what continuous integration leaves out: sanitisers, packages in a fr
 	$(MAKE) asan ASAN=asan-all
 	$(MAKE) libcxx windows-test
 	$(MAKE) fuzz soak test-all deb-test install-test cluster-test bench-quick
+	tests/live/clients/node_osc_test $(BUILD)/$(TESTS)/cli/kinemend
 
 clean: ## remove everything that was built
 	rm -rf $(BUILD)

@@ -35,6 +35,7 @@ class LiveLoop {
     last_frame_ = LiveClock::now();
     tell_notes();
     while (!ended_) step();
+    if (plan_.status != nullptr) plan_.status->stop();
     plan_.came->reset();
     session_.finish();
     tell_notes();
@@ -87,6 +88,7 @@ class LiveLoop {
       throw Error(ErrorKind::unreadable_input,
                   fmt::format("poll: {}", platform::words_of_error(errno)));
     }
+    const auto lock = locked(plan_.status);
     if (waits[signals].is_ready) {
       was_told_ = signals_.take();
       ended_ = true;

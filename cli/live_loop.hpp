@@ -7,6 +7,7 @@
 #include "kinemend/experimental/live.hpp"
 #include "live_output.hpp"
 #include "live_sockets.hpp"
+#include "live_status.hpp"
 
 namespace kinemend::cli {
 
@@ -20,6 +21,7 @@ struct LivePlan {
   bool holds = false;  ///< repeat the last frame during a silence
   bool once = false;   ///< end with the first connection
   bool quiet = false;
+  LiveStatus* status = nullptr;  ///< null: there is no page
   LiveSession* session = nullptr;
   LiveOutput* output = nullptr;
   /// Set to the time when bytes arrived, before they are fed; to none before the stream is ended.

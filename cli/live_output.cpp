@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <numeric>
 
 #include "platform/console.hpp"
 #include "platform/network.hpp"
@@ -46,6 +47,18 @@ double LatencyHistogram::quantile_s(double share) const {
                       least_s * std::exp((static_cast<double>(b) + 0.5) / buckets_per_factor));
   }
   return most_;
+}
+
+std::vector<LatencyHistogram::Bar> LatencyHistogram::bars() const {
+  constexpr std::size_t width = 25;
+  std::vector<Bar> all;
+  for (std::size_t b = 0; b < buckets; b += width) {
+    const double below_s = least_s * std::exp(static_cast<double>(b + width) / buckets_per_factor);
+    const auto sum = std::accumulate(counts_ + b, counts_ + b + width, std::size_t{0});
+    if (sum > 0 || !all.empty()) all.push_back({below_s, sum});
+  }
+  while (!all.empty() && all.back().count == 0) all.pop_back();
+  return all;
 }
 
 LiveOutput::LiveOutput(std::size_t most_waiting) : most_waiting_(most_waiting) {

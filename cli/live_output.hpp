@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "live_sockets.hpp"
 
@@ -23,6 +24,13 @@ class LatencyHistogram {
   /// `share` 0 to 1: 0.5 is the median.
   double quantile_s(double share) const;
   double most_s() const { return most_; }
+
+  struct Bar {
+    double below_s = 0;
+    std::size_t count = 0;
+  };
+  /// Bars of equal factors of time, from the first that is not empty to the last.
+  std::vector<Bar> bars() const;
 
  private:
   static constexpr std::size_t buckets = 1100;

@@ -51,6 +51,16 @@ bool connects(const Descriptor& socket, const addrinfo& info, Transport transpor
          errno == EINPROGRESS;
 }
 
+std::string name_of_place(const sockaddr* place, socklen_t size) {
+  std::array<char, NI_MAXHOST> host{};
+  std::array<char, NI_MAXSERV> port{};
+  if (getnameinfo(place, size, host.data(), host.size(), port.data(), port.size(),
+                  NI_NUMERICHOST | NI_NUMERICSERV) != 0) {
+    return "?";
+  }
+  return to_string(Address{host.data(), port.data()});
+}
+
 }  // namespace
 
 void Descriptor::close() {
@@ -107,15 +117,19 @@ Descriptor listen_at(const Address& address, Transport transport) {
 std::string place_of(const Descriptor& socket) {
   sockaddr_storage place{};
   socklen_t size = sizeof place;
-  std::array<char, NI_MAXHOST> host{};
-  std::array<char, NI_MAXSERV> port{};
   auto* const generic = reinterpret_cast<sockaddr*>(&place);
-  if (getsockname(socket.number(), generic, &size) != 0 ||
-      getnameinfo(generic, size, host.data(), host.size(), port.data(), port.size(),
-                  NI_NUMERICHOST | NI_NUMERICSERV) != 0) {
-    return "?";
-  }
-  return to_string(Address{host.data(), port.data()});
+  return getsockname(socket.number(), generic, &size) == 0 ? name_of_place(generic, size) : "?";
+}
+
+std::ptrdiff_t receive_datagram(const Descriptor& socket, std::span<char> bytes,
+                                std::string& sender) {
+  sockaddr_storage place{};
+  socklen_t size = sizeof place;
+  auto* const generic = reinterpret_cast<sockaddr*>(&place);
+  const std::ptrdiff_t count =
+      platform::receive_from(socket.number(), bytes.data(), bytes.size(), generic, size);
+  if (count >= 0) sender = name_of_place(generic, size);
+  return count;
 }
 
 Descriptor begin_connection(const Address& address, Transport transport) {

@@ -1,7 +1,9 @@
 // Sockets of `kinemend stream`, which never block.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -48,6 +50,9 @@ enum class Transport : std::uint8_t { tcp, udp };
 Descriptor listen_at(const Address& address, Transport transport);
 /// The address of a socket: "127.0.0.1:7001".
 std::string place_of(const Descriptor& socket);
+/// A datagram, and the address that it came from. -1: none waits, or an error of an earlier one.
+std::ptrdiff_t receive_datagram(const Descriptor& socket, std::span<char> bytes,
+                                std::string& sender);
 /// Starts a connection; returns an empty descriptor if that fails at once. The connection is
 /// established when the socket can be written to and `connection_error` is 0.
 Descriptor begin_connection(const Address& address, Transport transport);

@@ -13,6 +13,7 @@
 #include "kinemend/io.hpp"
 #include "live_loop.hpp"
 #include "live_output.hpp"
+#include "live_vmc.hpp"
 #include "method_options.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
@@ -70,24 +71,38 @@ std::unique_ptr<Cleaner> live_cleaner(const Method& method, OptionValues values)
                           fmt::join(names, ", ")));
 }
 
+// The option that says where frames come from; empty: from standard input.
+std::string source_option(const Arguments& arguments) {
+  std::string given;
+  for (const char* const option : {"tcp", "udp", "neuron", "vmc"}) {
+    if (!arguments.given(option)) continue;
+    if (!given.empty())
+      throw Error(ErrorKind::usage,
+                  fmt::format("stream: --{} and --{} exclude each other", given, option));
+    given = option;
+  }
+  return given;
+}
+
 LivePlan plan_of(const Arguments& arguments) {
   LivePlan plan;
-  const bool tcp = arguments.given("tcp"), udp = arguments.given("udp");
-  if (tcp && udp) throw Error(ErrorKind::usage, "stream: --tcp and --udp exclude each other");
-  if (tcp || udp) {
-    const std::string option = tcp ? "tcp" : "udp";
+  const std::string option = source_option(arguments);
+  const bool udp = option == "udp";
+  if (!option.empty()) {
     plan.from = parse_address("--" + option, arguments.text(option));
     const bool listens = plan.from.host.empty();
     if (udp && !listens)
       throw Error(ErrorKind::usage, "stream: --udp takes a port; --bind names the address");
     if (!listens && arguments.given("bind"))
-      throw Error(ErrorKind::usage, "stream: --bind is for --tcp PORT, not for --tcp HOST:PORT");
+      throw Error(ErrorKind::usage,
+                  fmt::format("stream: --bind is for --{0} PORT, not for --{0} HOST:PORT", option));
     plan.source = udp       ? LiveSource::udp
                   : listens ? LiveSource::tcp_listen
                             : LiveSource::tcp_connect;
     if (listens) plan.from.host = arguments.text("bind");
   } else if (arguments.given("bind")) {
-    throw Error(ErrorKind::usage, "stream: --bind needs --tcp PORT or --udp PORT");
+    throw Error(ErrorKind::usage,
+                "stream: --bind needs --tcp PORT, --udp PORT, --neuron PORT or --vmc PORT");
   }
   if (arguments.given("reorder") && !(udp && arguments.flag("numbered")))
     throw Error(ErrorKind::usage, "stream: --reorder needs --udp and --numbered");
@@ -105,6 +120,8 @@ LiveOptions options_of(const Arguments& arguments, const Method& method) {
   // This method only repairs spikes, and a repair is made in full at any strength.
   if (method.name == "hampel" && options.strength > 0) options.strength = 1;
   options.frame_rate_hz = arguments.given("fps") ? arguments.number("fps") : 0;
+  options.neuron = arguments.given("neuron");
+  options.feet = arguments.flag("feet");
   options.numbered = arguments.flag("numbered");
   // Only datagrams overtake one another.
   options.datagrams = arguments.given("udp");
@@ -155,9 +172,56 @@ void tell_summary(const LiveSession& session, const LiveOutput& output) {
                   1000 * output.latency().most_s(), delay_ms));
 }
 
+std::unique_ptr<LiveStatus> status_of(const Arguments& arguments) {
+  if (!arguments.given("status")) return nullptr;
+  auto status = std::make_unique<LiveStatus>(static_cast<int>(arguments.whole("status")));
+  if (!arguments.flag("quiet")) say(fmt::format("status: {}", status->address()));
+  return status;
+}
+
+VmcPlan vmc_plan_of(const Arguments& arguments) {
+  for (const char* const other :
+       {"numbered", "reorder", "skip_words", "skeleton", "body_height", "once", "to_tcp", "to_udp",
+        "format", "longest_gap_s", "on_stall", "queue"}) {
+    if (arguments.given(other))
+      throw Error(ErrorKind::usage, fmt::format("stream: --{} is not for --vmc", dashed(other)));
+  }
+  if (!arguments.given("to_vmc"))
+    throw Error(ErrorKind::usage, "stream: --vmc needs --to-vmc HOST:PORT");
+  VmcPlan plan;
+  plan.from = parse_address("--vmc", arguments.text("vmc"));
+  if (!plan.from.host.empty())
+    throw Error(ErrorKind::usage, "stream: --vmc takes a port; --bind names the address");
+  plan.from.host = arguments.text("bind");
+  plan.to = parse_address("--to-vmc", arguments.text("to_vmc"));
+  if (plan.to.host.empty()) throw Error(ErrorKind::usage, "stream: --to-vmc needs HOST:PORT");
+  plan.options.bones = arguments.list("bones");
+  plan.options.strength = arguments.number("strength");
+  plan.options.feet = arguments.flag("feet");
+  if (arguments.given("fps")) plan.options.frame_rate_hz = arguments.number("fps");
+  plan.stall_s = static_cast<double>(arguments.whole("stall_ms")) / 1000;
+  plan.quiet = arguments.flag("quiet");
+  return plan;
+}
+
+int run_vmc_stream(const Arguments& arguments, const Method& method, const Cleaner& cleaner) {
+  VmcPlan plan = vmc_plan_of(arguments);
+  plan.cleaner = &cleaner;
+  if (method.name == "hampel" && plan.options.strength > 0) plan.options.strength = 1;
+  const auto status = status_of(arguments);
+  plan.status = status.get();
+  run_vmc(plan);
+  return 0;
+}
+
 int run_stream(const Arguments& arguments) {
   const Method& method = find_method(arguments.text("method"));
   const auto cleaner = live_cleaner(method, parse_method_options(method, arguments.group_texts));
+  if (source_option(arguments) == "vmc") return run_vmc_stream(arguments, method, *cleaner);
+  for (const char* const vmc : {"to_vmc", "bones"}) {
+    if (arguments.given(vmc))
+      throw Error(ErrorKind::usage, fmt::format("stream: --{} needs --vmc", dashed(vmc)));
+  }
   LivePlan plan = plan_of(arguments);
   const LiveOptions options = options_of(arguments, method);
   const auto output = live_output_of(arguments);
@@ -169,10 +233,14 @@ int run_stream(const Arguments& arguments) {
   plan.session = &session;
   plan.output = output.get();
   plan.came = &came;
+  const auto status = status_of(arguments);
+  plan.status = status.get();
+  if (status) status->start([&] { return stream_report(method.name, session, *output); });
   try {
     run_live(plan);
   } catch (const ClosedPipe&) {
     // The reader has closed the pipe, which is not an error.
+    if (status) status->stop();
     output->give_up();
   }
   if (plan.source == LiveSource::standard && !session.has_skeleton()) {
@@ -212,16 +280,25 @@ std::vector<Flag> stream_flags() {
   on_stall.spec.default_value = std::string("wait");
   on_stall.spec.choices = {"wait", "hold"};
   on_stall.has_default = true;
-  Flag bind =
-      text_flag("bind", "ADDRESS", "Input", "address that --tcp PORT and --udp PORT listen at",
-                "0.0.0.0 accepts senders from every network; the default accepts only "
-                "those on this machine.");
+  Flag bind = text_flag("bind", "ADDRESS", "Input",
+                        "address that --tcp, --udp, --neuron and --vmc listen at",
+                        "0.0.0.0 accepts senders from every network; the default accepts only "
+                        "those on this machine.");
   bind.spec.default_value = std::string("127.0.0.1");
   bind.has_default = true;
   Flag skeleton =
       text_flag("skeleton", "FILE", "Input",
                 "BVH file with skeleton and frame rate, for a sender that sends no header");
   skeleton.completion = Completion::file;
+  Flag bones = text_flag("bones", "A,B,...", "Cleaning", "with --vmc: bones to clean (default all)",
+                         "Names are those of the messages, such as Head, or root. Others pass "
+                         "unchanged, with the same delay.");
+  bones.takes = Takes::list;
+  Flag status =
+      whole_flag("status", 0, 0, 65535, "Output", "serve a status page on 127.0.0.1 at this port",
+                 "It shows latency, loss and noise by joint; /status.json has the same. "
+                 "Port 0 takes any free port, which is printed.");
+  status.has_default = false;
   Flag fps =
       number_flag("fps", "Hz", 0, 0.1, 100000, "Input", "frame rate; overrides that of the header");
   fps.has_default = false;
@@ -233,6 +310,13 @@ std::vector<Flag> stream_flags() {
                     "Port 0 takes any free port, which is printed."),
       endpoint_flag("udp", "PORT", "Input", "receive over UDP; each datagram holds whole lines",
                     "Datagrams that are not frames are counted and ignored."),
+      endpoint_flag("neuron", "[HOST:]PORT", "Input",
+                    "receive the BVH broadcast of Axis Neuron over TCP; HOST:PORT connects to it",
+                    "Its lines have no header: --skeleton names the joints, and --fps the rate, "
+                    "where they are not the usual ones."),
+      endpoint_flag("vmc", "PORT", "Input", "receive VMC (OSC over UDP), and send it to --to-vmc",
+                    "Bones and root are cleaned. Every other message passes unchanged and in "
+                    "order."),
       bind,
       skeleton,
       fps,
@@ -252,9 +336,15 @@ std::vector<Flag> stream_flags() {
       method,
       number_flag("strength", "", 1, 0, 1, "Cleaning",
                   "blend between the input (0) and the cleaned motion (1)"),
+      switch_flag(
+          "feet", "Cleaning", "hold feet that stand where they are",
+          "For joints. It moves legs only, and adds no delay. Knees may move less smoothly."),
+      bones,
       endpoint_flag("to_tcp", "HOST:PORT", "Output", "send cleaned frames to a TCP server"),
       endpoint_flag("to_udp", "HOST:PORT", "Output",
                     "send cleaned frames over UDP, one line per datagram"),
+      endpoint_flag("to_vmc", "HOST:PORT", "Output", "with --vmc: where its datagrams go"),
+      status,
       format,
       quiet,
       number_flag("longest_gap_s", "s", 1, 0, 3600, "Trouble",
@@ -296,7 +386,10 @@ Command stream_command() {
                       {"kinemend stream --tcp 192.168.0.7:7001 --numbered --format jsonl",
                        "connect to a server whose lines begin with frame numbers"},
                       {"kinemend stream --udp 7001 --skeleton suit.bvh --method kalman",
-                       "receive from a sender that sends no header"}};
+                       "receive from a sender that sends no header"},
+                      {"kinemend stream --vmc 39540 --to-vmc 127.0.0.1:39539 --status 8080",
+                       "stand between a VMC sender and its receiver, with a status page"},
+                      {"kinemend stream --neuron 192.168.0.7:7001", "connect to Axis Neuron"}};
   command.run = run_stream;
   return command;
 }

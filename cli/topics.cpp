@@ -92,6 +92,10 @@ const std::vector<Topic>& topics() {
        "MARKERS 120 LASI,RASI. Then each line has three values per marker, separated by commas. "
        "The "
        "values of a missing marker are empty.\n\n"
+       "--vmc receives OSC datagrams of the VMC protocol and sends them to --to-vmc with cleaned "
+       "bones; every other message passes unchanged and in order. --neuron receives the broadcast "
+       "of Axis Neuron, which has no header. --feet holds feet that stand: they slide less, and "
+       "knees may move less smoothly under noise.\n\n"
        "--format jsonl writes one line that describes the stream, and then one line per frame with "
        "frame, root, rotations (quaternions w, x, y, z) and translations."},
       {"exit-codes", "what the exit code means", exit_codes_text()}};

@@ -35,7 +35,8 @@ USES = {
     "report": {"check"},
     "registry": {"methods/filters", "learned/example", "learned/wiener", "learned/sparse", "learned/corrector",
                  "learned/papers"},
-    "live": {"io", "pipeline", "registry"},
+    "osc": {"base"},
+    "live": {"io", "pipeline", "registry", "osc"},
     "all": {"report", "live"},  # the header that includes the stable ones
 }
 
@@ -58,7 +59,7 @@ PUBLIC = {header: room for room, headers in {
     "pipeline": "clean stream",
     "check": "check",
     "report": "report batch_rows svg curves pictures page",
-    "live": "live",
+    "live": "live vmc",
     "all": "kinemend",
 }.items() for header in headers.split()}
 

@@ -45,6 +45,9 @@ void shut_down_writing(int socket);
 std::ptrdiff_t send_some(int socket, std::string_view bytes);
 /// Also from standard input, by its number.
 std::ptrdiff_t receive_some(int socket, char* bytes, std::size_t most);
+/// A datagram and its sender. `size`: of the storage, then of the address.
+std::ptrdiff_t receive_from(int socket, char* bytes, std::size_t most, sockaddr* sender,
+                            socklen_t& size);
 /// Writes to standard output what can be written without waiting where the system can tell.
 std::ptrdiff_t write_some_out(std::string_view bytes);
 

@@ -95,6 +95,11 @@ std::ptrdiff_t receive_some(int socket, char* bytes, std::size_t most) {
   return ::read(socket, bytes, most);
 }
 
+std::ptrdiff_t receive_from(int socket, char* bytes, std::size_t most, sockaddr* sender,
+                            socklen_t& size) {
+  return ::recvfrom(socket, bytes, most, 0, sender, &size);
+}
+
 // A pipe that can be written to takes PIPE_BUF bytes without waiting for its reader.
 std::ptrdiff_t write_some_out(std::string_view bytes) {
   return ::write(STDOUT_FILENO, bytes.data(), std::min<std::size_t>(bytes.size(), PIPE_BUF));

@@ -177,6 +177,13 @@ std::ptrdiff_t receive_some(int socket, char* bytes, std::size_t most) {
   return count;
 }
 
+std::ptrdiff_t receive_from(int socket, char* bytes, std::size_t most, sockaddr* sender,
+                            socklen_t& size) {
+  const int count = ::recvfrom(socket_of(socket), bytes, static_cast<int>(most), 0, sender, &size);
+  if (count < 0) fail();
+  return count;
+}
+
 std::ptrdiff_t write_some_out(std::string_view bytes) {
   const int error = write_all(standard_output, bytes);
   errno = error;

@@ -11,10 +11,12 @@
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/experimental/live.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "live/frame_reader.hpp"
 #include "live/line_splitter.hpp"
 #include "live/live_header.hpp"
 #include "live/live_stage.hpp"
+#include "live/neuron_lines.hpp"
 
 namespace kinemend {
 
@@ -92,7 +94,7 @@ class LiveSession::Work {
   const LiveStage* stage() const { return stage_ ? &*stage_ : nullptr; }
 
  private:
-  bool ends_with_bars() const { return stage_ && !collects_; }
+  bool ends_with_bars() const { return (stage_ || options_.neuron) && !collects_; }
 
   void take(LineSplitter::Found found, std::string_view line) {
     switch (found) {
@@ -113,6 +115,7 @@ class LiveSession::Work {
       return collect(line);
     }
     if (is_blank(line)) return;
+    if (options_.neuron && !is_of_the_avatar(line)) return;
     if (is_marker_header(line)) return take_marker_header(line);
     if (!stage_) return count_malformed("frames arrived before a header", false);
     switch (stage_->take(line)) {
@@ -133,6 +136,25 @@ class LiveSession::Work {
             true);
       }
     }
+  }
+
+  // Whether the line is for the stage, which begins with the first line of a form, or anew.
+  bool is_of_the_avatar(std::string_view line) {
+    const std::optional<NeuronForm> form = neuron_form(line);
+    if (!form) return true;
+    if (avatar_.empty()) avatar_ = form->avatar;
+    if (form->avatar != avatar_) {
+      if (!std::exchange(is_told_other_avatar_, true))
+        notes_.push_back(fmt::format("ignored avatar {}: a stream is for one, avatar {}",
+                                     printable_name(form->avatar), printable_name(avatar_)));
+      return false;
+    }
+    const bool is_new = !stage_ || form->displaced != is_displaced_;
+    options_.skipped_words = form->skipped_words;
+    is_displaced_ = form->displaced;
+    if (is_new && options_.skeleton.empty())
+      open(read_live_header(neuron_skeleton(is_displaced_), "Axis Neuron", options_.frame_rate_hz));
+    return true;
   }
 
   void take_marker_header(std::string_view line) {
@@ -213,6 +235,9 @@ class LiveSession::Work {
   HeaderLines header_lines_;
   bool collects_ = false;
   bool is_told_malformed_ = false;
+  std::string avatar_;  ///< of Axis Neuron: the one that is cleaned
+  bool is_displaced_ = false;
+  bool is_told_other_avatar_ = false;
   std::optional<LiveStage> stage_;
   LiveCounts counts_;
   std::vector<std::string> notes_;
@@ -238,6 +263,9 @@ double LiveSession::frame_rate_hz() const noexcept {
 }
 std::size_t LiveSession::latency_frames() const noexcept {
   return has_skeleton() ? work_->stage()->latency_frames() : 0;
+}
+std::vector<TrackChange> LiveSession::changes() const {
+  return has_skeleton() ? work_->stage()->changes() : std::vector<TrackChange>();
 }
 std::vector<std::string> LiveSession::take_notes() { return work_->take_notes(); }
 

@@ -70,7 +70,9 @@ LiveStage::LiveStage(const Cleaner& cleaner, const LiveOptions& options, LiveHea
       reader_(reader_of(header_, options)),
       writer_(writer_of(header_, options.format)),
       stream_(stream_of(cleaner, header_, options)),
-      waiting_(stream_->latency_frames() + 1) {
+      waiting_(stream_->latency_frames() + 1),
+      changes_(std::max(header_.skeleton.joint_count(), header_.markers.size())) {
+  if (options.feet && header_.markers.empty()) feet_.emplace(clip_like(header_));
   const std::string text = writer_->header_text(stream_->latency_frames());
   sink_({true, text});
 }
@@ -218,9 +220,30 @@ void LiveStage::push(const Frame& frame, std::int64_t number) {
 
 void LiveStage::give() {
   const Waiting& waiting = waiting_[given_++ % waiting_.size()];
+  note_changes(waiting.frame);
   if (strength_ < 1) blend(waiting.frame);
+  if (feet_) feet_->hold(out_.rotations, out_.positions);
   ++counts_.frames_out;
   sink_({false, writer_->write(out_, waiting.number)});
+}
+
+// What was not measured has no noise.
+void LiveStage::note_changes(const Frame& from) {
+  const bool joints = !from.rotations.empty();
+  for (std::size_t t = 0; t < (joints ? from.rotations.size() : from.positions.size()); ++t) {
+    if (!from.observed.empty() && from.observed[t] == 0) continue;
+    changes_.add(t, joints ? angle_between(from.rotations[t], out_.rotations[t])
+                           : norm(out_.positions[t] - from.positions[t]));
+  }
+}
+
+std::vector<TrackChange> LiveStage::changes() const {
+  const bool joints = header_.markers.empty();
+  const std::vector<std::string>& names = joints ? header_.skeleton.names : header_.markers;
+  std::vector<TrackChange> all;
+  for (std::size_t t = 0; given_ > 0 && t < names.size(); ++t)
+    all.push_back({names[t], joints ? in_degrees(changes_.rms(t)) : changes_.rms(t)});
+  return all;
 }
 
 // A joint that was not measured is repaired, and a repair is made in full at any strength.

@@ -4,14 +4,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
+#include "feet/live_feet.hpp"
 #include "kinemend/experimental/live.hpp"
 #include "kinemend/stream.hpp"
 #include "live/frame_reader.hpp"
 #include "live/frame_writer.hpp"
 #include "live/live_header.hpp"
+#include "live/running_changes.hpp"
 
 namespace kinemend {
 
@@ -26,6 +29,7 @@ class LiveStage {
   const LiveHeader& header() const { return header_; }
   const FrameReader& reader() const { return *reader_; }
   std::size_t latency_frames() const { return stream_->latency_frames(); }
+  std::vector<TrackChange> changes() const;
 
   FrameReader::Read take(std::string_view line);
   /// A malformed line took the place of a frame.
@@ -61,6 +65,7 @@ class LiveStage {
   void make_up(std::size_t frames, const Frame& before);
   void push(const Frame& frame, std::int64_t number);
   void give();
+  void note_changes(const Frame& from);
   void blend(const Frame& from);
 
   const LiveSink& sink_;
@@ -76,6 +81,8 @@ class LiveStage {
   std::vector<Waiting> waiting_;  ///< a ring
   std::size_t pushed_ = 0, given_ = 0;
   std::vector<Overtaker> overtakers_;  ///< by number, at most `reorder_` between calls
+  RunningChanges changes_;             ///< of joints, radians, or of markers
+  std::optional<feet::LiveFeet> feet_;
   Frame last_, made_, out_;
   std::int64_t last_number_ = -1;
   std::size_t missed_ = 0;  ///< frames without a number that were lost since the last frame

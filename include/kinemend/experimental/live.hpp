@@ -23,7 +23,10 @@ enum class LiveFormat {
 
 struct LiveOptions {
   LiveFormat format = LiveFormat::bvh;
-  double strength = 1;       ///< 0..1: geodesic blend from the frame as it came to the cleaned one
+  double strength = 1;  ///< 0..1: geodesic blend from the frame as it came to the cleaned one
+  /// Joints: a foot that is low and slow is held where it is, with no more delay. It moves legs
+  /// alone, and horizontally. A skeleton whose legs are not recognised stays as it is.
+  bool feet = false;
   double frame_rate_hz = 0;  ///< 0.1 to 100,000; 0: that of the header, or 30 where it has none
   /// A motion line begins with the number of its frame, which counts up by one. Lost, late and
   /// duplicate frames are recognised by it.
@@ -35,6 +38,10 @@ struct LiveOptions {
   /// interpolated.
   bool datagrams = false;
   std::size_t skipped_words = 0;  ///< words to skip at the start of a motion line
+  /// Lines as Axis Neuron sends them: the number and the name of an avatar, then the values of its
+  /// 59 joints, with or without displacement, and no header. `skeleton`, where it is given, names
+  /// the joints; otherwise they are those of a person of 1.75 m, in centimetres at 60 Hz.
+  bool neuron = false;
   /// BVH text with hierarchy and rate, used until a header arrives. Empty: frames before the first
   /// header are malformed.
   std::string skeleton;
@@ -60,6 +67,13 @@ struct LiveCounts {
   std::size_t bad_headers = 0;
   std::size_t sessions = 0;   ///< skeletons, each with a header in the output
   std::size_t reordered = 0;  ///< of those in: arrived after a later one, and were put in order
+};
+
+/// How much a joint's rotation or a marker changed, which is about its noise.
+struct TrackChange {
+  std::string name;
+  /// Root of the mean square of the last 600 frames or so: degrees, or units of the markers.
+  double rms = 0;
 };
 
 /// A piece of the output: text that ends with a newline.
@@ -103,6 +117,8 @@ class LiveSession {
   std::size_t joint_count() const noexcept;     ///< 0 for markers, and before a header
   double frame_rate_hz() const noexcept;        ///< 0 before a header
   std::size_t latency_frames() const noexcept;  ///< 0 before a header
+  /// Of each joint or marker, in their order; empty before the first cleaned frame.
+  std::vector<TrackChange> changes() const;
   /// Messages since the last call: a new skeleton with its delay, unreadable headers, the first
   /// malformed line.
   std::vector<std::string> take_notes();

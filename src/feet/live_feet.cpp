@@ -1,0 +1,129 @@
+// Detects standing feet from the frames so far, and moves legs in closed form.
+#include "feet/live_feet.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "feet/leg_solver.hpp"
+#include "feet/placement.hpp"
+
+namespace kinemend::feet {
+
+namespace {
+
+// Travel over this time tells how fast a point is: noise counts less than over one frame.
+constexpr double speed_s = 0.07;
+// The floor is the lowest place of this time.
+constexpr double floor_s = 2;
+// A correction that is farther than this share of the body's height is no slide.
+constexpr double most_offset = 0.06;
+// In which a correction fades to a third once the foot lifts. The swing hides it; a knee that
+// catches up sooner pops.
+constexpr double fade_s = 0.15;
+
+std::size_t live_frames(const LegMotion& motion, double seconds) {
+  return static_cast<std::size_t>(std::max(1.0, std::round(seconds * motion.frame_rate_hz)));
+}
+
+// Mean of `count` places from `first` on.
+Vec3 mean_place(const std::deque<Vec3>& path, std::size_t first, std::size_t count) {
+  Vec3 sum;
+  for (std::size_t i = first; i < first + count; ++i) sum += path[i];
+  return (1.0 / static_cast<double>(count)) * sum;
+}
+
+}  // namespace
+
+LiveFeet::LiveFeet(const Take& like) : legs_(find_legs(like.skeleton)) {
+  one_.skeleton = like.skeleton;
+  one_.frame_rate_hz = like.frame_rate_hz;
+  one_.translated_joints = like.translated_joints;
+  one_.rotations.resize(like.joint_count());
+  one_.positions.resize(like.point_count());
+  if (legs_.empty()) return;
+  motion_ = leg_motion(one_, legs_);
+  feet_.resize(legs_.size());
+}
+
+void LiveFeet::hold(std::vector<Quat>& rotations, const std::vector<Vec3>& positions) {
+  if (feet_.empty()) return;
+  one_.rotations = rotations;
+  one_.positions = positions;
+  update_poses(one_, legs_, motion_);
+  if (!up_) up_ = up_of(motion_, std::nullopt);
+  if (!up_) return;
+  for (std::size_t l = 0; l < feet_.size(); ++l) {
+    Foot& foot = feet_[l];
+    const LegPose& pose = motion_.pose(0, l);
+    const LegModel& model = motion_.models[l];
+    const std::array<Vec3, parts> places = {
+        pose.ankle_at, model.has[1] ? pose.sole_at(model, FootPart::toe) : pose.ankle_at};
+    for (std::size_t p = 0; p < parts; ++p) track(foot.at[p], places[p], along(places[p], *up_));
+    move(foot);
+    if (!(norm(foot.offset) > 1e-6 * motion_.height)) continue;
+    FootTarget target;
+    target.moves = true;
+    target.hold = 1;
+    target.rotation = pose.ankle;
+    target.place = pose.ankle_at + foot.offset;
+    const LegRotations solved = solve_leg(pose, model, target, {}, FeetSettings{}.soft_reach);
+    rotations[model.hip.index] = align_hemisphere(solved.hip, rotations[model.hip.index]);
+    rotations[model.knee.index] = align_hemisphere(solved.knee, rotations[model.knee.index]);
+    rotations[model.ankle.index] = align_hemisphere(solved.ankle, rotations[model.ankle.index]);
+  }
+}
+
+void LiveFeet::track(Part& part, Vec3 place, double height) const {
+  const std::size_t reach = live_frames(motion_, speed_s);
+  part.path.push_back(place);
+  if (part.path.size() > reach + 1) part.path.pop_front();
+  part.heights.push_back(height);
+  if (part.heights.size() > live_frames(motion_, floor_s)) part.heights.pop_front();
+  part.level = *std::min_element(part.heights.begin(), part.heights.end());
+  // Thirds at both ends, so that the noise of single frames counts less.
+  const std::size_t third = std::max<std::size_t>(1, part.path.size() / 3);
+  const double apart = static_cast<double>(part.path.size() - third) / motion_.frame_rate_hz;
+  const Vec3 travel =
+      mean_place(part.path, part.path.size() - third, third) - mean_place(part.path, 0, third);
+  part.speed =
+      apart > 0 && part.path.size() > reach ? norm(travel) / (apart * motion_.height) : HUGE_VAL;
+}
+
+// The part that stands: the slower one, with a margin for the one that is held already.
+int LiveFeet::anchor_of(const Foot& foot) const {
+  const ContactSettings settings;
+  int best = -1;
+  double best_speed = HUGE_VAL;
+  for (int p = 0; p < static_cast<int>(parts); ++p) {
+    const Part& part = foot.at[static_cast<std::size_t>(p)];
+    const bool is_held = foot.anchor == p;
+    const double height = (part.heights.back() - part.level) / motion_.height;
+    if (height > (foot.anchor >= 0 ? settings.keep_height : settings.begin_height)) continue;
+    if (part.speed > (foot.anchor >= 0 ? settings.keep_speed : settings.begin_speed)) continue;
+    const double speed = is_held ? 0.5 * part.speed : part.speed;
+    if (speed >= best_speed) continue;
+    best = p;
+    best_speed = speed;
+  }
+  return best;
+}
+
+void LiveFeet::move(Foot& foot) const {
+  const int anchor = anchor_of(foot);
+  if (anchor >= 0) {
+    const Vec3 place = foot.at[static_cast<std::size_t>(anchor)].path.back();
+    if (anchor != foot.anchor) foot.target = place + foot.offset;
+    foot.offset = level_part(foot.target - place, *up_);
+    const double length = norm(foot.offset), most = most_offset * motion_.height;
+    if (length > most) {
+      foot.offset = (most / length) * foot.offset;
+      foot.target = place + foot.offset;
+    }
+  } else {
+    const double fade = std::exp(-1 / (fade_s * motion_.frame_rate_hz));
+    foot.offset = fade * foot.offset;
+  }
+  foot.anchor = anchor;
+}
+
+}  // namespace kinemend::feet

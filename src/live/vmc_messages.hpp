@@ -1,0 +1,37 @@
+// The poses of bones in datagrams of VMC: where they stand, and their values.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kinemend/rotation.hpp"
+#include "osc/osc.hpp"
+
+namespace kinemend {
+
+/// A message `/VMC/Ext/Bone/Pos` or `/VMC/Ext/Root/Pos`.
+struct VmcPose {
+  bool is_root = false;
+  std::string_view name;
+  std::size_t place =
+      0;  ///< of its seven floats in the datagram: position, then quaternion x y z w
+};
+
+/// The poses among the messages of a datagram, in their order. A message with other types is none.
+void read_vmc_poses(std::string_view datagram, const std::vector<OscMessage>& messages,
+                    std::vector<VmcPose>& poses);
+
+struct VmcValues {
+  Vec3 position;
+  Quat rotation;  ///< as it came: of any norm
+  /// Whether all values are finite and the quaternion is a rotation once it is normalised.
+  bool is_usable() const;
+};
+VmcValues vmc_values(std::string_view datagram, std::size_t place);
+/// Values that a float cannot hold leave the pose as it is; true if they were written.
+bool set_vmc_rotation(std::string& datagram, std::size_t place, Quat rotation);
+bool set_vmc_position(std::string& datagram, std::size_t place, Vec3 position);
+
+}  // namespace kinemend

@@ -1,0 +1,326 @@
+// Puts the poses of datagrams together to frames, and holds datagrams until their bones are clean.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <utility>
+
+#include "kinemend/error.hpp"
+#include "kinemend/experimental/text.hpp"
+#include "kinemend/experimental/vmc.hpp"
+#include "live/frame_clock.hpp"
+#include "live/running_changes.hpp"
+#include "live/vmc_messages.hpp"
+#include "live/vmc_stream.hpp"
+#include "motion/take_checks.hpp"
+
+namespace kinemend {
+
+namespace {
+
+// A sender gives the datagrams of a frame one after another: after a pause of this share of a frame
+// the rest of it is lost.
+constexpr double quiet_share = 0.3;
+// A face may go on while the body rests; its values are not kept longer than this.
+constexpr double silence_s = 0.25;
+// A bone that is missing for longer is gone, and frames are complete without it.
+constexpr std::size_t memory_frames = 60;
+constexpr std::size_t most_named_bones = 5;
+// A change below what a float resolves keeps the sender's bytes.
+constexpr double least_change = 1e-6;
+
+void check_vmc_options(const VmcOptions& options) {
+  constexpr double least_hz = 0.1, most_hz = 100000;
+  if (!(options.frame_rate_hz >= least_hz && options.frame_rate_hz <= most_hz))
+    throw Error(ErrorKind::usage, "frame_rate_hz: expected 0.1 to 100000 Hz");
+  if (!(options.strength >= 0 && options.strength <= 1))
+    throw Error(ErrorKind::usage, "strength: expected 0 to 1");
+}
+
+}  // namespace
+
+class VmcSession::Work {
+ public:
+  Work(const Cleaner& cleaner, const VmcOptions& options, Sink sink)
+      : options_((check_vmc_options(options), options)),
+        sink_(std::move(sink)),
+        bones_(options.bones),
+        stream_(cleaner, bones_, options.frame_rate_hz, options.feet,
+                [this](std::size_t, const VmcFrame& frame) { clean_poses(frame); }),
+        clock_(options.frame_rate_hz, silence_s),
+        chosen_(bones_.count(), options.bones.empty() ? 1 : 0),
+        age_(bones_.count(), memory_frames),
+        in_frame_(bones_.count(), 0),
+        changes_(bones_.count()) {
+    for (const std::string& name : options.bones)
+      chosen_[static_cast<std::size_t>(bones_.find(name))] = 1;
+    last_.rotations.resize(bones_.count());
+    last_.measured.assign(bones_.count(), 1);
+    next_ = last_;
+  }
+
+  void receive(std::string_view datagram, double now_s) {
+    attend(now_s);
+    ++counts_.datagrams_in;
+    queue_.push_back({std::string(datagram), 0});
+    queue_bytes_ += datagram.size();
+    messages_.clear();
+    poses_.clear();
+    // The messages refer to the bytes that are kept.
+    if (read_osc(queue_.back().bytes, messages_)) {
+      read_vmc_poses(queue_.back().bytes, messages_, poses_);
+      for (const VmcPose& pose : poses_) take_pose(pose, now_s);
+    } else {
+      ++counts_.not_osc;
+    }
+    release();
+    if (queue_bytes_ > options_.most_waiting_bytes) settle();
+  }
+
+  void attend(double now_s) {
+    if (has_open_frame_ && now_s >= last_pose_s_ + quiet_s()) close_frame();
+    if (!queue_.empty() && now_s >= last_pose_s_ + silence_s) settle();
+    release();
+  }
+
+  double due_s() const {
+    if (has_open_frame_) return last_pose_s_ + quiet_s();
+    return queue_.empty() ? std::numeric_limits<double>::infinity() : last_pose_s_ + silence_s;
+  }
+
+  // Repeats the last frame until all that waits has been cleaned.
+  void settle() {
+    if (has_open_frame_) close_frame();
+    release();
+    if (queue_.empty()) return;
+    ++counts_.settled;
+    clock_.pause();
+    VmcFrame held = last_;
+    held.measured.assign(bones_.count(), 1);
+    for (std::size_t f = 0; f < stream_.latency_frames(); ++f) push_frame(held, {});
+    release();
+  }
+
+  const VmcCounts& counts() const { return counts_; }
+  std::size_t latency_frames() const { return stream_.latency_frames(); }
+  double measured_hz() const { return clock_.measured_hz(); }
+  std::size_t waiting_bytes() const { return queue_bytes_; }
+  std::vector<std::string> take_notes() { return std::exchange(notes_, {}); }
+
+  std::vector<TrackChange> changes() const {
+    std::vector<TrackChange> all;
+    for (std::size_t b = 0; b < bones_.count(); ++b) {
+      if (changes_.has(b)) all.push_back({bones_.name(b), in_degrees(changes_.rms(b))});
+    }
+    return all;
+  }
+
+ private:
+  struct Waiting {
+    std::string bytes;
+    std::size_t pending;  ///< poses that are not cleaned yet
+  };
+  /// A pose that waits in a datagram.
+  struct Pending {
+    std::size_t bone;
+    std::size_t datagram;  ///< its number
+    std::size_t place;
+  };
+
+  double quiet_s() const { return quiet_share / options_.frame_rate_hz; }
+
+  void take_pose(const VmcPose& pose, double now_s) {
+    ++counts_.poses;
+    const std::int32_t found =
+        pose.is_root ? static_cast<std::int32_t>(VmcBones::root) : bones_.find(pose.name);
+    if (found < 0) return count_other(pose.name);
+    const auto bone = static_cast<std::size_t>(found);
+    const VmcValues values = vmc_values(queue_.back().bytes, pose.place);
+    const bool usable = values.is_usable();
+    counts_.not_finite += usable ? 0 : 1;
+    // Nothing is known that could replace it.
+    if (!usable && !stream_.has(bone)) return;
+    if (in_frame_[bone] != 0) close_frame();
+    begin_frame(now_s);
+    in_frame_[bone] = 1;
+    next_.measured[bone] = usable ? 1 : 0;
+    if (usable) take_values(bone, values);
+    if (chosen_[bone] != 0) {
+      next_poses_.push_back({bone, sent_ + queue_.size() - 1, pose.place});
+      ++queue_.back().pending;
+    }
+    if (is_complete()) close_frame();
+  }
+
+  void take_values(std::size_t bone, const VmcValues& values) {
+    next_.rotations[bone] = normalized(values.rotation);
+    if (bone <= VmcBones::hips) next_.positions[bone] = values.position;
+    if (stream_.has(bone)) return;
+    stream_.add(bone, next_.rotations[bone], values.position);
+    last_.rotations[bone] = next_.rotations[bone];
+    if (bone <= VmcBones::hips) last_.positions[bone] = values.position;
+  }
+
+  void begin_frame(double now_s) {
+    last_pose_s_ = now_s;
+    if (std::exchange(has_open_frame_, true)) return;
+    frame_s_ = now_s;
+    next_ = last_;
+    std::fill(next_.measured.begin(), next_.measured.end(), 0);
+  }
+
+  // Whether every bone is there that the last frames had. Before the first frame nothing is known.
+  bool is_complete() const {
+    bool knows_any = false;
+    for (std::size_t b = 0; b < bones_.count(); ++b) {
+      if (age_[b] >= memory_frames) continue;
+      knows_any = true;
+      if (in_frame_[b] == 0) return false;
+    }
+    return knows_any;
+  }
+
+  void close_frame() {
+    has_open_frame_ = false;
+    ++counts_.frames;
+    for (std::size_t b = 0; b < bones_.count(); ++b) {
+      counts_.missing += in_frame_[b] == 0 && age_[b] < memory_frames ? 1 : 0;
+      age_[b] = in_frame_[b] != 0 ? 0 : std::min(age_[b] + 1, memory_frames);
+      if (age_[b] == memory_frames) next_.measured[b] = 1;
+    }
+    std::fill(in_frame_.begin(), in_frame_.end(), 0);
+    const std::size_t missed = clock_.frames_before(frame_s_);
+    for (std::size_t i = 1; i <= missed; ++i)
+      push_frame(between(static_cast<double>(i) / static_cast<double>(missed + 1)), {});
+    counts_.made_up += missed;
+    if (std::string note = clock_.take_note(stream_.latency_frames()); !note.empty())
+      notes_.push_back(std::move(note));
+    last_ = next_;
+    push_frame(next_, std::exchange(next_poses_, {}));
+  }
+
+  VmcFrame between(double share) const {
+    VmcFrame frame = last_;
+    for (std::size_t b = 0; b < bones_.count(); ++b) {
+      if (!stream_.has(b)) continue;
+      frame.rotations[b] = slerp(last_.rotations[b], next_.rotations[b], share);
+      frame.measured[b] = 0;
+    }
+    for (std::size_t p = 0; p < frame.positions.size(); ++p)
+      frame.positions[p] = last_.positions[p] + share * (next_.positions[p] - last_.positions[p]);
+    return frame;
+  }
+
+  void push_frame(VmcFrame frame, std::vector<Pending> poses) {
+    pending_.push_back(std::move(poses));
+    stream_.push(std::move(frame));
+  }
+
+  // The stream gives a frame.
+  void clean_poses(const VmcFrame& frame) {
+    const std::vector<Pending> poses = std::move(pending_.front());
+    pending_.pop_front();
+    for (const Pending& pose : poses) {
+      Waiting& waiting = queue_[pose.datagram - sent_];
+      counts_.cleaned += clean_pose(pose, frame, waiting.bytes) ? 1 : 0;
+      --waiting.pending;
+    }
+  }
+
+  // True if a value changed.
+  bool clean_pose(const Pending& pose, const VmcFrame& frame, std::string& bytes) {
+    const VmcValues came = vmc_values(bytes, pose.place);
+    const bool usable = came.is_usable();
+    const Quat from = frame.rotations[pose.bone];
+    const Quat to = stream_.rotation(pose.bone);
+    const double change = angle_between(from, to);
+    if (usable) changes_.add(pose.bone, change);
+    // What cannot be used is replaced in full.
+    const double share = usable ? options_.strength : 1;
+    bool changed = false;
+    if (share > 0 && (!usable || change > least_change)) {
+      // From the pose as it came, whose sign the result keeps.
+      changed = set_vmc_rotation(bytes, pose.place, slerp(from, to, share));
+    }
+    return clean_position(pose, frame, share, bytes) || changed;
+  }
+
+  // Of the root and the hips. Those of other bones are the lengths of the body, and stay.
+  bool clean_position(const Pending& pose, const VmcFrame& frame, double share,
+                      std::string& bytes) {
+    const bool finite = is_finite(vmc_values(bytes, pose.place).position);
+    if (pose.bone > VmcBones::hips)
+      return !finite && set_vmc_position(bytes, pose.place, stream_.offset(pose.bone));
+    const Vec3 from = frame.positions[pose.bone];
+    const Vec3 step = share * (stream_.position(pose.bone) - from);
+    if (finite && norm(step) <= least_change * (1 + norm(from))) return false;
+    return set_vmc_position(bytes, pose.place, from + step);
+  }
+
+  void count_other(std::string_view name) {
+    ++counts_.other_bones;
+    const std::string printable = printable_name(name);
+    if (named_.size() == most_named_bones ||
+        std::find(named_.begin(), named_.end(), printable) != named_.end())
+      return;
+    named_.push_back(printable);
+    notes_.push_back(
+        fmt::format("bone {} is none of Unity's humanoid and passes unchanged; --bones can name it",
+                    printable));
+  }
+
+  void release() {
+    while (!queue_.empty() && queue_.front().pending == 0) {
+      sink_(queue_.front().bytes);
+      queue_bytes_ -= queue_.front().bytes.size();
+      queue_.pop_front();
+      ++sent_;
+    }
+    counts_.datagrams_out = sent_;
+  }
+
+  VmcOptions options_;
+  Sink sink_;
+  VmcBones bones_;
+  VmcStream stream_;
+  FrameClock clock_;
+  std::vector<std::uint8_t> chosen_;  ///< by bone
+  std::vector<std::size_t> age_;      ///< frames since the bone was there, at most memory_frames
+  std::vector<std::uint8_t> in_frame_;
+  RunningChanges changes_;  ///< of rotations, radians
+  std::deque<Waiting> queue_;
+  std::size_t queue_bytes_ = 0;
+  std::size_t sent_ = 0;                      ///< datagrams
+  std::deque<std::vector<Pending>> pending_;  ///< of each frame that is in the stream
+  bool has_open_frame_ = false;
+  double frame_s_ = 0;      ///< when the frame began that is open
+  double last_pose_s_ = 0;  ///< when the last pose arrived
+  VmcFrame last_, next_;
+  std::vector<Pending> next_poses_;
+  std::vector<OscMessage> messages_;
+  std::vector<VmcPose> poses_;
+  VmcCounts counts_;
+  std::vector<std::string> named_;
+  std::vector<std::string> notes_;
+};
+
+VmcSession::VmcSession(const Cleaner& cleaner, const VmcOptions& options, Sink sink)
+    : work_(std::make_unique<Work>(cleaner, options, std::move(sink))) {}
+VmcSession::~VmcSession() = default;
+
+void VmcSession::receive(std::string_view datagram, double now_s) {
+  work_->receive(datagram, now_s);
+}
+void VmcSession::attend(double now_s) { work_->attend(now_s); }
+double VmcSession::due_s() const noexcept { return work_->due_s(); }
+void VmcSession::settle() { work_->settle(); }
+const VmcCounts& VmcSession::counts() const noexcept { return work_->counts(); }
+std::size_t VmcSession::latency_frames() const noexcept { return work_->latency_frames(); }
+double VmcSession::measured_hz() const noexcept { return work_->measured_hz(); }
+std::size_t VmcSession::waiting_bytes() const noexcept { return work_->waiting_bytes(); }
+std::vector<TrackChange> VmcSession::changes() const { return work_->changes(); }
+std::vector<std::string> VmcSession::take_notes() { return work_->take_notes(); }
+
+}  // namespace kinemend

@@ -1,0 +1,91 @@
+// Keeps the last frames, and feeds them to a new filter when a bone appears.
+#include "live/vmc_stream.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace kinemend {
+
+namespace {
+
+// What a causal filter needs to be as steady as one that has always run, in frames.
+constexpr std::size_t warm_frames = 60;
+
+}  // namespace
+
+VmcStream::VmcStream(const Cleaner& cleaner, const VmcBones& bones, double frame_rate_hz, bool feet,
+                     Give give)
+    : cleaner_(cleaner),
+      bones_(bones),
+      frame_rate_hz_(frame_rate_hz),
+      give_(std::move(give)),
+      present_(bones.count(), 0),
+      offsets_(bones.count()),
+      holds_feet_(feet) {
+  // A method that cannot clean a humanoid says so before there is a sender.
+  const std::vector<std::uint8_t> all(bones.count(), 1);
+  latency_ = make_stream(cleaner, bones.take_of(all, offsets_, frame_rate_hz))->latency_frames();
+  kept_frames_ = 2 * latency_ + warm_frames;
+  begin_anew();
+}
+
+void VmcStream::add(std::size_t bone, Quat rotation, Vec3 offset) {
+  present_[bone] = 1;
+  offsets_[bone] = offset;
+  for (VmcFrame& frame : history_) {
+    frame.rotations[bone] = rotation;
+    if (bone <= VmcBones::hips) frame.positions[bone] = offset;
+    frame.measured[bone] = 1;
+  }
+  is_outdated_ = true;
+}
+
+void VmcStream::push(VmcFrame frame) {
+  if (history_.size() == kept_frames_) history_.pop_front();
+  history_.push_back(std::move(frame));
+  ++pushed_;
+  if (is_outdated_) {
+    begin_anew();
+  } else {
+    pass(history_.back());
+  }
+}
+
+void VmcStream::begin_anew() {
+  is_outdated_ = false;
+  const Take like = bones_.take_of(present_, offsets_, frame_rate_hz_);
+  stream_ = make_stream(cleaner_, like);
+  if (holds_feet_) feet_.emplace(like);
+  joints_.assign(bones_.count(), 0);
+  order_.clear();
+  for (std::size_t bone = 0; bone < bones_.count(); ++bone) {
+    if (bone != VmcBones::root && !has(bone)) continue;
+    joints_[bone] = order_.size();
+    order_.push_back(bone);
+  }
+  made_ = pushed_ - history_.size();
+  for (const VmcFrame& frame : history_) pass(frame);
+}
+
+void VmcStream::pass(const VmcFrame& frame) {
+  in_.rotations.clear();
+  in_.observed.clear();
+  for (const std::size_t bone : order_) {
+    in_.rotations.push_back(frame.rotations[bone]);
+    in_.observed.push_back(frame.measured[bone] != 0 || !has(bone) ? 1 : 0);
+  }
+  // A mask would keep filters from the way that needs no memory.
+  if (std::find(in_.observed.begin(), in_.observed.end(), 0) == in_.observed.end())
+    in_.observed.clear();
+  const std::size_t points = has(VmcBones::hips) ? 2 : 1;
+  in_.positions.assign(frame.positions.begin(), frame.positions.begin() + points);
+  if (!stream_->push(in_, out_)) return;
+  const std::size_t number = made_++;
+  if (number < given_) return;
+  ++given_;
+  if (feet_) feet_->hold(out_.rotations, out_.positions);
+  // The frame is among those kept: there are more of them than the filter looks ahead.
+  give_(number, history_[number + history_.size() - pushed_]);
+}
+
+}  // namespace kinemend

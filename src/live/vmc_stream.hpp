@@ -1,0 +1,74 @@
+// A live filter for bones that become known one by one: it starts again for a new bone, with the
+// last frames, so that nobody notices.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "feet/live_feet.hpp"
+#include "kinemend/stream.hpp"
+#include "live/vmc_bones.hpp"
+
+namespace kinemend {
+
+/// Poses of all bones of the table at one time.
+struct VmcFrame {
+  std::vector<Quat> rotations;         ///< by bone; one that did not arrive has its last one
+  std::array<Vec3, 2> positions{};     ///< of the root and the hips
+  std::vector<std::uint8_t> measured;  ///< by bone: 0 if the rotation is to be bridged
+};
+
+class VmcStream {
+ public:
+  /// Takes the number of a frame, counted from 0, and the frame as it came; the stream then holds
+  /// its cleaned poses.
+  using Give = std::function<void(std::size_t number, const VmcFrame& frame)>;
+
+  /// `cleaner` and `bones` must outlive the stream. Errors: as of `make_stream`.
+  VmcStream(const Cleaner& cleaner, const VmcBones& bones, double frame_rate_hz, bool feet,
+            Give give);
+
+  std::size_t latency_frames() const { return latency_; }
+  bool has(std::size_t bone) const { return present_[bone] != 0; }
+  /// A bone appears, with its first rotation and its position relative to its parent.
+  void add(std::size_t bone, Quat rotation, Vec3 offset);
+  void push(VmcFrame frame);
+
+  /// Of the frame that is given.
+  Quat rotation(std::size_t bone) const { return out_.rotations[joints_[bone]]; }
+  Vec3 position(std::size_t bone) const { return out_.positions[bone]; }  ///< root or hips
+  /// Of a bone that is present: its first position.
+  Vec3 offset(std::size_t bone) const { return offsets_[bone]; }
+
+ private:
+  void begin_anew();
+  void pass(const VmcFrame& frame);
+
+  const Cleaner& cleaner_;
+  const VmcBones& bones_;
+  double frame_rate_hz_;
+  Give give_;
+  std::vector<std::uint8_t> present_;
+  std::vector<Vec3> offsets_;
+  std::vector<std::size_t> joints_;  ///< of each bone that is present
+  std::vector<std::size_t> order_;   ///< the bone of each joint
+  std::size_t latency_ = 0;
+  std::size_t kept_frames_ = 0;
+  bool is_outdated_ = false;  ///< a bone is not in the stream yet
+  std::unique_ptr<Stream> stream_;
+  bool holds_feet_ = false;
+  std::optional<feet::LiveFeet> feet_;
+  std::deque<VmcFrame> history_;
+  std::size_t pushed_ = 0;  ///< frames
+  std::size_t given_ = 0;   ///< frames
+  std::size_t made_ = 0;    ///< number of the frame that the stream gives next
+  Frame in_, out_;
+};
+
+}  // namespace kinemend
