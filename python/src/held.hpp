@@ -1,0 +1,39 @@
+// What Python holds: takes and cleaners, and the parts of the module.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+
+#include "kinemend/cleaner.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/take.hpp"
+
+namespace kinemend::python {
+
+namespace py = pybind11;
+
+/// A take whose arrays Python may look at: no array changes its length.
+struct HeldTake {
+  Take take;
+  Diagnostics diagnostics;  ///< of its reader
+};
+using HeldTakePtr = std::shared_ptr<HeldTake>;
+
+/// Every take has masks, so that Python sees and writes them in place.
+HeldTakePtr hold(Take take, Diagnostics diagnostics = {});
+
+struct HeldCleaner {
+  std::unique_ptr<Cleaner> cleaner;
+};
+using HeldCleanerPtr = std::shared_ptr<HeldCleaner>;
+
+void bind_takes(py::module_& module);
+void bind_files(py::module_& module);
+void bind_tables(py::module_& module);
+void bind_cleaning(py::module_& module);
+void bind_measures(py::module_& module);
+void bind_training(py::module_& module);
+void bind_live(py::module_& module);
+
+}  // namespace kinemend::python
