@@ -106,8 +106,8 @@ test: $(BUILD)/$(TESTS)/.built ## build and run the tests (real takes too where 
 	@cat $(BUILD)/$(TESTS)/left_out.txt
 	ctest --preset $(TESTS) -j $(JOBS) $(CTEST_ARGUMENTS)
 
-test-all: ## the same, with training, pages and browser installed, so that nothing is left out
-	$(need) core test page browser train
+test-all: ## the same, with training, pages, browser and Python installed, so that nothing is left out
+	$(need) core test page browser train python
 	$(MAKE) test
 
 asan-build:

@@ -4,8 +4,8 @@
 >>> take = kinemend.read("walk.bvh")
 >>> result = kinemend.clean(take)
 >>> kinemend.write(result.take, "walk.clean.bvh")
->>> result.report.figures.spikes
-0
+>>> result.report.verdict
+'noisy: ... jitter on 31 joints, ... spikes'
 
 docs/python.md of the project is the guide.
 """

@@ -155,7 +155,7 @@ def clean(
     >>> kinemend.clean(take, "butterworth", cutoff_hz=900)
     Traceback (most recent call last):
         ...
-    kinemend._errors.Error: cutoff_hz: 900 is outside 0.01 to 500 Hz
+    kinemend._errors.Error: cutoff_hz: 900 is outside 0.05 to 500 Hz
     """
     cleaner = method if isinstance(method, Cleaner) else Cleaner(method, options, **more)
     if isinstance(method, Cleaner) and (options or more):
@@ -295,8 +295,8 @@ def check(
     Examples
     --------
     >>> report = kinemend.check(kinemend.read("walk.bvh"))
-    >>> report.findings[0].kind
-    'noise'
+    >>> report.findings[0].kind, report.findings[0].verdict
+    ('spike', 'warning')
     """
     return _report(
         _core.check(take, up=up, metres_per_unit=metres_per_unit, feet_names=feet_names or {})

@@ -41,7 +41,7 @@ class LiveFilter:
     ----------
     like : Take
         A take with the skeleton or markers and the frame rate of the stream. Its frames are ignored.
-    method : str or Cleaner, default "one-euro"
+    method : str or Cleaner, default "median"
         A method that runs live: `methods()` says which do.
     body_height : float, default 0
         Of markers: the height of the person in the unit of the take; 0: a usual one.
@@ -69,7 +69,7 @@ class LiveFilter:
     def __init__(
         self,
         like: Take,
-        method: str | Cleaner = "one-euro",
+        method: str | Cleaner = "median",
         *,
         body_height: float = 0.0,
         options: Mapping[str, _GivenOption] | None = None,

@@ -95,7 +95,7 @@ def methods() -> tuple[Method, ...]:
     Examples
     --------
     >>> [method.name for method in kinemend.methods()][:3]
-    ['auto', 'bilateral', 'gaussian']
+    ['auto', 'bilateral', 'nonlocal']
     >>> [option.name for option in kinemend.methods()[0].options]
     ['sensitivity', 'despike']
     """

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import importlib
 import os
+import zipfile
+import zlib
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, is_dataclass
 from typing import Any
@@ -19,6 +21,18 @@ _Path = str | os.PathLike[str]
 _Doubles = npt.NDArray[np.float64]
 
 NPZ_FORMAT = "kinemend-1"
+# What NumPy and zipfile raise at archives that are none, or hold other arrays.
+_BROKEN = (
+    OSError,
+    EOFError,
+    KeyError,
+    ValueError,
+    TypeError,
+    AttributeError,
+    NotImplementedError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
 
 
 def _product(a: _Doubles, b: _Doubles) -> _Doubles:
@@ -88,7 +102,7 @@ def global_matrices(take: Take) -> _Doubles:
     Examples
     --------
     >>> kinemend.global_matrices(kinemend.read("walk.bvh")).shape
-    (480, 31, 4, 4)
+    (960, 31, 4, 4)
     """
     _need_joints(take)
     return _matrices(*take.forward_kinematics())
@@ -198,7 +212,7 @@ def from_npz(path: _Path) -> Take:
             return _take_of({key: archive[key] for key in archive.files}, name)
     except Error as error:
         raise Error(f"{name}: {error}", "unreadable_input") from None
-    except (OSError, EOFError, KeyError, ValueError, TypeError, AttributeError) as error:
+    except _BROKEN as error:
         words = str(error).strip("'\"")
         problem = f"the array {words} is missing" if isinstance(error, KeyError) else words
         raise Error(f"{name}: {problem}", "unreadable_input") from None
@@ -249,7 +263,7 @@ def to_pandas(source: Take | Sequence[Any]) -> Any:
     --------
     >>> frame = kinemend.to_pandas(kinemend.read("walk.bvh"))
     >>> frame["LeftArm"]["w"].shape
-    (480,)
+    (960,)
     """
     pandas = importlib.import_module("pandas")
     if not isinstance(source, Take):

@@ -68,7 +68,7 @@ def bilateral(
     )
 
 
-def nonlocal(
+def nonlocal_(
     *,
     window_s: float = 0.175,
     patch_s: float = 0.092,

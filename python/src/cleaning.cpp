@@ -69,11 +69,22 @@ std::optional<KnownNoise> noise_of(const py::object& noise) {
   return known;
 }
 
+// The step itself asks only once there is a gap.
+void check_fill_method(const std::string& name) {
+  std::vector<std::string> names;
+  for (const FillMethod& method : fill_methods()) {
+    if (method.name == name) return;
+    names.emplace_back(method.name);
+  }
+  throw Error(ErrorKind::usage, "fill: there is no method " + name + suggestion(name, names));
+}
+
 std::optional<FillSettings> fill_settings(const py::object& method, bool fill_all,
                                           bool unlabelled) {
   if (method.is_none() && !fill_all) return std::nullopt;
   FillSettings fill;
   if (!method.is_none()) fill.method = method.cast<std::string>();
+  check_fill_method(fill.method);
   fill.fill_all = fill_all;
   fill.unlabelled = unlabelled;
   return fill;
@@ -89,6 +100,7 @@ struct CleanWork {
 };
 
 std::pair<HeldTakePtr, ReportPtr> cleaned(CleanWork& work, const Tell& tell) {
+  work.held->check();
   std::optional<ThreadLimit> limit;
   if (work.threads > 0) limit.emplace(work.threads);
   work.settings.progress = tell;

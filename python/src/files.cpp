@@ -80,6 +80,7 @@ std::string format_for(const fs::path& path, const std::string& asked, const Tak
 void write_path(const HeldTakePtr& held, const fs::path& path, const std::string& format,
                 bool overwrite) {
   const py::gil_scoped_release release;
+  held->check();
   std::error_code ignored;
   if (!overwrite && fs::is_regular_file(path, ignored))
     throw Error(ErrorKind::cannot_write,
@@ -93,6 +94,7 @@ py::bytes to_bytes(const HeldTakePtr& held, const std::string& format) {
   std::string bytes;
   {
     const py::gil_scoped_release release;
+    held->check();
     bytes = write_take(held->take, format);
   }
   return bytes;

@@ -17,6 +17,13 @@ namespace py = pybind11;
 struct HeldTake {
   Take take;
   Diagnostics diagnostics;  ///< of its reader
+  /// Whether Python may have written into an array: only then the values have to be checked again.
+  mutable bool is_touched = false;
+
+  /// Errors: those of `Take::validate`.
+  void check() const {
+    if (is_touched) take.validate();
+  }
 };
 using HeldTakePtr = std::shared_ptr<HeldTake>;
 

@@ -66,6 +66,7 @@ py::tuple fill(const HeldTakePtr& held, const std::string& method, const py::ite
   ReportPtr report;
   {
     const py::gil_scoped_release release;
+    held->check();
     settings.models = fill_models(method, model, map);
     Take take = held->take;
     FillOutcome outcome{fill_gaps(take, settings)};
@@ -96,6 +97,7 @@ ReportPtr contacts(const HeldTakePtr& held, const py::dict& feet_names) {
   FeetSettings settings;
   settings.names = known_names_of(feet_names);
   const py::gil_scoped_release release;
+  held->check();
   Take copy = held->take;
   return report_of(*held, held->take, clean_feet(copy, settings));
 }
@@ -140,6 +142,8 @@ ReportPtr compare(const HeldTakePtr& reference, const HeldTakePtr& other, double
   settings.markers.lag_frames = lag_frames;
   settings.markers.least_motion = least_motion;
   const py::gil_scoped_release release;
+  reference->check();
+  other->check();
   CompareOutcome outcome = compared(reference->take, other->take, settings);
   // The reference says how joints and markers are spelled; lengths are in its unit.
   TakeFacts facts = take_facts(other->take), shown = take_facts(reference->take);
@@ -165,6 +169,7 @@ py::tuple corrupt(const HeldTakePtr& held,
   HeldTakePtr result;
   {
     const py::gil_scoped_release release;
+    held->check();
     Take take = held->take;
     Random random(seed);
     for (const auto& [name, options] : requests)

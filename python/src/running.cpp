@@ -12,15 +12,14 @@
 #include <utility>
 #include <vector>
 
+#include "kinemend/experimental/threads.hpp"
+
 namespace kinemend::python {
 
 namespace {
 
 // How long Ctrl-C waits at most until it is seen.
 constexpr std::chrono::milliseconds between_looks(20);
-
-// Ends the work; nobody but the runner sees it.
-struct Stopped {};
 
 struct News {
   std::string stage;
@@ -32,8 +31,9 @@ class Mailbox {
   explicit Mailbox(bool has_reader) : has_reader_(has_reader) {}
 
   void stop() { stopped_ = true; }
+  const std::atomic<bool>& stopped() const { return stopped_; }
   void put(std::string_view stage, double done) {
-    if (stopped_) throw Stopped();
+    if (stopped_) throw WorkStopped();
     if (!has_reader_) return;
     {
       const std::lock_guard lock(mutex_);
@@ -88,6 +88,7 @@ void run_watched(const py::object& progress, const std::function<void(const Tell
   std::thread worker([&] {
     std::exception_ptr error;
     try {
+      const StopWatch watch(box.stopped());
       work([&](std::string_view stage, double done) { box.put(stage, done); });
     } catch (...) {
       error = std::current_exception();

@@ -24,7 +24,12 @@ using namespace py::literals;
 
 py::ssize_t count(std::size_t size) { return static_cast<py::ssize_t>(size); }
 
-const Take& take_of(const py::object& self) { return self.cast<const HeldTake&>().take; }
+// For a view, through which Python may write.
+const Take& take_of(const py::object& self) {
+  const auto& held = self.cast<const HeldTake&>();
+  held.is_touched = true;
+  return held.take;
+}
 
 // The views.
 
@@ -351,7 +356,11 @@ void bind_facts(py::class_<HeldTake, HeldTakePtr>& type) {
       "Names of the joints or markers.");
   type.def_property(
       "fps", [](const HeldTake& held) { return held.take.frame_rate_hz; },
-      [](HeldTake& held, double fps) { held.take.frame_rate_hz = fps; }, "Frames per second.");
+      [](HeldTake& held, double fps) {
+        held.take.frame_rate_hz = fps;
+        held.is_touched = true;
+      },
+      "Frames per second.");
   type.def_property_readonly(
       "kind", [](const HeldTake& held) { return held.take.has_joints() ? "joints" : "markers"; },
       "\"joints\" or \"markers\".");
@@ -394,7 +403,7 @@ HeldTakePtr hold(Take take, Diagnostics diagnostics) {
   if (take.observed.empty()) take.observed.assign(frames * take.owner_count(), 1);
   if (take.has_joints() && take.observed_positions.empty())
     take.observed_positions.assign(frames * take.point_count(), 1);
-  return std::make_shared<HeldTake>(HeldTake{std::move(take), std::move(diagnostics)});
+  return std::make_shared<HeldTake>(HeldTake{std::move(take), std::move(diagnostics), false});
 }
 
 void bind_takes(py::module_& module) {

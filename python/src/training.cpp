@@ -31,6 +31,7 @@ using TrainingTake = std::variant<HeldTakePtr, fs::path>;
 
 Take take_for_training(const TrainingTake& source, const std::optional<std::string>& fill) {
   const auto* held = std::get_if<HeldTakePtr>(&source);
+  if (held != nullptr) (*held)->check();
   Take take = held != nullptr ? (*held)->take : read_take(std::get<fs::path>(source)).take;
   if (fill) {
     FillSettings settings;

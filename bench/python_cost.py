@@ -1,0 +1,52 @@
+#!/usr/bin/python3
+"""Measures what a call from Python costs over the call of C++ that it makes.
+
+  PYTHONPATH=build/ci/python bench/python_cost.py [TAKE]
+
+`kinemend.clean` says how long the call of C++ took (`report.figures.seconds`); the rest of the wall clock is the cost. The least of
+many repetitions is printed, in milliseconds. A frame of a live filter has no such clock: its whole time is printed.
+"""
+import pathlib
+import sys
+import time
+
+import kinemend
+
+TAKE = pathlib.Path(__file__).resolve().parent.parent / "examples" / "takes" / "noisy_walk.bvh"
+REPETITIONS = 50
+
+
+def cost_of_cleaning(take, method):
+    cleaner = kinemend.Cleaner(method)
+    costs = []
+    for _ in range(REPETITIONS):
+        begin = time.perf_counter()
+        result = kinemend.clean(take, cleaner)
+        spent = time.perf_counter() - begin
+        costs.append(spent - result.report.figures.seconds)
+    return 1000 * min(costs)
+
+
+def time_of_a_frame(take):
+    live = kinemend.LiveFilter(take, "one-euro")
+    times = []
+    for rotations, positions in zip(take.rotations, take.positions):
+        begin = time.perf_counter()
+        live.push(rotations, positions)
+        times.append(time.perf_counter() - begin)
+    return 1000 * min(times)
+
+
+def main(words):
+    take = kinemend.read(words[0] if words else TAKE)
+    for frames in (2, len(take)):
+        print(f"clean, {frames} frames of {len(take.names)} joints: {cost_of_cleaning(take[:frames], 'gaussian'):.3f} ms over C++")
+    begin = time.perf_counter()
+    for _ in range(1000):
+        take.rotations
+    print(f"a view: {time.perf_counter() - begin:.4f} ms")
+    print(f"a live frame, whole: {time_of_a_frame(take):.4f} ms")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
