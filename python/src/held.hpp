@@ -3,6 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <atomic>
 #include <memory>
 
 #include "kinemend/cleaner.hpp"
@@ -20,9 +21,10 @@ struct HeldTake {
   /// Whether Python may have written into an array: only then the values have to be checked again.
   mutable bool is_touched = false;
 
+  void touch() const { std::atomic_ref(is_touched).store(true, std::memory_order_relaxed); }
   /// Errors: those of `Take::validate`.
   void check() const {
-    if (is_touched) take.validate();
+    if (std::atomic_ref(is_touched).load(std::memory_order_relaxed)) take.validate();
   }
 };
 using HeldTakePtr = std::shared_ptr<HeldTake>;

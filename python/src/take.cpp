@@ -27,7 +27,7 @@ py::ssize_t count(std::size_t size) { return static_cast<py::ssize_t>(size); }
 // For a view, through which Python may write.
 const Take& take_of(const py::object& self) {
   const auto& held = self.cast<const HeldTake&>();
-  held.is_touched = true;
+  held.touch();
   return held.take;
 }
 
@@ -358,7 +358,7 @@ void bind_facts(py::class_<HeldTake, HeldTakePtr>& type) {
       "fps", [](const HeldTake& held) { return held.take.frame_rate_hz; },
       [](HeldTake& held, double fps) {
         held.take.frame_rate_hz = fps;
-        held.is_touched = true;
+        held.touch();
       },
       "Frames per second.");
   type.def_property_readonly(

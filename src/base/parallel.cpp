@@ -47,12 +47,26 @@ class WatchOf {
   const std::atomic<bool>* before_;
 };
 
-template <class... Indices>
-std::function<void(Indices...)> watched(const std::function<void(Indices...)>& work) {
-  return [&work, stop = watched_stop](Indices... indices) {
+IndexWork watched(const IndexWork& work) {
+  return [&work, stop = watched_stop](std::size_t i) {
     const WatchOf watch(stop);
     end_if_stopped();
-    work(indices...);
+    work(i);
+  };
+}
+
+// A range of a long take can take a minute: it is done in parts.
+RangeWork watched(const RangeWork& work, std::size_t least) {
+  return [&work, least, stop = watched_stop](std::size_t first, std::size_t last) {
+    constexpr std::size_t most_parts = 64;
+    const std::size_t length = last - first;
+    const std::size_t parts =
+        std::clamp<std::size_t>(length / std::max<std::size_t>(1, least), 1, most_parts);
+    const WatchOf watch(stop);
+    for (std::size_t i = 0; i < parts; ++i) {
+      end_if_stopped();
+      work(first + length * i / parts, first + length * (i + 1) / parts);
+    }
   };
 }
 
@@ -189,7 +203,7 @@ void for_each_parallel(std::size_t count, std::size_t samples, const IndexWork& 
 
 void for_each_range(std::size_t first, std::size_t last, std::size_t least, const RangeWork& work) {
   if (watched_stop == nullptr) return for_each_range_unwatched(first, last, least, work);
-  for_each_range_unwatched(first, last, least, watched(work));
+  for_each_range_unwatched(first, last, least, watched(work, least));
 }
 
 bool work_is_cancelled() {

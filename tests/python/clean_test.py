@@ -14,7 +14,6 @@ import kinemend
 def without(entry, *keys):
     """A report without what depends on the run: names, times, and what only the program adds."""
     entry = {key: value for key, value in entry.items() if key not in {"input", "output", "leftovers", *keys}}
-    entry["verdict"] = entry["verdict"].split(", too short")[0]
     entry["figures"] = {key: value for key, value in entry["figures"].items() if key not in {"seconds", "frames_per_second"}}
     return entry
 
@@ -28,7 +27,9 @@ def test_every_format_has_the_bytes_and_the_report_of_the_program(all_formats, p
     for path in takes:
         result = kinemend.clean(kinemend.read(path), "auto")
         kinemend.write(result.take, program.folder / "ours" / path.name)
-        assert without(json.loads(result.to_json())) == without(entries[str(path)]), path.name
+        # The verdict of the program names what is left over.
+        left_out = ["verdict"] if entries[str(path)]["leftovers"] else []
+        assert without(json.loads(result.to_json()), *left_out) == without(entries[str(path)], *left_out), path.name
     for theirs in (program.folder / "theirs").iterdir():
         assert (program.folder / "ours" / theirs.name).read_bytes() == theirs.read_bytes(), theirs.name
 
@@ -134,13 +135,13 @@ def test_an_exception_of_progress_ends_the_work(noisy):
     assert kinemend.clean(noisy, "auto").report.method == "auto"
 
 
-def test_ctrl_c_ends_work_that_would_take_hours(noisy):
+def test_ctrl_c_ends_work_that_would_take_minutes(noisy):
     # The timer's thread runs only because the GIL is released.
     long = kinemend.Take.of_joints(noisy.names, noisy.parents, noisy.offsets, np.tile(noisy.rotations, (200, 1, 1)), fps=120)
     timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
     timer.start()
     with pytest.raises(KeyboardInterrupt):
-        kinemend.clean(long, "nonlocal", window_s=0)
+        kinemend.clean(long, "nonlocal", window_s=0, bandwidth_deg=5)
     timer.join()
 
 
