@@ -21,8 +21,11 @@ class Program:
     def __init__(self, folder):
         self.folder = folder
 
+    def ran(self, *words):
+        return subprocess.run([os.environ["KINEMEND_PROGRAM"], *map(str, words)], cwd=self.folder, capture_output=True, text=True)
+
     def run(self, *words, code=0):
-        ran = subprocess.run([os.environ["KINEMEND_PROGRAM"], *map(str, words)], cwd=self.folder, capture_output=True, text=True)
+        ran = self.ran(*words)
         assert ran.returncode == code, ran.stderr
         return ran.stdout
 
