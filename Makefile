@@ -117,8 +117,8 @@ test: $(BUILD)/$(TESTS)/.built ## build and run the tests (real takes too where 
 	@cat $(BUILD)/$(TESTS)/left_out.txt
 	ctest --preset $(TESTS) -j $(JOBS) $(CTEST_ARGUMENTS)
 
-test-all: ## the same, with training, pages, browser and Blender installed, so that nothing is left out
-	$(need) core test page browser train blender
+test-all: ## the same, with training, pages, browser, Python and Blender installed, so that nothing is left out
+	$(need) core test page browser train python blender
 	$(MAKE) test
 
 asan-build:

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <atomic>
 #include <numeric>
+#include <utility>
 
 #include "base/thread_pool.hpp"
 #include "kinemend/experimental/threads.hpp"
@@ -26,6 +27,48 @@ std::atomic<bool> uses_pool{false};
 #else
 constexpr bool uses_pool = true;
 #endif
+
+// What `StopWatch` watches for this thread; null: nothing.
+thread_local const std::atomic<bool>* watched_stop = nullptr;
+
+void end_if_stopped() {
+  if (watched_stop != nullptr && *watched_stop) throw WorkStopped();
+}
+
+// Lets a piece of work, on whichever thread, see the stop that whoever spreads it watches.
+class WatchOf {
+ public:
+  explicit WatchOf(const std::atomic<bool>* stop) : before_(std::exchange(watched_stop, stop)) {}
+  ~WatchOf() { watched_stop = before_; }
+  WatchOf(const WatchOf&) = delete;
+  WatchOf& operator=(const WatchOf&) = delete;
+
+ private:
+  const std::atomic<bool>* before_;
+};
+
+IndexWork watched(const IndexWork& work) {
+  return [&work, stop = watched_stop](std::size_t i) {
+    const WatchOf watch(stop);
+    end_if_stopped();
+    work(i);
+  };
+}
+
+// A range of a long take can take a minute: it is done in parts.
+RangeWork watched(const RangeWork& work, std::size_t least) {
+  return [&work, least, stop = watched_stop](std::size_t first, std::size_t last) {
+    constexpr std::size_t most_parts = 64;
+    const std::size_t length = last - first;
+    const std::size_t parts =
+        std::clamp<std::size_t>(length / std::max<std::size_t>(1, least), 1, most_parts);
+    const WatchOf watch(stop);
+    for (std::size_t i = 0; i < parts; ++i) {
+      end_if_stopped();
+      work(first + length * i / parts, first + length * (i + 1) / parts);
+    }
+  };
+}
 
 void for_each_range_in_pool(std::size_t first, std::size_t last, std::size_t least,
                             const RangeWork& work) {
@@ -119,16 +162,40 @@ std::size_t thread_count() {
   return pool::thread_count();
 }
 
-void for_each_index(std::size_t count, const IndexWork& work) {
+StopWatch::StopWatch(const std::atomic<bool>& stop) : before_(std::exchange(watched_stop, &stop)) {}
+StopWatch::~StopWatch() { watched_stop = before_; }
+
+namespace {
+
+void for_each_index_unwatched(std::size_t count, const IndexWork& work) {
 #ifdef KINEMEND_TBB
   if (!uses_pool) return tbb::parallel_for(std::size_t{0}, count, work);
 #endif
   pool::for_each_index(count, work);
 }
 
+void for_each_range_unwatched(std::size_t first, std::size_t last, std::size_t least,
+                              const RangeWork& work) {
+#ifdef KINEMEND_TBB
+  if (!uses_pool) {
+    return tbb::parallel_for(tbb::blocked_range<std::size_t>(first, last, least),
+                             [&](const auto& range) { work(range.begin(), range.end()); });
+  }
+#endif
+  for_each_range_in_pool(first, last, least, work);
+}
+
+}  // namespace
+
+void for_each_index(std::size_t count, const IndexWork& work) {
+  if (watched_stop == nullptr) return for_each_index_unwatched(count, work);
+  for_each_index_unwatched(count, watched(work));
+}
+
 void for_each_parallel(std::size_t count, std::size_t samples, const IndexWork& work) {
   // For speed, not swept.
   constexpr std::size_t worth_threads = 4096;
+  end_if_stopped();
   if (samples < worth_threads || count < 2) {
     for (std::size_t i = 0; i < count; ++i) work(i);
     return;
@@ -137,13 +204,8 @@ void for_each_parallel(std::size_t count, std::size_t samples, const IndexWork& 
 }
 
 void for_each_range(std::size_t first, std::size_t last, std::size_t least, const RangeWork& work) {
-#ifdef KINEMEND_TBB
-  if (!uses_pool) {
-    return tbb::parallel_for(tbb::blocked_range<std::size_t>(first, last, least),
-                             [&](const auto& range) { work(range.begin(), range.end()); });
-  }
-#endif
-  for_each_range_in_pool(first, last, least, work);
+  if (watched_stop == nullptr) return for_each_range_unwatched(first, last, least, work);
+  for_each_range_unwatched(first, last, least, watched(work, least));
 }
 
 bool work_is_cancelled() {

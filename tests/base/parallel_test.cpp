@@ -141,6 +141,45 @@ TEST(Parallel, KeepsToTheLeastLimit) {
   });
 }
 
+TEST(Parallel, EndsOnceItIsAskedTo) {
+  with_all_threads([] {
+    std::atomic<bool> stop{false};
+    std::atomic<std::size_t> done{0};
+    const auto work = [&](std::size_t) {
+      if (++done == 5) stop = true;
+    };
+    constexpr std::size_t count = 100000;
+    for_each_index(count, work);
+    EXPECT_EQ(done, count) << "nobody watches";
+    stop = false;
+    done = 0;
+    {
+      const StopWatch watch(stop);
+      EXPECT_THROW(for_each_index(count, work), WorkStopped);
+      EXPECT_LT(done, count);
+      EXPECT_THROW(for_each_range(0, count, 1, [](std::size_t, std::size_t) {}), WorkStopped);
+      EXPECT_THROW(for_each_parallel(2, 2, [](std::size_t) {}), WorkStopped);
+    }
+    for_each_parallel(2, 2, [](std::size_t) {});
+  });
+}
+
+TEST(Parallel, WorkWithinWorkIsAskedToo) {
+  with_all_threads([] {
+    std::atomic<bool> stop{false};
+    std::atomic<std::size_t> done{0};
+    const StopWatch watch(stop);
+    EXPECT_THROW(for_each_index(50,
+                                [&](std::size_t) {
+                                  for_each_index(1000, [&](std::size_t) {
+                                    if (++done == 3) stop = true;
+                                  });
+                                }),
+                 WorkStopped);
+    EXPECT_LT(done, 50000u);
+  });
+}
+
 TEST(Parallel, CallsTheWorkOfEveryThread) {
   with_all_threads([] {
     std::atomic<std::size_t> called{0};
