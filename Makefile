@@ -20,7 +20,7 @@ need = @tools/install_packages packages.txt
 WINDOWS := $(BUILD)/windows/cli/kinemend.exe
 WINE ?= /usr/lib/wine/wine64
 
-.PHONY: help setup build windows windows-test libcxx wasm wasm-test demo deb deb-test install-test test test-all asan asan-build asan-test lint format page bench bench-quick \
+.PHONY: help setup build windows windows-test libcxx wasm wasm-test web-app demo deb deb-test install-test test test-all asan asan-build asan-test lint format page bench bench-quick \
   papers papers-quick pictures fuzz soak nightly clean FORCE
 
 help: ## this list
@@ -74,11 +74,16 @@ libcxx: ## compile the library with Clang and libc++ as on macOS, with the threa
 	cmake --build --preset libcxx -j $(JOBS)
 	ctest --preset libcxx -j $(JOBS)
 
-wasm: export NODE_PATH := /usr/share/nodejs
 wasm: ## the module for JavaScript by Emscripten: build/wasm/wasm/kinemend.mjs and kinemend_module.wasm
 	$(need) core wasm
+	tools/wasm_tools $(BUILD)/wasm_tools
 	@cmake --preset wasm >/dev/null
 	cmake --build --preset wasm -j $(JOBS) --target kinemend_module
+
+web-app: wasm ## kinemend.html, the page of `view` in one file that needs no program: build/wasm/wasm/kinemend.html
+	$(need) page
+	@cmake --preset wasm -DKINEMEND_WEB=ON >/dev/null
+	cmake --build --preset wasm -j $(JOBS) --target kinemend_app
 
 wasm-test: build wasm ## the module in Node writes the same bytes as the program on twenty takes
 	tools/compare_programs $(BUILD)/$(PRESET)/cli/kinemend tools/wasm_program

@@ -3,8 +3,7 @@
 
 #include <zlib.h>
 
-#include <bit>
-
+#include "base/bits.hpp"
 #include "io/fbx/fbx_words.hpp"
 
 namespace kinemend {
@@ -29,7 +28,7 @@ std::string words_of(std::span<const Number> values) {
     if constexpr (sizeof(Number) == 8) {
       put_fbx_word(place, static_cast<std::uint64_t>(values[i]), false);
     } else {
-      put_fbx_word(place, std::bit_cast<std::uint32_t>(values[i]), false);
+      put_fbx_word(place, bits_as<std::uint32_t>(values[i]), false);
     }
   }
   return content;
@@ -95,7 +94,7 @@ FbxBuilder& FbxBuilder::id(std::int64_t value) {
 
 FbxBuilder& FbxBuilder::number(double value) {
   put('D', {});
-  append(std::bit_cast<std::uint64_t>(value));
+  append(bits_as<std::uint64_t>(value));
   return *this;
 }
 
