@@ -20,7 +20,7 @@ need = @tools/install_packages packages.txt
 WINDOWS := $(BUILD)/windows/cli/kinemend.exe
 WINE ?= /usr/lib/wine/wine64
 
-.PHONY: help setup build windows windows-test libcxx wasm wasm-test web-app demo deb deb-test install-test test test-all asan asan-build asan-test lint format page bench bench-quick \
+.PHONY: help setup build windows windows-test libcxx wasm wasm-test web-app npm-package demo deb deb-test install-test test test-all asan asan-build asan-test lint format page bench bench-quick \
   papers papers-quick pictures fuzz soak nightly clean FORCE
 
 help: ## this list
@@ -85,8 +85,19 @@ web-app: wasm ## kinemend.html, the page of `view` in one file that needs no pro
 	@cmake --preset wasm -DKINEMEND_WEB=ON >/dev/null
 	cmake --build --preset wasm -j $(JOBS) --target kinemend_app
 
-wasm-test: build wasm ## the module in Node writes the same bytes as the program on twenty takes
+npm-package: wasm ## the npm package of the module: build/wasm/wasm/npm/kinemend-0.1.0.tgz
+	$(need) page
+	wasm/npm/make_package $(BUILD)/wasm/wasm $(BUILD)/wasm_tools/zlib
+
+wasm-test: build web-app npm-package ## the module in Node, the app and the package in a browser write the same bytes as the program on twenty takes
+	$(need) page browser
 	tools/compare_programs $(BUILD)/$(PRESET)/cli/kinemend tools/wasm_program
+	rm -rf $(BUILD)/wasm/takes
+	tools/compare_programs $(BUILD)/$(PRESET)/cli/kinemend $(BUILD)/wasm/takes --make-takes
+	cd $(BUILD)/wasm/web && npm ci --ignore-scripts --prefer-offline --silent
+	cd $(BUILD)/wasm/web && node $(CURDIR)/web/test/app_test.mjs $(CURDIR)/$(BUILD)/$(PRESET)/cli/kinemend chromium ../wasm/kinemend.html screenshots \
+	  $(CURDIR)/examples/takes $(CURDIR)/$(BUILD)/wasm/takes
+	cd $(BUILD)/wasm/web && node $(CURDIR)/wasm/npm/package_test.mjs $(CURDIR)/$(BUILD)/$(PRESET)/cli/kinemend chromium ../wasm/npm/kinemend-*.tgz $(CURDIR)/examples/takes
 
 deb: $(BUILD)/$(PRESET)/.packaged ## the Debian packages kinemend and libkinemend-dev, in build/deb
 	tools/make_deb $(BUILD)/$(PRESET)

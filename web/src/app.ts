@@ -2,8 +2,9 @@
 
 import 'uplot/dist/uPlot.min.css';
 import './style.css';
-import { bytesOf } from './codec';
+import { bytesOf, packedBytesOf } from './codec';
 import { button, element } from './dom';
+import { unpackedLzma } from './lzma';
 import { themeButton } from './theme';
 import { startView, type ViewPage } from './view';
 import { WorkerTransport, type NamedBytes } from './worker_transport';
@@ -84,9 +85,10 @@ class App {
 
 async function start(): Promise<void> {
   const worker = await bytesOf('worker');
-  const module = await bytesOf('module');
+  const module = document.getElementById('data-module');
   if (worker === null || module === null) throw new Error('the page is incomplete');
-  new App(await WebAssembly.compile(module), URL.createObjectURL(new Blob([worker], { type: 'text/javascript' })));
+  const code = unpackedLzma(packedBytesOf(module), Number(module.dataset.size));
+  new App(await WebAssembly.compile(code), URL.createObjectURL(new Blob([worker], { type: 'text/javascript' })));
 }
 
 start().catch((error: unknown) => {
