@@ -95,9 +95,9 @@ wasm-test: build web-app npm-package ## the module in Node, the app and the pack
 	rm -rf $(BUILD)/wasm/takes
 	tools/compare_programs $(BUILD)/$(PRESET)/cli/kinemend $(BUILD)/wasm/takes --make-takes
 	cd $(BUILD)/wasm/web && npm ci --ignore-scripts --prefer-offline --silent
-	cd $(BUILD)/wasm/web && node $(CURDIR)/web/test/app_test.mjs $(CURDIR)/$(BUILD)/$(PRESET)/cli/kinemend chromium ../wasm/kinemend.html screenshots \
+	cd $(BUILD)/wasm/web && node $(CURDIR)/web/test/app_test.mjs $(CURDIR)/$(BUILD)/$(PRESET)/cli/kinemend $$(command -v chromium) ../wasm/kinemend.html screenshots \
 	  $(CURDIR)/examples/takes $(CURDIR)/$(BUILD)/wasm/takes
-	cd $(BUILD)/wasm/web && node $(CURDIR)/wasm/npm/package_test.mjs $(CURDIR)/$(BUILD)/$(PRESET)/cli/kinemend chromium ../wasm/npm/kinemend-*.tgz $(CURDIR)/examples/takes
+	cd $(BUILD)/wasm/web && node $(CURDIR)/wasm/npm/package_test.mjs $(CURDIR)/$(BUILD)/$(PRESET)/cli/kinemend $$(command -v chromium) ../wasm/npm/kinemend-*.tgz $(CURDIR)/examples/takes
 
 deb: $(BUILD)/$(PRESET)/.packaged ## the Debian packages kinemend and libkinemend-dev, in build/deb
 	tools/make_deb $(BUILD)/$(PRESET)
