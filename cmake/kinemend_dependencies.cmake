@@ -32,16 +32,20 @@ endforeach()
 if(EMSCRIPTEN)
   # Eigen adds in the order of x86 there, so that it writes the same bytes. Assembler of x86, which only hints at registers or stands in for
   # intrinsics that old versions of GCC get wrong, is taken out of a copy.
-  file(REMOVE ${foreign_headers}/Eigen)
-  file(COPY ${KINEMEND_HEADERS}/eigen3/Eigen DESTINATION ${foreign_headers})
-  foreach(header arch/SSE/PacketMath.h products/GeneralBlockPanelKernel.h)
-    set(copy ${foreign_headers}/Eigen/src/Core/${header})
-    file(READ ${copy} text)
+  if(IS_SYMLINK ${foreign_headers}/Eigen)
+    file(REMOVE ${foreign_headers}/Eigen)
+  endif()
+  file(COPY ${KINEMEND_HEADERS}/eigen3/Eigen DESTINATION ${foreign_headers} PATTERN PacketMath.h EXCLUDE PATTERN GeneralBlockPanelKernel.h EXCLUDE)
+  file(GLOB_RECURSE kernels RELATIVE ${KINEMEND_HEADERS}/eigen3/Eigen ${KINEMEND_HEADERS}/eigen3/Eigen/PacketMath.h
+    ${KINEMEND_HEADERS}/eigen3/Eigen/GeneralBlockPanelKernel.h)
+  foreach(header ${kernels})
+    file(READ ${KINEMEND_HEADERS}/eigen3/Eigen/${header} text)
     string(REPLACE "#if EIGEN_COMP_GNUC && EIGEN_COMP_GNUC < 63" "#if 0" text "${text}")
     string(REGEX REPLACE "__asm__ +\\([^\n]*\\+x,m[^\n]*\\);" "" text "${text}")
-    file(WRITE ${copy} "${text}")
+    # Written only where it differs, so that nothing is compiled again.
+    file(GENERATE OUTPUT ${foreign_headers}/Eigen/${header} CONTENT "${text}")
   endforeach()
-  file(WRITE ${foreign_headers}/mmintrin.h "// Eigen includes this header of x86 and uses nothing of it.\n")
+  file(GENERATE OUTPUT ${foreign_headers}/mmintrin.h CONTENT "// Eigen includes this header of x86 and uses nothing of it.\n")
 endif()
 foreach(target fmt::fmt FastFloat::fast_float Eigen3::Eigen Spectra::Spectra nlohmann_json::nlohmann_json CLI11::CLI11
     tomlplusplus::tomlplusplus)

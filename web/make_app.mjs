@@ -3,11 +3,12 @@
 import {execFileSync} from 'node:child_process';
 import {createHash} from 'node:crypto';
 import {readFileSync, statSync, writeFileSync} from 'node:fs';
-import {dirname, join} from 'node:path';
+import {dirname, join, resolve} from 'node:path';
 import {fileURLToPath} from 'node:url';
 import {deflateSync} from 'node:zlib';
 
-const [esbuild, packages, module, output] = process.argv.slice(2);
+const [esbuild, packages, moduleFolder, output] = process.argv.slice(2);
+const module = resolve(moduleFolder);
 const source = join(dirname(fileURLToPath(import.meta.url)), 'src');
 const work = dirname(output);
 
