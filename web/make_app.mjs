@@ -15,7 +15,7 @@ const work = dirname(output);
 function bundle(name) {
   const file = join(work, `${name}.js`);
   execFileSync(esbuild, [join(source, `${name}.ts`), '--bundle', '--minify', '--format=iife', '--target=es2021', '--charset=ascii', '--legal-comments=inline',
-    '--log-level=error', '--define:import.meta.url=""', '--external:fs', '--external:path', '--external:module', '--external:url', '--external:fs/promises',
+    '--log-level=error', '--define:import.meta.url="file:///"', '--external:fs', '--external:path', '--external:module', '--external:url', '--external:fs/promises',
     `--alias:kinemend=${join(module, 'kinemend.mjs')}`, `--outfile=${file}`], {env: {...process.env, NODE_PATH: packages}, stdio: 'inherit'});
   return readFileSync(file);
 }
