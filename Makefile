@@ -20,7 +20,7 @@ need = @tools/install_packages packages.txt
 WINDOWS := $(BUILD)/windows/cli/kinemend.exe
 WINE ?= /usr/lib/wine/wine64
 
-.PHONY: help setup build windows windows-test libcxx wasm wasm-test demo deb deb-test install-test cluster-test test test-all asan asan-build asan-test lint format page bench bench-quick blender-addon blender-test blender-pictures \
+.PHONY: help setup build windows windows-test libcxx wasm wasm-test demo deb deb-test install-test cluster-test test test-all asan asan-build asan-test lint format page bench bench-quick blender-addon blender-test blender-pictures web-app npm-package \
   papers papers-quick pictures fuzz soak nightly clean FORCE
 
 help: ## this list
@@ -74,14 +74,30 @@ libcxx: ## compile the library with Clang and libc++ as on macOS, with the threa
 	cmake --build --preset libcxx -j $(JOBS)
 	ctest --preset libcxx -j $(JOBS)
 
-wasm: export NODE_PATH := /usr/share/nodejs
 wasm: ## the module for JavaScript by Emscripten: build/wasm/wasm/kinemend.mjs and kinemend_module.wasm
 	$(need) core wasm
+	tools/wasm_tools $(BUILD)/wasm_tools
 	@cmake --preset wasm >/dev/null
 	cmake --build --preset wasm -j $(JOBS) --target kinemend_module
 
-wasm-test: build wasm ## the module in Node writes the same bytes as the program on twenty takes
+web-app: wasm ## kinemend.html, the page of `view` in one file that needs no program: build/wasm/wasm/kinemend.html
+	$(need) page
+	@cmake --preset wasm -DKINEMEND_WEB=ON >/dev/null
+	cmake --build --preset wasm -j $(JOBS) --target kinemend_app
+
+npm-package: wasm ## the npm package of the module: build/wasm/wasm/npm/kinemend-0.1.0.tgz
+	$(need) page
+	wasm/npm/make_package $(BUILD)/wasm/wasm $(BUILD)/wasm_tools/zlib
+
+wasm-test: build web-app npm-package ## the module in Node, the app and the package in a browser write the same bytes as the program on twenty takes
+	$(need) page browser
 	tools/compare_programs $(BUILD)/$(PRESET)/cli/kinemend tools/wasm_program
+	rm -rf $(BUILD)/wasm/takes
+	tools/compare_programs $(BUILD)/$(PRESET)/cli/kinemend $(BUILD)/wasm/takes --make-takes
+	cd $(BUILD)/wasm/web && npm ci --ignore-scripts --prefer-offline --silent
+	cd $(BUILD)/wasm/web && node $(CURDIR)/web/test/app_test.mjs $(CURDIR)/$(BUILD)/$(PRESET)/cli/kinemend $$(command -v chromium) ../wasm/kinemend.html screenshots \
+	  $(CURDIR)/examples/takes $(CURDIR)/$(BUILD)/wasm/takes
+	cd $(BUILD)/wasm/web && node $(CURDIR)/wasm/npm/package_test.mjs $(CURDIR)/$(BUILD)/$(PRESET)/cli/kinemend $$(command -v chromium) ../wasm/npm/kinemend-*.tgz $(CURDIR)/examples/takes
 
 blender-addon: ## the Blender add-on: build/blender/kinemend_blender-0.1.0.zip
 	@tools/make_blender_addon

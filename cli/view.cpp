@@ -20,13 +20,6 @@ namespace kinemend::cli {
 
 namespace {
 
-/// walk.bvh to walk.contacts for the ending "contacts".
-std::string beside(const std::string& input, std::string_view ending) {
-  std::filesystem::path path(input);
-  path.replace_filename(fmt::format("{}.{}", path.stem().string(), ending));
-  return path.string();
-}
-
 /// The page runs other commands on the file, whose words begin with its name: one that begins with
 /// a dash must not be read as an option.
 std::string named_as_file(const std::string& input) {
@@ -36,20 +29,20 @@ std::string named_as_file(const std::string& input) {
 }
 
 ViewFiles files_of(const Arguments& arguments) {
-  ViewFiles files;
-  files.input = named_as_file(arguments.positionals[0]);
+  const std::string from = arguments.text("from");
+  ViewFiles files = view_files_beside(named_as_file(arguments.positionals[0]), from);
   if (arguments.positionals.size() > 1) files.other = named_as_file(arguments.positionals[1]);
   check_take_ending(arguments.text("output"));
   const auto given = [&](const char* flag, const std::string& otherwise) {
     const std::string text = arguments.text(flag);
     return text.empty() ? otherwise : text;
   };
-  files.cleaned = given("output", output_beside(files.input, "clean", arguments.text("from")));
-  files.filled = given("output", output_beside(files.input, "filled", arguments.text("from")));
-  files.contacts = given("contacts", beside(files.input, "contacts"));
-  files.gaps = given("gaps", beside(files.input, "gaps.csv"));
+  files.cleaned = given("output", files.cleaned);
+  files.filled = given("output", files.filled);
+  files.contacts = given("contacts", files.contacts);
+  files.gaps = given("gaps", files.gaps);
   files.with_gaps = arguments.given("gaps");
-  files.plan = given("plan", beside(files.input, "plan.csv"));
+  files.plan = given("plan", files.plan);
   // One file where --output is given.
   for (const std::string& output : std::set<std::string>{files.cleaned, files.filled}) {
     RunFiles()

@@ -210,7 +210,25 @@ Json json_of(const GapCurves& curves) {
 constexpr const char* html = "text/html; charset=utf-8";
 constexpr const char* plain = "text/plain; charset=utf-8";
 
+/// walk.bvh to walk.contacts for the ending "contacts".
+std::string beside(const std::string& input, std::string_view ending) {
+  std::filesystem::path path(input);
+  path.replace_filename(fmt::format("{}.{}", path.stem().string(), ending));
+  return path.string();
+}
+
 }  // namespace
+
+ViewFiles view_files_beside(const std::string& input, const std::string& from) {
+  ViewFiles files;
+  files.input = input;
+  files.cleaned = output_beside(input, "clean", from);
+  files.filled = output_beside(input, "filled", from);
+  files.contacts = beside(input, "contacts");
+  files.plan = beside(input, "plan.csv");
+  files.gaps = beside(input, "gaps.csv");
+  return files;
+}
 
 ViewReply ViewSession::answer(std::string_view method, std::string_view action,
                               const std::string& body) {
@@ -243,10 +261,11 @@ ViewReply ViewSession::act(std::string_view action, const ViewAsked& asked) {
   return {200, "application/json", json_text(Json::object())};
 }
 
+std::string ViewSession::session() const { return json_text(session_json(files_)); }
+
 ViewReply ViewSession::first_page() const {
   const std::string name = std::filesystem::path(files_.input).filename().string();
-  const std::array<std::pair<std::string, std::string>, 1> parts = {
-      {{"view", json_text(session_json(files_))}}};
+  const std::array<std::pair<std::string, std::string>, 1> parts = {{{"view", session()}}};
   return {200, html, served_page(name + ": kinemend view", "reading " + name, parts)};
 }
 
@@ -255,6 +274,7 @@ void ViewSession::tell(const Turn& turn, std::string_view stage, double done) {
   const std::lock_guard lock(telling_);
   stage_ = stage;
   done_ = done;
+  if (told_) told_(stage, done);
 }
 
 ViewReply ViewSession::progress() {

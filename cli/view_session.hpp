@@ -2,6 +2,7 @@
 // uses.
 #pragma once
 
+#include <functional>
 #include <mutex>
 #include <set>
 #include <string>
@@ -31,11 +32,21 @@ struct ViewFiles {
   bool force = false;                ///< replace files that another run has made
 };
 
+/// Those of a take, with the default names beside it. `from`: the format that was asked for, or
+/// empty.
+ViewFiles view_files_beside(const std::string& input, const std::string& from = "");
+
 using ViewReply = HttpReply;
+/// Told what a run is doing and which share (0..1) of that is done, from the run's thread.
+using ViewProgress = std::function<void(std::string_view stage, double done)>;
 
 class ViewSession {
  public:
-  explicit ViewSession(ViewFiles files) : files_(std::move(files)) {}
+  explicit ViewSession(ViewFiles files, ViewProgress told = {})
+      : files_(std::move(files)), told_(std::move(told)) {}
+
+  /// What the page is made from before there is a result (web/src/served.ts): JSON.
+  std::string session() const;
 
   /// Answers one request. `action` is the end of its address:
   /// - "": the page, still without a take;
@@ -81,6 +92,7 @@ class ViewSession {
                   Json& written);
 
   ViewFiles files_;
+  ViewProgress told_;
   ViewTurns turns_;
   std::mutex work_;                // one run at a time
   std::set<std::string> written_;  // by this session, which may replace them

@@ -29,6 +29,24 @@ foreach(name fmt fast_float hwy Spectra nlohmann CLI toml++ xxhash.h eigen3/Eige
     file(CREATE_LINK ${KINEMEND_HEADERS}/${name} ${foreign_headers}/${last} SYMBOLIC)
   endif()
 endforeach()
+if(EMSCRIPTEN)
+  # Eigen adds in the order of x86 there, so that it writes the same bytes. Assembler of x86, which only hints at registers or stands in for
+  # intrinsics that old versions of GCC get wrong, is taken out of a copy.
+  if(IS_SYMLINK ${foreign_headers}/Eigen)
+    file(REMOVE ${foreign_headers}/Eigen)
+  endif()
+  file(COPY ${KINEMEND_HEADERS}/eigen3/Eigen DESTINATION ${foreign_headers} PATTERN PacketMath.h EXCLUDE PATTERN GeneralBlockPanelKernel.h EXCLUDE)
+  file(GLOB_RECURSE kernels RELATIVE ${KINEMEND_HEADERS}/eigen3/Eigen ${KINEMEND_HEADERS}/eigen3/Eigen/PacketMath.h
+    ${KINEMEND_HEADERS}/eigen3/Eigen/GeneralBlockPanelKernel.h)
+  foreach(header ${kernels})
+    file(READ ${KINEMEND_HEADERS}/eigen3/Eigen/${header} text)
+    string(REPLACE "#if EIGEN_COMP_GNUC && EIGEN_COMP_GNUC < 63" "#if 0" text "${text}")
+    string(REGEX REPLACE "__asm__ +\\([^\n]*\\+x,m[^\n]*\\);" "" text "${text}")
+    # Written only where it differs, so that nothing is compiled again.
+    file(GENERATE OUTPUT ${foreign_headers}/Eigen/${header} CONTENT "${text}")
+  endforeach()
+  file(GENERATE OUTPUT ${foreign_headers}/mmintrin.h CONTENT "// Eigen includes this header of x86 and uses nothing of it.\n")
+endif()
 foreach(target fmt::fmt FastFloat::fast_float Eigen3::Eigen Spectra::Spectra nlohmann_json::nlohmann_json CLI11::CLI11
     tomlplusplus::tomlplusplus)
   add_library(${target} INTERFACE IMPORTED GLOBAL)
@@ -44,9 +62,20 @@ endif()
 add_library(hwy::hwy ALIAS kinemend_highway)
 
 if(EMSCRIPTEN)
-  # Neither threads nor pictures of a page: what the module answers with is JSON.
+  # Without threads. Debian has no zlib for WebAssembly; its source is the same, and so are the bytes that it packs.
   add_library(Threads::Threads INTERFACE IMPORTED GLOBAL)
-  add_library(ZLIB::ZLIB INTERFACE IMPORTED GLOBAL)
+  set(KINEMEND_ZLIB ${PROJECT_SOURCE_DIR}/build/wasm_tools/zlib CACHE PATH "Folder of zlib's source")
+  if(NOT EXISTS ${KINEMEND_ZLIB}/zlib.h)
+    message(FATAL_ERROR "${KINEMEND_ZLIB}/zlib.h is missing: run tools/wasm_tools build/wasm_tools")
+  endif()
+  enable_language(C)
+  set(zlib_sources adler32 compress crc32 deflate inffast inflate inftrees trees uncompr zutil)
+  list(TRANSFORM zlib_sources PREPEND ${KINEMEND_ZLIB}/)
+  list(TRANSFORM zlib_sources APPEND .c)
+  add_library(kinemend_zlib STATIC ${zlib_sources})
+  set_target_properties(kinemend_zlib PROPERTIES UNITY_BUILD OFF)
+  target_include_directories(kinemend_zlib SYSTEM PUBLIC ${KINEMEND_ZLIB})
+  add_library(ZLIB::ZLIB ALIAS kinemend_zlib)
 elseif(KINEMEND_DEVELOPER)
   # Tests need GoogleTest compiled for the same standard library.
   find_package(Threads REQUIRED)

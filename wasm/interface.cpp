@@ -9,25 +9,54 @@
 #include <string_view>
 #include <vector>
 
+#include "answer.hpp"
 #include "captured_streams.hpp"
 #include "kinemend/io.hpp"
 #include "run_words.hpp"
+
+namespace kinemend::wasm {
+
+Answer answer;
+
+std::string plain_name(const char* name) {
+  const std::string last = std::filesystem::path(name).filename().string();
+  return last.empty() || last == "." || last == ".." ? "take" : last;
+}
+
+void put(const std::filesystem::path& path, const std::uint8_t* bytes, std::size_t size) {
+  std::ofstream file(path, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes), static_cast<std::streamsize>(size));
+}
+
+void make_folders() {
+  for (const auto& folder : {input_folder, output_folder})
+    std::filesystem::create_directories(folder);
+  std::filesystem::current_path(input_folder);
+}
+
+void begin_answer() {
+  answer = {};
+  cli::platform::captured = {};
+}
+
+void end_answer() {
+  answer.out += cli::platform::captured.out;
+  answer.err += cli::platform::captured.err;
+  cli::platform::captured = {};
+}
+
+void fail_answer(const char* words) {
+  answer.code = usage_error;
+  cli::platform::captured.err += std::string("kinemend: ") + words + "\n";
+}
+
+}  // namespace kinemend::wasm
 
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-constexpr int usage_error = 2;  // as of the program
-
-// What the last call wrote.
-struct Answer {
-  int code = 0;
-  std::string bytes, out, err;
-};
-Answer answer;
-
-const fs::path input_folder = "/in", output_folder = "/out";
+using namespace kinemend::wasm;
 
 std::string dashed(std::string name) {
   for (char& c : name) c = c == '_' ? '-' : c;
@@ -53,22 +82,6 @@ std::vector<std::string> words_of(std::string_view options) {
   if (!json.is_object()) throw Json::other_error::create(501, "options: an object", nullptr);
   for (const auto& [name, value] : json.items()) add_words(name, value, words);
   return words;
-}
-
-// The last part of a name, so that it cannot leave its folder.
-std::string plain_name(const char* name) {
-  const std::string last = fs::path(name).filename().string();
-  return last.empty() || last == "." || last == ".." ? "take" : last;
-}
-
-void put(const fs::path& path, const std::uint8_t* bytes, std::size_t size) {
-  std::ofstream file(path, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes), static_cast<std::streamsize>(size));
-}
-
-void make_folders() {
-  for (const fs::path& folder : {input_folder, output_folder}) fs::create_directories(folder);
-  fs::current_path(input_folder);
 }
 
 void run(const std::string& command, const std::string& name, const std::string& output,
@@ -100,26 +113,22 @@ void kinemend_put_file(const char* name, const std::uint8_t* bytes, std::size_t 
 
 void kinemend_remove_file(const char* name) { fs::remove(input_folder / plain_name(name)); }
 
+/// Gives a file beside the takes as bytes of the answer. Returns 0, or 2 where it is missing.
+int kinemend_read_file(const char* name) {
+  return answered([&] { answer.bytes = kinemend::read_file(input_folder / plain_name(name)); });
+}
+
 /// Runs a command ("clean", "fill", "check", "info", "convert") on a take. `output`: the name of
 /// what it writes, whose ending is the format; empty: it writes nothing. `options`: a JSON object
 /// with the names of the command line. Returns the program's exit code.
 int kinemend_run(const char* command, const char* name, const std::uint8_t* bytes, std::size_t size,
                  const char* output, const char* options) {
-  answer = {};
-  kinemend::cli::platform::captured = {};
-  try {
-    make_folders();
+  return answered([&] {
     const std::string input = plain_name(name);
     put(input_folder / input, bytes, size);
     run(command, input, *output != '\0' ? plain_name(output) : "", options);
     fs::remove(input_folder / input);
-  } catch (const std::exception& error) {
-    answer.code = usage_error;
-    kinemend::cli::platform::captured.err += std::string("kinemend: ") + error.what() + "\n";
-  }
-  answer.out = std::move(kinemend::cli::platform::captured.out);
-  answer.err = std::move(kinemend::cli::platform::captured.err);
-  return answer.code;
+  });
 }
 
 const char* kinemend_bytes() { return answer.bytes.data(); }

@@ -52,9 +52,39 @@ export async function load(settings = {}) {
     places.forEach((place) => module._free(place));
   }
 
+  const withText = (words, call) => {
+    const places = words.map(text);
+    try {
+      return call(...places);
+    } finally {
+      places.forEach((place) => module._free(place));
+    }
+  };
+
+  /** The bytes of a file that `putFile` keeps, or that the page has saved. */
+  function readFile(name) {
+    if (withText([name], module._kinemend_read_file) !== 0) throw new Error(decoder.decode(answer('messages')).trim());
+    return answer('bytes');
+  }
+
+  /** The page of `kinemend view` without a server: a session on a take that `putFile` keeps answers its requests (cli/view_session.hpp). */
+  const view = {
+    open(name) {
+      const code = withText([name], module._kinemend_view_open);
+      return {code, report: decoder.decode(answer('report')), messages: decoder.decode(answer('messages'))};
+    },
+    ask(action, body) {
+      const status = withText([action, body], module._kinemend_view_ask);
+      return {status, body: decoder.decode(answer('report'))};
+    },
+  };
+
   return {
     run,
     putFile,
+    readFile,
+    removeFile: (name) => withText([name], module._kinemend_remove_file),
+    view,
     clean: (bytes, name, options = {}) => run('clean', bytes, name, options, name),
     fill: (bytes, name, options = {}) => run('fill', bytes, name, options, name),
     check: (bytes, name, options = {}) => run('check', bytes, name, options),

@@ -1,13 +1,19 @@
 // Takes apart what src/report/page/codec.cpp put together.
 
+/** The bytes of an element of the page as they were packed; the element is empty afterwards. */
+export function packedBytesOf(holder: HTMLElement): Uint8Array {
+  const text = atob(holder.textContent ?? '');
+  holder.textContent = '';
+  const packed = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) packed[i] = text.charCodeAt(i);
+  return packed;
+}
+
 /** The bytes of an element of the page; null where it is not there. */
 export async function bytesOf(name: string): Promise<Uint8Array | null> {
   const holder = document.getElementById(`data-${name}`);
   if (holder === null) return null;
-  const text = atob(holder.textContent ?? '');
-  holder.textContent = '';
-  const deflated = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; ++i) deflated[i] = text.charCodeAt(i);
+  const deflated = packedBytesOf(holder);
   const stream = new Blob([deflated]).stream().pipeThrough(new DecompressionStream('deflate'));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }

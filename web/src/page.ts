@@ -16,7 +16,10 @@ async function start(): Promise<void> {
     const batch = await jsonOf<Batch>('batch');
     if (batch !== null) return showBatch(page, batch);
     const view = await jsonOf<Session>('view');
-    if (view !== null) return startView(page, view);
+    if (view !== null) {
+      startView(page, view);
+      return;
+    }
     const report = await jsonOf<ReportDocument>('report');
     const take = await jsonOf<TakeData>('take');
     if (report === null || take === null) throw new Error('the page contains no report');

@@ -1,6 +1,7 @@
 // Asks where to save, and before an existing file is replaced.
 
 import { button, element } from './dom';
+import type { ViewTransport } from './view_transport';
 
 /** What the server says of a request to save. */
 export interface Saved {
@@ -19,8 +20,9 @@ export class SaveDialog {
   private readonly accept = element('button', { type: 'submit', 'data-action': 'accept' }, 'Save');
   private mayReplace = false;
 
-  /** `ask` sends the request and tells what came of it; `done` is told of success. */
-  constructor(private readonly ask: (file: string, replace: boolean) => Promise<Saved>, private readonly done: (saved: Saved) => void) {
+  /** `ask` sends the request and tells what came of it; `done` is told of success; `transport` says where files go. */
+  constructor(private readonly ask: (file: string, replace: boolean) => Promise<Saved>, private readonly done: (saved: Saved) => void,
+    private readonly transport: ViewTransport) {
     const form = element('form', {}, element('h2', { id: 'save-title' }, 'Save as'),
       element('label', { class: 'field' }, element('span', {}, 'file name'), this.name), this.place, this.words,
       element('div', { class: 'controls' }, this.accept, button('Cancel', 'save nothing', () => this.element.close())));
@@ -35,7 +37,7 @@ export class SaveDialog {
   /** `proposed`: a path; its folder is kept. */
   open(proposed: string): void {
     const [, folder, file] = /^(.*[\\/])?([^\\/]*)$/.exec(proposed) ?? [];
-    this.place.textContent = folder === undefined || folder === './' ? 'In the folder in which kinemend view was started.' : `In the folder ${folder}`;
+    this.place.textContent = this.transport.placeOf(folder);
     this.name.value = file ?? '';
     this.forget();
     this.element.showModal();
@@ -65,7 +67,7 @@ export class SaveDialog {
         this.done(saved);
       }
     } catch (error) {
-      this.words.textContent = error instanceof TypeError ? 'kinemend view has ended' : String(error);
+      this.words.textContent = this.transport.inWords(error);
     } finally {
       this.accept.disabled = false;
     }

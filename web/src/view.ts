@@ -12,6 +12,7 @@ import { SaveDialog, type Saved } from './save_dialog';
 import type { GapCurves, GapPlan, Session } from './served';
 import { showTake, type Shown } from './take_page';
 import { themeButton } from './theme';
+import { serverTransport, type ViewTransport } from './view_transport';
 
 /** What a run is asked for, as the server reads it. */
 interface Asked {
@@ -27,17 +28,10 @@ const restMs = 150;
 /** How often a run that takes long says how far it is. */
 const tellMs = 600;
 
-/** What this tab calls itself: a run stops the one before it of the same tab. */
-const tab = Array.from(crypto.getRandomValues(new Uint32Array(4)), (word) => word.toString(16)).join('-');
-
-function ask(action: string, asked: object = {}): Promise<Response> {
-  return fetch(action, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ tab, ...asked }) });
-}
-
 /** Says what the server is doing, until the function that it returns is called. */
-function tellProgress(say: (words: string) => void): () => void {
+function tellProgress(transport: ViewTransport, say: (words: string) => void): () => void {
   const timer = window.setInterval(() => {
-    void ask('progress').then((reply) => reply.json()).then(({ stage, done }: { stage: string; done: number }) => {
+    void transport.ask('progress').then((reply) => reply.json()).then(({ stage, done }: { stage: string; done: number }) => {
       if (!ended && stage !== '') say(done > 0 ? `${stage}, ${Math.round(100 * done)} %` : `${stage}\u2026`);
     }).catch(() => undefined);
   }, tellMs);
@@ -46,10 +40,6 @@ function tellProgress(say: (words: string) => void): () => void {
     ended = true;
     window.clearInterval(timer);
   };
-}
-
-function inWords(error: unknown): string {
-  return error instanceof TypeError ? 'kinemend view has ended' : error instanceof Error ? error.message : String(error);
 }
 
 /** The report and the motion in the server's answer. */
@@ -91,7 +81,8 @@ class Controls {
   private readonly presets = choice('preset', [['', 'no preset']], '', (name) => this.choosePreset(name));
   private readonly about = element('p', { class: 'empty' });
   private readonly byPlan = element('p', { class: 'empty' }, 'The gap plan below says how each gap is filled.');
-  private readonly dialog = new SaveDialog((file, replace) => this.save(file, replace), (saved) => this.afterSaving(saved));
+  private readonly dialog: SaveDialog;
+  private readonly stopping = button('Stop', 'end this run', () => this.stop());
   /** Where the take was last saved, by command. */
   private readonly names = { clean: '', fill: '' };
   private readonly saved = element('p', { class: 'saved', role: 'status' });
@@ -105,13 +96,14 @@ class Controls {
   private shown: Shown | null = null;
   private readonly isJoints: boolean;
 
-  constructor(private readonly page: HTMLElement, private readonly session: Session) {
+  constructor(private readonly page: HTMLElement, private readonly session: Session, private readonly transport: ViewTransport) {
+    this.dialog = new SaveDialog((file, replace) => this.save(file, replace), (saved) => this.afterSaving(saved), transport);
     this.isJoints = session.kind === 'joints';
     const again = (): void => this.later();
     const sight = (): Sight | null => this.shown;
-    this.contacts = this.isJoints ? new ContactEditor(sight, () => ask('contacts'), again) : null;
-    this.missing = new MissingEditor(sight, () => ask('gaps'), () => this.afterMarking(), this.isJoints ? 'joint' : 'marker');
-    if (session.with_gaps) void this.missing.start(ask('gaps'));
+    this.contacts = this.isJoints ? new ContactEditor(sight, () => transport.ask('contacts'), again) : null;
+    this.missing = new MissingEditor(sight, () => transport.ask('gaps'), () => this.afterMarking(), this.isJoints ? 'joint' : 'marker');
+    if (session.with_gaps) void this.missing.start(transport.ask('gaps'));
     this.gaps = new GapEditor(session, this.isJoints, (track, frame) => this.goTo(track, frame), again, (plan, row) => this.curves(plan, row));
     const commands = choice('what to do', [['clean', 'Clean'], ['fill', 'Fill gaps only']], 'clean', (value) => {
       this.command = value as 'clean' | 'fill';
@@ -126,7 +118,9 @@ class Controls {
     this.presets.append(...session.presets.map(({ name, summary }) => element('option', { value: name, title: summary }, name)));
     const save = button('Save as\u2026', 'choose a file name and save the take', () => this.dialog.open(this.names[this.command] || (this.command === 'clean' ? session.cleaned : session.filled)));
     save.dataset.action = 'save';
-    this.element.append(element('div', { class: 'head' }, element('h2', {}, 'Controls'), commands, this.presets, save, element('span', { class: 'gap' }), this.status), this.about,
+    this.stopping.dataset.action = 'stop';
+    this.stopping.hidden = true;
+    this.element.append(element('div', { class: 'head' }, element('h2', {}, 'Controls'), commands, this.presets, save, element('span', { class: 'gap' }), this.status, this.stopping), this.about,
       this.rows.clean, this.rows.fill, this.contactBox, element('details', { class: 'editor' }, element('summary', {}, 'Missing samples'), this.missing.element), this.gapBox, this.line, this.saved, this.dialog.element);
     this.addClean();
     this.addFill();
@@ -275,7 +269,7 @@ class Controls {
 
   private async curves(plan: string, row: number): Promise<GapCurves | null> {
     const { gaps } = this.asked();
-    const reply = await ask('curves', { command: 'fill', flags: {}, plan, row, gaps });
+    const reply = await this.transport.ask('curves', { command: 'fill', flags: {}, plan, row, gaps });
     if (reply.status === 409) return null;
     const told = await reply.json();
     if (!reply.ok) throw new Error(told.error);
@@ -311,11 +305,12 @@ class Controls {
 
   private async run(): Promise<void> {
     const turn = ++this.turn;
+    this.stopping.hidden = false;
     const begun = performance.now();
     const since = (from: number): string => ((performance.now() - from) / 1000).toFixed(2);
-    const ended = tellProgress((words) => { if (turn === this.turn) this.status.textContent = words; });
+    const ended = tellProgress(this.transport, (words) => { if (turn === this.turn) this.status.textContent = words; });
     try {
-      const reply = await ask('run', this.asked());
+      const reply = await this.transport.ask('run', this.asked());
       if (turn !== this.turn) return;
       if (!reply.ok) return this.fail((await reply.json()).error);
       const html = await reply.text();
@@ -330,10 +325,28 @@ class Controls {
       this.page.dataset.runs = String(turn);
       this.status.title = `shown after ${since(begun)} s, ${answered} s of them in the program`;
     } catch (error) {
-      if (turn === this.turn) this.fail(inWords(error));
+      if (turn === this.turn) this.fail(this.transport.inWords(error));
     } finally {
       ended();
+      if (turn === this.turn) this.stopping.hidden = true;
     }
+  }
+
+  private stop(): void {
+    window.clearTimeout(this.timer);
+    ++this.turn;
+    this.transport.stop();
+    this.stopping.hidden = true;
+    this.status.textContent = 'stopped: the page shows the result before';
+    this.page.dataset.ready = 'stopped';
+    if (this.shown === null) this.first.replaceChildren(element('p', { class: 'empty' }, 'The run was stopped. Change a control to run again.'));
+  }
+
+  /** Another take replaces this one. */
+  dispose(): void {
+    window.clearTimeout(this.timer);
+    ++this.turn;
+    this.shown?.dispose();
   }
 
   private async take(report: ReportDocument, take: TakeData): Promise<void> {
@@ -359,7 +372,7 @@ class Controls {
     if (this.refused.size > 0 && this.sayRefused()) return { error: 'A value of the controls is not allowed: correct it first.' };
     this.saved.textContent = 'saving\u2026';
     try {
-      const saved = await (await ask('save', { ...this.asked(), file, replace })).json() as Saved;
+      const saved = await (await this.transport.ask('save', { ...this.asked(), file, replace })).json() as Saved;
       if (saved.written === undefined) this.saved.textContent = '';
       return saved;
     } catch (error) {
@@ -380,24 +393,31 @@ class Controls {
 async function showComparison(page: HTMLElement, session: Session): Promise<void> {
   const status = element('p', { class: 'empty', role: 'status' }, 'reading\u2026');
   emptyPage(page, session, element('section', {}, status));
-  const ended = tellProgress((words) => { status.textContent = words; });
+  const ended = tellProgress(serverTransport, (words) => { status.textContent = words; });
   try {
-    const reply = await ask('run');
+    const reply = await serverTransport.ask('run');
     if (!reply.ok) throw new Error((await reply.json()).error);
     const [report, take] = await dataOf(await reply.text());
     ended();
     await showTake(page, report, take);
   } catch (error) {
-    status.textContent = inWords(error);
+    status.textContent = serverTransport.inWords(error);
     page.dataset.ready = 'error';
   } finally {
     ended();
   }
 }
 
-export function startView(page: HTMLElement, session: Session): void {
-  // The program stops the run of a page that is closed.
-  window.addEventListener('pagehide', () => navigator.sendBeacon('leave', new Blob([JSON.stringify({ tab })], { type: 'application/json' })));
-  if (session.other !== '') void showComparison(page, session);
-  else new Controls(page, session);
+/** A page with controls. */
+export interface ViewPage {
+  /** Called before another take is shown in its place. */
+  dispose(): void;
+}
+
+export function startView(page: HTMLElement, session: Session, transport: ViewTransport = serverTransport): ViewPage {
+  // A run of a page that is closed is stopped.
+  window.addEventListener('pagehide', () => transport.leave());
+  if (session.other === '') return new Controls(page, session, transport);
+  void showComparison(page, session);
+  return { dispose: () => undefined };
 }

@@ -1,8 +1,7 @@
 // Encodes records, packs long arrays, and ends the file as readers expect it.
 #include "io/fbx/fbx_builder.hpp"
 
-#include <bit>
-
+#include "base/bits.hpp"
 #include "io/fbx/fbx_values.hpp"
 #include "io/fbx/fbx_words.hpp"
 
@@ -28,7 +27,7 @@ std::string words_of(std::span<const Number> values) {
     if constexpr (sizeof(Number) == 8) {
       put_fbx_word(place, static_cast<std::uint64_t>(values[i]), false);
     } else {
-      put_fbx_word(place, std::bit_cast<std::uint32_t>(values[i]), false);
+      put_fbx_word(place, bits_as<std::uint32_t>(values[i]), false);
     }
   }
   return content;
@@ -94,7 +93,7 @@ FbxBuilder& FbxBuilder::id(std::int64_t value) {
 
 FbxBuilder& FbxBuilder::number(double value) {
   put('D', {});
-  append(std::bit_cast<std::uint64_t>(value));
+  append(bits_as<std::uint64_t>(value));
   return *this;
 }
 

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <cmath>
 #include <string>
 #include <string_view>
 
+#include "base/bits.hpp"
 #include "io/fbx/fbx_keys.hpp"
 #include "io/fbx/fbx_values.hpp"
 #include "io/fbx/fbx_words.hpp"
@@ -23,8 +23,8 @@ constexpr std::uint32_t baked_flags = 24836;
 constexpr std::uint32_t default_weights = 0x0D050D05;
 
 bool is_same_float(double a, double b) {
-  return std::bit_cast<std::uint32_t>(static_cast<float>(a)) ==
-         std::bit_cast<std::uint32_t>(static_cast<float>(b));
+  return bits_as<std::uint32_t>(static_cast<float>(a)) ==
+         bits_as<std::uint32_t>(static_cast<float>(b));
 }
 
 std::string float_text(double value) { return fmt::format("{}", static_cast<float>(value)); }
@@ -37,8 +37,8 @@ void append_fbx_word(std::string& raw, Word word, bool big) {
 
 void append_fbx_float(std::string& raw, double value, char type, bool big) {
   const auto rounded = static_cast<float>(value);
-  if (type == 'f') return append_fbx_word(raw, std::bit_cast<std::uint32_t>(rounded), big);
-  append_fbx_word(raw, std::bit_cast<std::uint64_t>(static_cast<double>(rounded)), big);
+  if (type == 'f') return append_fbx_word(raw, bits_as<std::uint32_t>(rounded), big);
+  append_fbx_word(raw, bits_as<std::uint64_t>(static_cast<double>(rounded)), big);
 }
 
 class FbxCurvePatcher {

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
+#include "base/bits.hpp"
 #include "base/quote.hpp"
 #include "io/fbx/fbx_values.hpp"
 #include "io/memory_limit.hpp"
@@ -44,7 +44,7 @@ FbxKeyShape shape_of(std::uint32_t flags, const float* data) {
     shape.bias = std::isfinite(data[2]) ? data[2] : 0;
     return shape;
   }
-  const auto weights = std::bit_cast<std::uint32_t>(data[2]);
+  const auto weights = bits_as<std::uint32_t>(data[2]);
   const auto weight_of = [](std::uint32_t units) {
     return static_cast<float>(std::min(units / weight_unit, 1.0));
   };
@@ -63,9 +63,9 @@ std::vector<float> shape_data(const FbxTree& tree, const FbxRecord& record) {
   std::vector<float> data;
   data.reserve(numbers.size());
   for (const double number : numbers) {
-    data.push_back(is_bits ? std::bit_cast<float>(
-                                 static_cast<std::uint32_t>(static_cast<std::int64_t>(number)))
-                           : static_cast<float>(number));
+    data.push_back(
+        is_bits ? bits_as<float>(static_cast<std::uint32_t>(static_cast<std::int64_t>(number)))
+                : static_cast<float>(number));
   }
   return data;
 }

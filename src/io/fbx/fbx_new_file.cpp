@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/bits.hpp"
 #include "io/fbx/fbx_builder.hpp"
 #include "io/fbx/fbx_rig.hpp"
 #include "kinemend/experimental/convert.hpp"
@@ -396,7 +397,7 @@ class NewFbxWriter {
   std::int64_t write_curve(const std::vector<Vec3>& track, std::size_t axis) {
     // Straight from key to key, with weights of a third (3333 / 9999 twice).
     constexpr std::int32_t linear_flags = 24836;
-    constexpr float third_weights = std::bit_cast<float>(std::uint32_t{0x0D050D05});
+    constexpr float third_weights = bits_as<float>(std::uint32_t{0x0D050D05});
     std::vector<float> values;
     values.reserve(track.size());
     for (const Vec3& value : track) values.push_back(static_cast<float>(component(value, axis)));

@@ -1,10 +1,11 @@
 // Reads and writes numbers in the byte order of a binary FBX file.
 #pragma once
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+
+#include "base/bits.hpp"
 
 namespace kinemend {
 
@@ -29,10 +30,10 @@ void put_fbx_word(char* bytes, Word word, bool big_endian) {
 }
 
 inline float fbx_float(const char* bytes, bool big_endian) {
-  return std::bit_cast<float>(fbx_word<std::uint32_t>(bytes, big_endian));
+  return bits_as<float>(fbx_word<std::uint32_t>(bytes, big_endian));
 }
 inline double fbx_double(const char* bytes, bool big_endian) {
-  return std::bit_cast<double>(fbx_word<std::uint64_t>(bytes, big_endian));
+  return bits_as<double>(fbx_word<std::uint64_t>(bytes, big_endian));
 }
 
 }  // namespace kinemend

@@ -67,7 +67,8 @@ std::string dumped(const Json& json) {
 
 std::string report_page(const Report& report, const Take& before, const Take* after,
                         const PageSettings& settings) {
-  page::check_is_built();
+  // What is served is shown by a page that is open already.
+  if (!settings.is_served) page::check_is_built();
   if (after != nullptr) check_pair(before, *after);
   const auto check = [&] {
     if (settings.check) settings.check();

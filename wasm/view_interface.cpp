@@ -1,0 +1,60 @@
+// The page of `view` without a server: a session on a take in memory answers the same requests.
+#include <emscripten.h>
+
+#include <memory>
+#include <string>
+
+#include "answer.hpp"
+#include "kinemend/io.hpp"
+#include "view_session.hpp"
+
+// Tells the page how far a run is, where it listens.
+EM_JS(void, kinemend_tell, (const char* stage, double done), {
+  if (Module["tell"]) Module["tell"](UTF8ToString(stage), done);
+});
+
+namespace {
+
+using namespace kinemend::wasm;
+
+std::unique_ptr<kinemend::cli::ViewSession> session;
+
+void open(const std::string& name) {
+  kinemend::cli::ViewFiles files = kinemend::cli::view_files_beside(name);
+  files.of_joints = kinemend::read_take(std::filesystem::path(name), {}).take.has_joints();
+  const auto told = [](std::string_view stage, double done) {
+    kinemend_tell(std::string(stage).c_str(), done);
+  };
+  session = std::make_unique<kinemend::cli::ViewSession>(std::move(files), told);
+  answer.out = session->session();
+}
+
+}  // namespace
+
+extern "C" {
+
+/// Begins a session on a take that `kinemend_put_file` has kept; one before it ends. The
+/// skeleton of an AMC file is the ASF file beside it. The report is the session
+/// (web/src/served.ts). Returns the program's exit code.
+int kinemend_view_open(const char* name) {
+  session.reset();
+  return answered([&] { open(plain_name(name)); });
+}
+
+/// Answers a request of the page as the server of `view` does: the report is the body. Returns the
+/// status of HTTP.
+int kinemend_view_ask(const char* action, const char* body) {
+  constexpr int gone = 410;
+  answered([&] {
+    if (!session) {
+      answer.code = gone;
+      return;
+    }
+    const kinemend::cli::ViewReply reply = session->answer("POST", action, body);
+    answer.out = reply.body;
+    answer.code = reply.status;
+  });
+  return answer.code;
+}
+
+}  // extern "C"

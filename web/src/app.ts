@@ -1,0 +1,99 @@
+// The page that needs no program: takes that are dropped on it are read, cleaned and saved by the module in it.
+
+import 'uplot/dist/uPlot.min.css';
+import './style.css';
+import { bytesOf, packedBytesOf } from './codec';
+import { button, element } from './dom';
+import { unpackedLzma } from './lzma';
+import { themeButton } from './theme';
+import { startView, type ViewPage } from './view';
+import { WorkerTransport, type NamedBytes } from './worker_transport';
+
+/** Files that are no takes but belong to one. */
+const beside = /\.(asf|bin|png|jpe?g|contacts)$/i;
+const endings = '.bvh,.amc,.asf,.c3d,.trc,.tsv,.csv,.fbx,.glb,.gltf,.bin';
+
+function download({ name, bytes }: NamedBytes): void {
+  const address = URL.createObjectURL(new Blob([bytes], { type: 'application/octet-stream' }));
+  element('a', { href: address, download: name }).click();
+  window.setTimeout(() => URL.revokeObjectURL(address), 60_000);
+}
+
+class App {
+  private readonly page = document.getElementById('page') as HTMLElement;
+  private readonly choose = element('input', { type: 'file', multiple: '', accept: endings, 'aria-label': 'take to open' });
+  private readonly status = element('span', { role: 'status', class: 'status' });
+  private view: ViewPage | null = null;
+  private transport: WorkerTransport | null = null;
+
+  constructor(private readonly module: WebAssembly.Module, private readonly worker: string) {
+    this.choose.hidden = true;
+    this.choose.addEventListener('change', () => {
+      void this.open([...(this.choose.files ?? [])]);
+      this.choose.value = '';
+    });
+    const open = button('Open\u2026', 'choose a take on this computer', () => this.choose.click());
+    open.dataset.action = 'open';
+    document.getElementById('bar')?.append(element('strong', {}, 'Kinemend'), open, this.choose, element('span', { class: 'empty' }, 'Takes stay on this computer.'), this.status);
+    addEventListener('dragover', (event) => event.preventDefault());
+    addEventListener('drop', (event) => {
+      event.preventDefault();
+      void this.open([...(event.dataTransfer?.files ?? [])]);
+    });
+    this.welcome();
+  }
+
+  private welcome(): void {
+    this.page.replaceChildren(element('header', {}, element('div', {}, element('h1', {}, 'Clean a take')), themeButton(() => undefined)),
+      element('section', { class: 'drop' },
+        element('p', {}, 'Drop a take anywhere on this page, or use Open.'),
+        element('p', { class: 'empty' }, 'BVH, AMC with its ASF, C3D, TRC, TSV, CSV, FBX, GLB, or glTF with its buffers. Drop files that belong together at the same time.'),
+        element('p', { class: 'empty' }, 'This page works without a network. It sends nothing and stores nothing.')));
+    this.page.dataset.ready = 'waiting';
+  }
+
+  private async open(files: File[]): Promise<void> {
+    const take = files.find(({ name }) => !beside.test(name)) ?? files[0];
+    if (take === undefined) return;
+    this.close();
+    this.page.dataset.ready = 'opening';
+    this.status.classList.remove('error');
+    this.status.textContent = `opening ${take.name}\u2026`;
+    try {
+      const named = await Promise.all(files.map(async (file) => ({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) })));
+      const transport = new WorkerTransport(() => new Worker(this.worker), this.module, take.name, named, download);
+      this.transport = transport;
+      const session = await transport.open();
+      if (this.transport !== transport) return;
+      this.status.textContent = '';
+      this.view = startView(this.page, session, transport);
+    } catch (error) {
+      this.welcome();
+      this.status.textContent = error instanceof Error ? error.message : String(error);
+      this.status.classList.add('error');
+      this.page.dataset.ready = 'error';
+    }
+  }
+
+  private close(): void {
+    this.view?.dispose();
+    this.transport?.leave();
+    this.view = null;
+    this.page.replaceChildren();
+  }
+}
+
+async function start(): Promise<void> {
+  const worker = await bytesOf('worker');
+  const module = document.getElementById('data-module');
+  if (worker === null || module === null) throw new Error('the page is incomplete');
+  const code = unpackedLzma(packedBytesOf(module), Number(module.dataset.size));
+  new App(await WebAssembly.compile(code), URL.createObjectURL(new Blob([worker], { type: 'text/javascript' })));
+}
+
+start().catch((error: unknown) => {
+  const page = document.getElementById('page') as HTMLElement;
+  page.replaceChildren(element('h1', {}, 'This page cannot start'), element('p', {}, String(error)),
+    element('p', {}, 'It needs a browser of 2023 or later, and the file must be complete.'));
+  page.dataset.ready = 'failed';
+});
