@@ -10,6 +10,7 @@
 #include "check/checks.hpp"
 #include "check/feet.hpp"
 #include "check/runs.hpp"
+#include "feet/floor.hpp"
 #include "feet/sole_point.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/feet.hpp"

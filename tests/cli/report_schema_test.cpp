@@ -59,6 +59,9 @@ TEST_F(ReportSchema, HoldsForCheck) {
   EXPECT_THAT(json["takes"][0]["findings"], Not(IsEmpty()));
   // Counts are whole numbers.
   EXPECT_TRUE(json["takes"][0]["figures"]["gaps"].is_number_integer());
+  const Json robot = document({"check", "walk.bvh", "m.trc", "--robot", "--json"});
+  EXPECT_THAT(robot["takes"][0]["robot"]["contacts"], Not(IsEmpty()));
+  EXPECT_TRUE(robot["takes"][0]["figures"]["jumps"].is_number_integer());
 }
 
 TEST_F(ReportSchema, HoldsForFill) {
