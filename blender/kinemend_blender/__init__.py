@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: Apache-2.0
 """Kinemend for Blender: cleans the motion of an armature by the program kinemend, into a new action."""
 
 bl_info = {

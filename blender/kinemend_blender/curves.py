@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: Apache-2.0
 """F-curves as NumPy arrays. Works on anything with the members of Blender's F-curves."""
 
 import numpy as np

@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: Apache-2.0
 """Runs the program kinemend over pipes, and reads its report. Knows nothing of Blender."""
 
 import json

@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: Apache-2.0
 """An armature and its action as a take: joints, rest pose and motion, in the world's axes and units.
 
 Bones above the one that carries the body, if none of them moves, become part of its rest pose. So the hips are joint 0 of a rig

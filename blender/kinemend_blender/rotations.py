@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: Apache-2.0
 """Rotations as NumPy arrays: quaternions (w, x, y, z), Euler angles in Blender's orders, axis and angle.
 
 An order names the axes in the order in which they act: "XYZ" is R = Rz Ry Rx. Angles are radians.

@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: Apache-2.0
 """Takes as npz files (docs/formats/npz.md), in memory. Knows nothing of Blender."""
 
 import io

@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: Apache-2.0
 """Tests of the add-on within Blender, without a window:
 
     blender -b --factory-startup --python-exit-code 1 --python blender/test/in_blender.py -- PROGRAM TAKES

@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: Apache-2.0
 """Uses the add-on in Blender's window: a modal run, Escape, before and after, the panel. Writes pictures of the window.
 
     xvfb-run -a -s "-screen 0 1280x800x24" blender --factory-startup --enable-event-simulate \

@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: Apache-2.0
 """Tests of what the add-on does without Blender: python3 blender/test/plain_test.py [PROGRAM]
 
 Without NumPy everything is skipped; with PROGRAM, which is kinemend, takes go through it.
