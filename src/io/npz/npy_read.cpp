@@ -143,7 +143,7 @@ class NpyReader {
     constexpr std::size_t size_at = 8;
     if (bytes.substr(0, 6) != "\x93NUMPY" || bytes.size() < size_at)
       throw error("is no array of NumPy");
-    const int version = bytes[6];
+    const int version = static_cast<unsigned char>(bytes[6]);
     if (version < 1 || version > 3) throw error(fmt::format("unknown version {}", version));
     const std::size_t size_bytes = version == 1 ? 2 : 4;
     if (bytes.size() < size_at + size_bytes) throw error("ends in its head");
