@@ -321,6 +321,20 @@ class Figures:
         Check: depth of a foot below the floor; null without contact or scale.
     flips : int or None
         Check: leaps of Euler angles.
+    joint_speed_deg_s : float or None
+        Check --robot: of the fastest joint; null of markers.
+    joint_acceleration_deg_s2 : float or None
+        Check --robot: the largest of any joint; null of markers.
+    jumps : int or None
+        Check --robot: changes within one frame that stay; null without scale.
+    flights : int or None
+        Check --robot: times in which no foot touches the floor; null without feet or scale.
+    penetration_cm : float or None
+        Check --robot: depth of a foot below the level on which it stands.
+    floating_cm : float or None
+        Check --robot: height of a standing foot above the floor; null of markers.
+    floor_cm : float or None
+        Check --robot: distance of the floor from height 0; null of markers.
     filled : int or None
         Fill: gaps filled.
     refused : int or None
@@ -421,6 +435,13 @@ class Figures:
     slide_cm: float | None = None
     sink_cm: float | None = None
     flips: int | None = None
+    joint_speed_deg_s: float | None = None
+    joint_acceleration_deg_s2: float | None = None
+    jumps: int | None = None
+    flights: int | None = None
+    penetration_cm: float | None = None
+    floating_cm: float | None = None
+    floor_cm: float | None = None
     filled: int | None = None
     refused: int | None = None
     unlabelled: int | None = None
@@ -473,7 +494,8 @@ class Finding:
     Attributes
     ----------
     kind : {"gap", "spike", "frozen", "bridged", "noise", "swap", "rate", "unit", "length", "slide",
-    "sink", "euler_flip", "repeated_frames", "zero_frames", "calibration", "left_out"}
+    "sink", "euler_flip", "repeated_frames", "zero_frames", "calibration", "left_out",
+    "joint_speed", "joint_acceleration", "penetration", "floating", "flight", "jump", "floor"}
         What was wrong, in the words of check: what clean smoothed is noise, what it moved for a
         foot to stand is slide.
     verdict : {"note", "warning", "serious", "denoised", "despiked", "filled", "foot_adjusted",
@@ -499,7 +521,7 @@ class Finding:
         Clean, fill: that filled the gap, or was tried last.
     """
 
-    kind: Literal["gap", "spike", "frozen", "bridged", "noise", "swap", "rate", "unit", "length", "slide", "sink", "euler_flip", "repeated_frames", "zero_frames", "calibration", "left_out"]
+    kind: Literal["gap", "spike", "frozen", "bridged", "noise", "swap", "rate", "unit", "length", "slide", "sink", "euler_flip", "repeated_frames", "zero_frames", "calibration", "left_out", "joint_speed", "joint_acceleration", "penetration", "floating", "flight", "jump", "floor"]
     verdict: Literal["note", "warning", "serious", "denoised", "despiked", "filled", "foot_adjusted", "refused", "undone"]
     track: str | None
     first_frame: int
@@ -563,6 +585,10 @@ class Track:
         Check.
     flips : int or None
         Check.
+    peak_speed_deg_s : float or None
+        Check --robot, of joints.
+    peak_acceleration_deg_s2 : float or None
+        Check --robot, of joints.
     geodesic_rms_deg : float or None
         Compare.
     geodesic_max_deg : float or None
@@ -605,6 +631,8 @@ class Track:
     bridged: int | None = None
     swaps: int | None = None
     flips: int | None = None
+    peak_speed_deg_s: float | None = None
+    peak_acceleration_deg_s2: float | None = None
     geodesic_rms_deg: float | None = None
     geodesic_max_deg: float | None = None
     peak_speed_reference_deg_s: float | None = None
@@ -620,6 +648,53 @@ class Track:
     def from_dict(cls, data: Mapping[str, Any]) -> Track:
         """The same from a JSON object. Raises TypeError for a key that there is not."""
         return cls(**data)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Standing:
+    """A time in which a heel or a toe stands.
+
+    Attributes
+    ----------
+    side : str
+        Of the leg: "left", "right", or the name of its ankle.
+    part : {"heel", "toe"}
+    first_frame : int
+        As the file counts.
+    last_frame : int
+        Inclusive.
+    """
+
+    side: str
+    part: Literal["heel", "toe"]
+    first_frame: int
+    last_frame: int
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Standing:
+        """The same from a JSON object. Raises TypeError for a key that there is not."""
+        return cls(**data)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Robot:
+    """What only `check --robot` finds.
+
+    Attributes
+    ----------
+    contacts : list[Standing]
+        Heels and toes that stand, of joints.
+    """
+
+    contacts: list[Standing]
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Robot:
+        """The same from a JSON object. Raises TypeError for a key that there is not."""
+        values = dict(data)
+        if data.get("contacts") is not None:
+            values["contacts"] = [Standing.from_dict(row) for row in data["contacts"]]
+        return cls(**values)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -670,6 +745,7 @@ class Report:
     feet : Feet or None
     subjects : list[Subject] or None
         Check: of several people in a file of markers the feet of each.
+    robot : Robot or None
     reference : str or None
         Compare: the take that is the truth.
     fit : {"none", "rigid", "gain-offset"} or None
@@ -713,6 +789,7 @@ class Report:
     leftovers: list[Leftover] | None = None
     feet: Feet | None = None
     subjects: list[Subject] | None = None
+    robot: Robot | None = None
     reference: str | None = None
     fit: Literal["none", "rigid", "gain-offset"] | None = None
     unmatched: list[str] | None = None
@@ -731,6 +808,8 @@ class Report:
             values["feet"] = Feet.from_dict(data["feet"])
         if data.get("subjects") is not None:
             values["subjects"] = [Subject.from_dict(row) for row in data["subjects"]]
+        if data.get("robot") is not None:
+            values["robot"] = Robot.from_dict(data["robot"])
         if data.get("figures") is not None:
             values["figures"] = Figures.from_dict(data["figures"])
         if data.get("diagnostics") is not None:
