@@ -73,6 +73,15 @@ def load_character():
     return armature
 
 
+def silent_program():
+    """A folder with a program of the same name that does nothing for a minute."""
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="kinemend-test-"))
+    program = folder / "kinemend"
+    program.write_text("#!/usr/bin/python3\nimport time\ntime.sleep(60)\n")
+    program.chmod(0o755)
+    return str(folder)
+
+
 def steps():
     """Yields how long to wait, or a condition to wait for."""
     view = area_of("VIEW_3D")
@@ -85,8 +94,9 @@ def steps():
     yield 0.5
     settings = bpy.context.scene.kinemend
 
-    # A slow method, so that Escape comes in time.
-    settings.method = "nonlocal"
+    # A program that never answers, so that Escape comes in time.
+    path = os.environ["PATH"]
+    os.environ["PATH"] = silent_program() + os.pathsep + path
     with Within(view):
         assert bpy.ops.kinemend.clean("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
     assert runs_of_program() == 1
@@ -95,6 +105,7 @@ def steps():
     yield lambda: runs_of_program() == 0
     yield 1.0
     assert armature.animation_data.action == before and len(bpy.data.actions) == 1
+    os.environ["PATH"] = path
 
     settings.method, settings.feet = "DEFAULT", "auto"
     with Within(view):

@@ -80,7 +80,7 @@ async function open(name, options = {}) {
 }
 const shot = async (page, name) => {
   await page.waitForTimeout(150);
-  await page.screenshot({ path: join(output, `${name}.png`), fullPage: true });
+  await page.screenshot({ path: join(output, `${name}.png`), fullPage: true, timeout: 120000 });
 };
 const frame = (page) => page.evaluate(() => window.kinemend.player.shown);
 const wide = (page) => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);

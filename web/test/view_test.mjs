@@ -91,7 +91,7 @@ async function save(page, written, name) {
 }
 const shot = async (page, name) => {
   await page.waitForTimeout(200);
-  await page.screenshot({ path: join(screenshots, `view_${name}.png`), fullPage: true });
+  await page.screenshot({ path: join(screenshots, `view_${name}.png`), fullPage: true, timeout: 120000 });
 };
 /** The words of the command line that the page shows. */
 const words = (line) => [...line.matchAll(/'((?:[^']|'\\'')*)'|(\S+)/g)].map((match) => match[2] ?? match[1].replace(/'\\''/g, "'")).slice(1);
