@@ -6,6 +6,7 @@ import {readFileSync, statSync, writeFileSync} from 'node:fs';
 import {dirname, join, resolve} from 'node:path';
 import {fileURLToPath} from 'node:url';
 import {deflateSync} from 'node:zlib';
+import {sevenBitText} from './seven_bits.mjs';
 
 const [esbuild, packages, moduleFolder, output] = process.argv.slice(2);
 const module = resolve(moduleFolder);
@@ -27,7 +28,7 @@ const data = (name, bytes) => `<script type="application/octet-stream" id="data-
 function packedModule() {
   const file = join(module, 'kinemend_module.wasm');
   const packed = execFileSync('xz', ['--format=lzma', '-9e', '--stdout', '--keep', file], {maxBuffer: 1 << 28});
-  return `<script type="application/octet-stream" id="data-module" data-size="${statSync(file).size}">${packed.toString('base64')}</script>\n`;
+  return `<script type="application/octet-stream" id="data-module" data-size="${statSync(file).size}">${sevenBitText(packed)}</script>\n`;
 }
 
 const licences = ['three', 'uplot'].map((name) => `/* ${name}:\n${readFileSync(join(packages, name, 'LICENSE'), 'utf8').replaceAll('*/', '* /')}*/\n`).join('');

@@ -2,9 +2,10 @@
 
 import 'uplot/dist/uPlot.min.css';
 import './style.css';
-import { bytesOf, packedBytesOf } from './codec';
+import { bytesOf } from './codec';
 import { button, element } from './dom';
 import { unpackedLzma } from './lzma';
+import { sevenBitBytes } from './seven_bits';
 import { themeButton } from './theme';
 import { startView, type ViewPage } from './view';
 import { WorkerTransport, type NamedBytes } from './worker_transport';
@@ -87,7 +88,9 @@ async function start(): Promise<void> {
   const worker = await bytesOf('worker');
   const module = document.getElementById('data-module');
   if (worker === null || module === null) throw new Error('the page is incomplete');
-  const code = unpackedLzma(packedBytesOf(module), Number(module.dataset.size));
+  const packed = sevenBitBytes(module.textContent ?? '');
+  module.textContent = '';
+  const code = unpackedLzma(packed, Number(module.dataset.size));
   new App(await WebAssembly.compile(code), URL.createObjectURL(new Blob([worker], { type: 'text/javascript' })));
 }
 

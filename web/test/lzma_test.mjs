@@ -1,15 +1,20 @@
-// The unpacker of the app against xz: texts, noise, empty and long repeats come back, damaged bytes are refused or end.
+// The text that holds the module, there and back; and the unpacker of the app against xz: texts, noise, empty and long repeats come back, damaged bytes are refused or end.
 //
 //   node lzma_test.mjs ESBUILD FOLDER
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
+import { sevenBitText } from '../seven_bits.mjs';
 
 const [esbuild, folder] = process.argv.slice(2);
-const bundle = join(folder, 'lzma.mjs');
-execFileSync(esbuild, [fileURLToPath(new URL('../src/lzma.ts', import.meta.url)), '--format=esm', '--log-level=error', `--outfile=${bundle}`]);
-const { unpackedLzma } = await import(pathToFileURL(bundle));
+async function compiled(name) {
+  const bundle = join(folder, `${name}.mjs`);
+  execFileSync(esbuild, [fileURLToPath(new URL(`../src/${name}.ts`, import.meta.url)), '--format=esm', '--log-level=error', `--outfile=${bundle}`]);
+  return import(pathToFileURL(bundle));
+}
+const { unpackedLzma } = await compiled('lzma');
+const { sevenBitBytes } = await compiled('seven_bits');
 const packed = (bytes, ...more) => execFileSync('xz', ['--format=lzma', '-9e', '--stdout', ...more], { input: bytes, maxBuffer: 1 << 28 });
 
 let seed = 12345;
@@ -32,5 +37,11 @@ for (let i = 0; i < 300; ++i) {
   } catch (error) {
     assert.match(error.message, /packed bytes/);
   }
+}
+for (const bytes of [...cases, ...Array.from({ length: 9 }, (_, length) => noise.subarray(0, length))]) {
+  const characters = sevenBitText(bytes);
+  assert.ok(bytes.equals(sevenBitBytes(characters)), `${bytes.length} bytes as text`);
+  assert.doesNotMatch(characters, /[\0\r<]/);
+  assert.ok(Buffer.from(Buffer.from(characters, 'utf8').toString('utf8')).equals(Buffer.from(characters)));
 }
 console.log('ok');
