@@ -29,8 +29,8 @@ inline Quat rotation_of_values(double w, double x, double y, double z) {
 /// Beyond this a quaternion of a file is not of length 1 by rounding; it is scaled with a repair.
 inline constexpr double unit_length_tolerance = 1e-3;
 
-/// Gives each missing sample of a track the one before, or the next where there is none before;
-/// `otherwise` where the track has none.
+/// Replaces each missing sample of a track by the last one before it. Missing samples at the start
+/// get the first one that is there; a track without samples gets `otherwise`.
 template <class Sample>
 void hold_missing(std::vector<Sample>& samples, std::size_t track, std::size_t stride,
                   Sample otherwise) {

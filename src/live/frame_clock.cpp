@@ -11,8 +11,12 @@ namespace {
 
 // A frame that comes later than this share of a frame has others missing before it.
 constexpr double late_share = 0.75;
+// Share of a frame's lateness that the clock follows: a tenth keeps most jitter out. All of these
+// are chosen by hand, not swept.
 constexpr double following = 0.1;
+// Time over which the rate is measured.
 constexpr double window_s = 2;
+// Share by which the measured rate differs from the expected one before a message says so.
 constexpr double other_rate = 0.1;
 constexpr std::size_t most_notes = 5;
 

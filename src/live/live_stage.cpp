@@ -242,7 +242,7 @@ std::vector<TrackChange> LiveStage::changes() const {
   const std::vector<std::string>& names = joints ? header_.skeleton.names : header_.markers;
   std::vector<TrackChange> all;
   for (std::size_t t = 0; given_ > 0 && t < names.size(); ++t)
-    all.push_back({names[t], joints ? in_degrees(changes_.rms(t)) : changes_.rms(t)});
+    all.push_back({names[t], joints ? degrees_per_radian * changes_.rms(t) : changes_.rms(t)});
   return all;
 }
 

@@ -8,14 +8,13 @@
 
 namespace kinemend {
 
-constexpr double in_degrees(double radians) { return radians * (180 / 3.14159265358979323846); }
-
+/// By track, the root mean square of changes.
 class RunningChanges {
  public:
   explicit RunningChanges(std::size_t tracks) : squares_(tracks, 0), counts_(tracks, 0) {}
 
   void add(std::size_t track, double change) {
-    // Older changes fade, so that a loose sensor shows.
+    // Older changes fade, so that a loose sensor shows: frames of 10 s at 60 Hz. Not swept.
     constexpr std::size_t most = 600;
     counts_[track] = std::min(counts_[track] + 1, most);
     squares_[track] += (change * change - squares_[track]) / static_cast<double>(counts_[track]);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "motion/name_pattern.hpp"
+
 namespace kinemend {
 
 namespace {
@@ -43,18 +45,12 @@ constexpr std::string_view sides[] = {"Left", "Right"};
 constexpr std::string_view fingers[] = {"Thumb", "Index", "Middle", "Ring", "Little"};
 constexpr std::string_view phalanges[] = {"Proximal", "Intermediate", "Distal"};
 
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return lower;
-}
-
 }  // namespace
 
 VmcBones::VmcBones(const std::vector<std::string>& more) {
   const auto add = [this](std::string name, std::string_view parent) {
     parents_.push_back(find(parent));
-    keys_.push_back(lower_case(name));
+    keys_.push_back(small_letters(name));
     names_.push_back(std::move(name));
   };
   for (const HumanBone& bone : human_bones) add(std::string(bone.name), bone.parent);
@@ -74,7 +70,7 @@ VmcBones::VmcBones(const std::vector<std::string>& more) {
 }
 
 std::int32_t VmcBones::find(std::string_view name) const {
-  const auto found = std::find(keys_.begin(), keys_.end(), lower_case(name));
+  const auto found = std::find(keys_.begin(), keys_.end(), small_letters(name));
   return found == keys_.end() ? -1 : static_cast<std::int32_t>(found - keys_.begin());
 }
 

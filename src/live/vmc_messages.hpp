@@ -19,7 +19,8 @@ struct VmcPose {
       0;  ///< of its seven floats in the datagram: position, then quaternion x y z w
 };
 
-/// The poses among the messages of a datagram, in their order. A message with other types is none.
+/// The poses among the messages of a datagram, in their order. Messages with other argument types
+/// are skipped.
 void read_vmc_poses(std::string_view datagram, const std::vector<OscMessage>& messages,
                     std::vector<VmcPose>& poses);
 

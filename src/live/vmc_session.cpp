@@ -112,7 +112,7 @@ class VmcSession::Work {
   std::vector<TrackChange> changes() const {
     std::vector<TrackChange> all;
     for (std::size_t b = 0; b < bones_.count(); ++b) {
-      if (changes_.has(b)) all.push_back({bones_.name(b), in_degrees(changes_.rms(b))});
+      if (changes_.has(b)) all.push_back({bones_.name(b), degrees_per_radian * changes_.rms(b)});
     }
     return all;
   }
@@ -266,9 +266,9 @@ class VmcSession::Work {
         std::find(named_.begin(), named_.end(), printable) != named_.end())
       return;
     named_.push_back(printable);
-    notes_.push_back(
-        fmt::format("bone {} is none of Unity's humanoid and passes unchanged; --bones can name it",
-                    printable));
+    notes_.push_back(fmt::format(
+        "bone {} is not in Unity's humanoid and passes unchanged; name it with --bones to clean it",
+        printable));
   }
 
   void release() {

@@ -330,7 +330,7 @@ TEST(VmcSession, CleansTheChosenBonesOnly) {
   EXPECT_EQ(changed["Wing"], 0);
   EXPECT_EQ(relay.session.counts().other_bones, 60);
   EXPECT_THAT(relay.session.take_notes(),
-              ElementsAre(HasSubstr("bone Wing is none of Unity's humanoid")));
+              ElementsAre(HasSubstr("bone Wing is not in Unity's humanoid")));
 }
 
 TEST(VmcSession, FollowsChangesOfTheRateAndARestart) {

@@ -36,7 +36,7 @@ struct VmcCounts {
   std::size_t not_finite = 0;     ///< poses that are no rotation, or have values nan and inf
   std::size_t not_osc = 0;        ///< datagrams that are not OSC; they pass unchanged
   std::size_t other_bones = 0;    ///< poses of bones that are in no table; they pass unchanged
-  std::size_t settled = 0;        ///< how often all that waited left early, for want of motion
+  std::size_t settled = 0;        ///< times all waiting datagrams were sent early in a pause
 };
 
 /// One sender of VMC. Takes its datagrams and gives them in the same order, each with its size,

@@ -304,7 +304,7 @@ class NpzDecoder {
     take().observed_positions = std::move(seen);
   }
 
-  // Frames times owners; empty where there is none, or where it says that all were measured.
+  // One byte for each frame and owner. Empty if the array is missing or marks all as measured.
   std::vector<std::uint8_t> mask(const std::string& name, std::size_t owners) {
     const std::optional<NpyArray> found = optional_array(name);
     if (!found) return {};

@@ -38,19 +38,20 @@ std::vector<double> numbers_of(const std::vector<Vec3>& vectors) {
   return values;
 }
 
-// Of the rotations; or of markers.
-std::vector<std::uint8_t> observed_mask(const Take& take) {
-  std::vector<std::uint8_t> mask(take.frame_count() * take.owner_count(), 1);
-  for (std::size_t i = 0; i < mask.size() && !take.observed.empty(); ++i)
-    mask[i] = take.observed[i] != 0 ? 1 : 0;
+// 1 or 0 for each of `count` samples; a take without a mask has measured all.
+std::vector<std::uint8_t> mask_of(const std::vector<std::uint8_t>& seen, std::size_t count) {
+  std::vector<std::uint8_t> mask(count, 1);
+  for (std::size_t i = 0; i < seen.size(); ++i) mask[i] = seen[i] != 0 ? 1 : 0;
   return mask;
 }
 
+// Of the rotations; or of markers.
+std::vector<std::uint8_t> observed_mask(const Take& take) {
+  return mask_of(take.observed, take.frame_count() * take.owner_count());
+}
+
 std::vector<std::uint8_t> position_mask(const Take& take) {
-  std::vector<std::uint8_t> mask(take.positions.size(), 1);
-  for (std::size_t i = 0; i < mask.size() && !take.observed_positions.empty(); ++i)
-    mask[i] = take.observed_positions[i] != 0 ? 1 : 0;
-  return mask;
+  return mask_of(take.observed_positions, take.positions.size());
 }
 
 class NewNpz {

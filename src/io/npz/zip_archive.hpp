@@ -31,7 +31,7 @@ struct ZipArchive {
   std::size_t directory = 0;
   std::size_t directory_end = 0;
 
-  /// Null where there is none of that name.
+  /// The member of that name, or null.
   const ZipMember* find(std::string_view member) const;
 };
 
