@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/portable.hpp"
 #include "base/quote.hpp"
 
 namespace kinemend {
@@ -166,7 +167,7 @@ std::string figure(double value) {
   if (size >= 1) return fmt::format("{:.2f}", value);
   if (size < 1e-6) return fmt::format("{:.3g}", value);
   // Three digits that count, whatever the unit: lengths in metres are small.
-  const int decimals = 2 - static_cast<int>(std::floor(std::log10(size)));
+  const int decimals = 2 - static_cast<int>(std::floor(portable::log10(size)));
   std::string text = fmt::format("{:.{}f}", value, decimals);
   // Not more zeros than figures from 1 on have.
   for (int d = decimals; d > 2 && text.back() == '0'; --d) text.pop_back();

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <utility>
 
+#include "base/portable.hpp"
 #include "base/quantiles.hpp"
 #include "body/body_frame.hpp"
 #include "body/body_trend.hpp"
@@ -92,7 +92,7 @@ Vec3 body_centre(const BodyLayout& layout) {
 
 }  // namespace
 
-TurnAboutY::TurnAboutY(double angle) : cosine_(std::cos(angle)), sine_(std::sin(angle)) {}
+TurnAboutY::TurnAboutY(double angle) : cosine_(portable::cos(angle)), sine_(portable::sin(angle)) {}
 
 std::optional<RigidFit> fit_rigidly(std::vector<Anchor> anchors, double body_height) {
   auto fit = least_squares(anchors);

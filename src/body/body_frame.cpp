@@ -2,10 +2,10 @@
 #include "body/body_frame.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
+#include "base/portable.hpp"
 #include "base/quantiles.hpp"
 #include "body/body_trend.hpp"
 #include "kinemend/error.hpp"
@@ -100,7 +100,7 @@ Heading heading_of(Quat q) {
   // Chosen by hand, not swept.
   constexpr double least_weight = 0.1;  // within 37 degrees of upside down
   const double weight = q.w * q.w + q.y * q.y;
-  return {2 * std::atan2(q.y, q.w), weight > least_weight ? weight : 0};
+  return {2 * portable::atan2(q.y, q.w), weight > least_weight ? weight : 0};
 }
 
 std::size_t root_track(const Take& clip, const BodyMatch& match) {

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 #include <limits>
 #include <utility>
 
+#include "base/portable.hpp"
 #include "body/body_anchors.hpp"
 #include "body/body_frame.hpp"
 #include "body/body_learning.hpp"
@@ -90,7 +90,7 @@ void face_ahead(BodyLayout& layout) {
     left += layout.shape[i] - layout.shape[static_cast<std::size_t>(other - names.begin())];
   }
   if (left.x == 0 && left.z == 0) return;
-  const TurnAboutY turn(std::atan2(-left.z, left.x));
+  const TurnAboutY turn(portable::atan2(-left.z, left.x));
   for (Vec3& point : layout.shape) point = turn.back(point);
 }
 

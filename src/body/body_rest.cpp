@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/portable.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/kinematics.hpp"
 
@@ -162,7 +163,7 @@ void stand_upright(const std::vector<BoneName>& bones, bool snap, RestPose& rest
   const auto facing = facing_direction(rest.positions, bones, up);
   if (!facing) return;
   const Vec3 ahead = rotate(rest.upright, snap ? snapped(*facing) : *facing);
-  const double angle = std::atan2(ahead.x, ahead.z);
+  const double angle = portable::atan2(ahead.x, ahead.z);
   if (angle != 0) rest.upright = exp({0, -angle, 0}) * rest.upright;
 }
 
@@ -195,7 +196,7 @@ Quat shortest_rotation(Vec3 from, Vec3 to) {
     const Vec3 other = cross(from, std::fabs(from.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 0, 1});
     return exp((pi / norm(other)) * other);
   }
-  return exp((std::atan2(sine, cosine) / sine) * axis);
+  return exp((portable::atan2(sine, cosine) / sine) * axis);
 }
 
 Vec3 nearest_axis(Vec3 v) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/portable.hpp"
 #include "base/quantiles.hpp"
 #include "body/rotation_channels.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
@@ -98,7 +99,7 @@ class LocalFit {
         end_frames_(1.5 * deviation_frames) {
     for (std::size_t k = 0; k < kernel_.size(); ++k) {
       const double z = static_cast<double>(k) / deviation_frames;
-      kernel_[k] = std::exp(-0.5 * z * z);
+      kernel_[k] = portable::exp(-0.5 * z * z);
     }
   }
 

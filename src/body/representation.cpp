@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/portable.hpp"
 #include "body/rotation_channels.hpp"
 #include "kinemend/error.hpp"
 
@@ -137,7 +138,7 @@ double largest_angle_from_mean(std::span<const Quat> track,
     if (observed.empty() || observed[f] != 0)
       least = std::min(least, std::fabs(dot(mean, track[f])));
   }
-  return 2 * std::acos(least);
+  return 2 * portable::acos(least);
 }
 
 }  // namespace

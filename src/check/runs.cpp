@@ -2,8 +2,9 @@
 #include "check/runs.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
+
+#include "base/portable.hpp"
 
 namespace kinemend::check {
 
@@ -49,7 +50,7 @@ std::vector<std::vector<FrameSpan>> improbable_runs(const FlagTable& table, std:
     }
     others /= static_cast<double>(run.length());
     const double share = std::max(share_without(of_track[track], inside), others);
-    return share < 0.5 && static_cast<double>(run.length()) * std::log(share) < log_chance;
+    return share < 0.5 && static_cast<double>(run.length()) * portable::log(share) < log_chance;
   };
   std::vector<std::vector<FrameSpan>> runs(table.tracks);
   for (std::size_t n = 0; n < table.tracks; ++n) {

@@ -1,6 +1,6 @@
 // Damages that turn each joint by a constant angle, or by a sinusoid over time.
-#include <cmath>
 
+#include "base/portable.hpp"
 #include "corrupt/damage_kind.hpp"
 #include "corrupt/targets.hpp"
 
@@ -83,7 +83,7 @@ struct Sinusoid {
       for (std::size_t f = 0; f < frame_count(motion); ++f) {
         const double turns = options.frequency_hz * static_cast<double>(f) / motion.frame_rate_hz;
         const double angle =
-            options.amplitude_deg * radians_per_degree * std::sin(2 * pi * turns + phase);
+            options.amplitude_deg * radians_per_degree * portable::sin(2 * pi * turns + phase);
         turn(motion, f, j, angle * axis);
       }
     }

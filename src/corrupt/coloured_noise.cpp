@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 
+#include "base/portable.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 
 namespace kinemend::corrupt {
@@ -16,7 +17,7 @@ using Complex = std::complex<double>;
 
 // Integral of (1 + x^2)^(-slope / 2) over x >= 0.
 double shape_integral(double slope) {
-  return std::sqrt(pi) / 2 * std::tgamma((slope - 1) / 2) / std::tgamma(slope / 2);
+  return std::sqrt(pi) / 2 * portable::tgamma((slope - 1) / 2) / portable::tgamma(slope / 2);
 }
 
 // sum_k x_k exp(2 pi i k n / N) in place; N is a power of two (Cooley and Tukey, radix 2).
@@ -31,7 +32,8 @@ void inverse_transform(std::vector<Complex>& x) {
   std::vector<Complex> turns(size / 2);
   for (std::size_t k = 0; k < turns.size(); ++k) {
     const double angle = 2 * pi * static_cast<double>(k) / static_cast<double>(size);
-    turns[k] = {std::cos(angle), std::sin(angle)};
+    const auto [sine, cosine] = portable::sine_and_cosine(angle);
+    turns[k] = {cosine, sine};
   }
   for (std::size_t length = 2; length <= size; length *= 2) {
     const std::size_t half = length / 2, step = size / length;
@@ -59,7 +61,8 @@ std::size_t period_frames(NoiseShape shape, std::size_t frames, double rate_hz) 
 
 double noise_density(NoiseShape shape, double frequency_hz) {
   const double x = frequency_hz / shape.corner_hz;
-  return std::pow(1 + x * x, -shape.slope / 2) / (shape.corner_hz * shape_integral(shape.slope));
+  return portable::pow(1 + x * x, -shape.slope / 2) /
+         (shape.corner_hz * shape_integral(shape.slope));
 }
 
 std::vector<double> coloured_noise(NoiseShape shape, std::size_t frames, double rate_hz,

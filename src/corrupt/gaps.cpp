@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/portable.hpp"
 #include "corrupt/damage_kind.hpp"
 #include "corrupt/targets.hpp"
 
@@ -29,7 +30,7 @@ struct Filling {
 std::size_t random_length(Random& random, double mean_frames, std::size_t longest) {
   if (mean_frames <= 1) return 1;
   const double length =
-      1 + std::floor(std::log1p(-random.uniform()) / std::log1p(-1 / mean_frames));
+      1 + std::floor(portable::log1p(-random.uniform()) / portable::log1p(-1 / mean_frames));
   return length < static_cast<double>(longest) ? static_cast<std::size_t>(length) : longest;
 }
 

@@ -2,8 +2,8 @@
 #include "corrupt/track_errors.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "base/portable.hpp"
 #include "kinemend/rotation.hpp"
 
 namespace kinemend::corrupt {
@@ -18,7 +18,7 @@ std::vector<NoiseEvent> poisson(double per_minute, double longest_s, double seco
   if (!(per_minute > 0)) return events;
   double time = -longest_s;
   while (true) {
-    time += -std::log1p(-random.uniform()) * 60 / per_minute;
+    time += -portable::log1p(-random.uniform()) * 60 / per_minute;
     if (!(time < seconds)) return events;
     const NoiseEvent event{time, duration(random)};
     if (event.start_s + event.duration_s > 0) events.push_back(event);
@@ -37,7 +37,7 @@ std::vector<NoiseEvent> exponential_events(double per_minute, double mean_s, dou
                                            const Random& random) {
   const double longest = 10 * mean_s;
   return poisson(per_minute, longest, seconds, random, [&](Random& own) {
-    return std::min(longest, -mean_s * std::log1p(-own.uniform()));
+    return std::min(longest, -mean_s * portable::log1p(-own.uniform()));
   });
 }
 
@@ -45,7 +45,7 @@ double event_window(NoiseEvent event, double edge_s, double time_s) {
   const double since = time_s - event.start_s, left = event.duration_s - since;
   if (since <= 0 || left <= 0) return 0;
   const double edge = std::min(edge_s, event.duration_s / 2), nearest = std::min(since, left);
-  return nearest >= edge ? 1 : 0.5 - 0.5 * std::cos(pi * nearest / edge);
+  return nearest >= edge ? 1 : 0.5 - 0.5 * portable::cos(pi * nearest / edge);
 }
 
 }  // namespace kinemend::corrupt

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/portable.hpp"
 #include "corrupt/body_parts.hpp"
 #include "corrupt/damage_kind.hpp"
 #include "corrupt/position_targets.hpp"
@@ -129,7 +130,7 @@ double realised_snr_db(double power, const std::vector<Vec3>& clean, const std::
   }
   const std::size_t frames = clean.size() / joint_count;
   const auto terms = static_cast<double>(3 * joints.size() * frames);
-  return 10 * std::log10(power * terms / sum);
+  return 10 * portable::log10(power * terms / sum);
 }
 
 struct Snr {
@@ -161,7 +162,7 @@ struct Snr {
     }
     std::vector<double> deviations(clip.joint_count(), 0.0);
     for (const std::size_t j : joints)
-      deviations[j] = std::sqrt(power * std::pow(10, -options.snr_db / 10));
+      deviations[j] = std::sqrt(power * portable::pow(10, -options.snr_db / 10));
     std::vector<Vec3> targets = clean;
     add_noise(targets, clip.joint_count(), deviations, random);
     refit_to(clip, targets, options);
@@ -190,7 +191,7 @@ struct Snr {
     }
     std::vector<double> deviations(motion.track_count(), 0.0);
     for (const std::size_t n : tracks)
-      deviations[n] = std::sqrt(sum / count * std::pow(10, -options.snr_db / 10));
+      deviations[n] = std::sqrt(sum / count * portable::pow(10, -options.snr_db / 10));
     add_noise(motion, deviations, random);
   }
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/portable.hpp"
 #include "corrupt/damage_kind.hpp"
 #include "corrupt/normal_vector.hpp"
 #include "corrupt/targets.hpp"
@@ -223,7 +224,7 @@ struct Ar1 {
   static double correlation_of(const Options& options, double frame_rate_hz) {
     if (options.correlation > -1) return options.correlation;
     if (options.time_constant_s <= 0) return 0;
-    return std::exp(-1 / (frame_rate_hz * options.time_constant_s));
+    return portable::exp(-1 / (frame_rate_hz * options.time_constant_s));
   }
   template <class Motion>
   static void damage(Motion& motion, const Random& random, const Options& options, Notes&) {

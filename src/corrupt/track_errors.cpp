@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/portable.hpp"
 #include "corrupt/coloured_noise.hpp"
 #include "corrupt/normal_vector.hpp"
 
@@ -154,7 +155,7 @@ std::vector<Vec3> TrackErrors::errors_of(const NoisyTrack& track) {
       const Vec3 deviation = track.speed[f] * at_1_m_s;
       errors[f] += product(deviation, motion[f]);
       for (double Vec3::*const axis : axes)
-        deviations[f].*axis = std::hypot(floor.*axis, deviation.*axis);
+        deviations[f].*axis = portable::hypot(floor.*axis, deviation.*axis);
     }
   }
   add_leaks(errors, track, own.fork(5));

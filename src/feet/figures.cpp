@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/portable.hpp"
 #include "feet/clean_legs.hpp"
 #include "feet/floor.hpp"
 #include "motion/calibration.hpp"
@@ -17,7 +18,7 @@ namespace {
 
 double knee_bend_deg(const LegPose& pose) {
   const Vec3 thigh = pose.knee_at - pose.hip_at, shank = pose.ankle_at - pose.knee_at;
-  return std::atan2(norm(cross(thigh, shank)), dot(thigh, shank)) * degrees_per_radian;
+  return portable::atan2(norm(cross(thigh, shank)), dot(thigh, shank)) * degrees_per_radian;
 }
 
 double largest_knee_pop_deg(const LegMotion& motion) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/portable.hpp"
 #include "feet/banded_least_squares.hpp"
 #include "feet/blocks.hpp"
 
@@ -30,7 +31,7 @@ struct Triangle {
     return product > 0 ? std::clamp((distance * distance - squares) / (2 * product), -1.0, 1.0) : 1;
   }
   double distance_of(double bend) const {
-    return std::sqrt(std::max(0.0, squares + 2 * product * std::cos(bend)));
+    return std::sqrt(std::max(0.0, squares + 2 * product * portable::cos(bend)));
   }
 };
 
@@ -140,7 +141,7 @@ class KneeEasing {
         const Vec3 thigh = pose.knee_at - pose.hip_at, shank = pose.ankle_at - pose.knee_at;
         const double a = dot(thigh, thigh), b = dot(shank, shank);
         triangles_[i] = {a + b, std::sqrt(a * b)};
-        bends_[i] = std::acos(triangles_[i].cosine_of(reaches_[i].now));
+        bends_[i] = portable::acos(triangles_[i].cosine_of(reaches_[i].now));
       }
     });
   }
@@ -161,7 +162,7 @@ class KneeEasing {
     constexpr double least_sine = 0.12;  // a straight knee turns by degrees per millimetre
     const Stretch stretch = this->stretch(i);
     LegState leg;
-    leg.bend = std::acos(stretch.cosine);
+    leg.bend = portable::acos(stretch.cosine);
     const double product = triangles_[i].product;
     if (!(stretch.far > 0 && product > 0)) return leg;
     const double sine = std::sqrt(1 - stretch.cosine * stretch.cosine);
@@ -214,7 +215,7 @@ class KneeEasing {
           const std::size_t i = (first + f) * legs_ + l;
           if (rooms_[i].in_all > least_room)
             apply(i, solution[leg_unknown(f, l)], states_[i].by_root * rise);
-          changes_[i] = std::acos(stretch(i).cosine) - bends_[i];
+          changes_[i] = portable::acos(stretch(i).cosine) - bends_[i];
         }
       }
     });
@@ -280,7 +281,7 @@ class KneeEasing {
     }
     if (foot.hold >= 1) return;
     const Stretch now = stretch(i);
-    double wanted = std::acos(now.cosine) + (1 - share) * bend;
+    double wanted = portable::acos(now.cosine) + (1 - share) * bend;
     // The error of the linearisation is corrected where the foot is free.
     wanted += (1 - foot.hold) * (before.bend + by_root + bend - wanted);
     const double distance = triangles_[i].distance_of(std::max(wanted, 0.0));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/portable.hpp"
 #include "feet/blocks.hpp"
 
 namespace kinemend::feet {
@@ -190,7 +191,7 @@ Vec3 turn_between(Vec3 from, Vec3 to) {
   const Vec3 axis = cross(from, to);
   const double sine = norm(axis), cosine = dot(from, to);
   if (!(sine > 0)) return {};
-  return (std::atan2(sine, cosine) / sine) * axis;
+  return (portable::atan2(sine, cosine) / sine) * axis;
 }
 
 Quat least_turn(Vec3 from, Vec3 to) {
@@ -222,7 +223,7 @@ double soft_distance(double distance, const Reach& reach) {
   const double room = reach.most - reach.easy;
   if (distance <= reach.easy) return distance;
   if (!(room > 0)) return reach.easy;
-  return reach.easy + room * (1 - std::exp(-(distance - reach.easy) / room));
+  return reach.easy + room * (1 - portable::exp(-(distance - reach.easy) / room));
 }
 
 LegRotations solve_leg(const LegPose& pose, const LegModel& model, const FootTarget& target,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/portable.hpp"
 #include "feet/leg_solver.hpp"
 #include "feet/placement.hpp"
 
@@ -120,7 +121,7 @@ void LiveFeet::move(Foot& foot) const {
       foot.target = place + foot.offset;
     }
   } else {
-    const double fade = std::exp(-1 / (fade_s * motion_.frame_rate_hz));
+    const double fade = portable::exp(-1 / (fade_s * motion_.frame_rate_hz));
     foot.offset = fade * foot.offset;
   }
   foot.anchor = anchor;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/portable.hpp"
 #include "feet/body_points.hpp"
 #include "feet/floor.hpp"
 #include "kinemend/error.hpp"
@@ -128,7 +129,7 @@ double turn_to_forward(const Take& take, std::size_t frame, feet::Up up, const K
     refuse_to_move(take, "left and right are not told apart, so its heading is unknown");
   const Vec3 facing = cross(across, up.direction()),
              forward = feet::Up{forward_axis(up.axis), 1}.direction();
-  return std::atan2(dot(cross(facing, forward), up.direction()), dot(facing, forward));
+  return portable::atan2(dot(cross(facing, forward), up.direction()), dot(facing, forward));
 }
 
 void check_root(const Take& take, bool turns) {

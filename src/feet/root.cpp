@@ -1,4 +1,5 @@
 // Finds the least way down in each frame and smooths it over time.
+#include "base/portable.hpp"
 #include "feet/steps.hpp"
 
 #include <algorithm>
@@ -44,7 +45,7 @@ std::vector<double> smoothed(const std::vector<double>& values, std::size_t reac
   std::vector<double> weights(reach + 1);
   double sum = 0;
   for (std::size_t k = 0; k <= reach; ++k) {
-    weights[k] = 1 + std::cos(pi * static_cast<double>(k) / static_cast<double>(reach + 1));
+    weights[k] = 1 + portable::cos(pi * static_cast<double>(k) / static_cast<double>(reach + 1));
     sum += k == 0 ? weights[k] : 2 * weights[k];
   }
   const auto last = static_cast<std::ptrdiff_t>(values.size()) - 1;

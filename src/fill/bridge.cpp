@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/portable.hpp"
+
 namespace kinemend::fill {
 
 namespace {
@@ -19,8 +21,8 @@ constexpr double end_noise = 1e-5;
 double covariance(double lag, double memory) {
   const double u = std::sqrt(5.0) * lag / memory;
   const double v = std::sqrt(3.0) * lag / (slow_memory * memory);
-  return (1 - slow_share) * (1 + u + u * u / 3) * std::exp(-u) +
-         slow_share * (1 + v) * std::exp(-v);
+  return (1 - slow_share) * (1 + u + u * u / 3) * portable::exp(-u) +
+         slow_share * (1 + v) * portable::exp(-v);
 }
 
 // `by_lag[k]` is the covariance of errors k frames apart.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "base/portable.hpp"
 #include "base/quantiles.hpp"
 #include "fill/natural_spline.hpp"
 #include "kinemend/rotation.hpp"
@@ -115,7 +116,7 @@ EndState state_on(const Track& track, Side side, FrameSpan span, const CurveSett
 
 // u frames beyond an end whose velocity decays.
 Vec3 coast(Vec3 value, Vec3 velocity, double u, double decay_frames) {
-  const double reached = 1 - std::exp(-u / decay_frames);
+  const double reached = 1 - portable::exp(-u / decay_frames);
   return value + reached * (decay_frames * velocity);
 }
 
@@ -262,7 +263,7 @@ void fill_spline(Track& track, FrameSpan span, bool quintic, const CurveSettings
   if (quintic && frames.size() >= least_to_smooth) {
     // A spline smoothed by s passes half of a wave of w radians a frame where s w^6 = 1.
     const auto smoothing_of = [&](double cutoff_hz) {
-      return std::pow(2 * pi * cutoff_hz / settings.frame_rate_hz, -6);
+      return portable::pow(2 * pi * cutoff_hz / settings.frame_rate_hz, -6);
     };
     spline.fit_by_cross_validation(smoothing_of(settings.most_cutoff_hz),
                                    smoothing_of(settings.least_cutoff_hz));

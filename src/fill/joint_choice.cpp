@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/portable.hpp"
 #include "fill/trials.hpp"
 
 namespace kinemend::fill {
@@ -75,9 +76,10 @@ double usual_log_square(const Method& method, double length_s) {
   const double clamped = std::clamp(length_s, lengths.front(), lengths.back());
   const auto above = std::upper_bound(lengths.begin() + 1, lengths.end() - 1, clamped);
   const auto k = static_cast<std::size_t>(above - lengths.begin());
-  const double t = std::log(clamped / lengths[k - 1]) / std::log(lengths[k] / lengths[k - 1]);
+  const double t =
+      portable::log(clamped / lengths[k - 1]) / portable::log(lengths[k] / lengths[k - 1]);
   const auto& usual = method.joint_rules.usual_errors;
-  return 2 * ((1 - t) * std::log(usual[k - 1]) + t * std::log(usual[k]));
+  return 2 * ((1 - t) * portable::log(usual[k - 1]) + t * portable::log(usual[k]));
 }
 
 void score(std::vector<JointProposal>& proposals, const Judgement& judgement, double weight,
@@ -87,7 +89,7 @@ void score(std::vector<JointProposal>& proposals, const Judgement& judgement, do
   std::vector<double> measured(proposals.size()), usual(proposals.size());
   for (std::size_t c = 0; c < proposals.size(); ++c) {
     usual[c] = usual_log_square(*proposals[c].method, length_s);
-    measured[c] = std::log(judgement.squares()[c] + std::numeric_limits<double>::min());
+    measured[c] = portable::log(judgement.squares()[c] + std::numeric_limits<double>::min());
     if (!std::isfinite(judgement.squares()[c])) continue;
     measured_mean += measured[c], usual_mean += usual[c], count += 1;
   }
@@ -103,7 +105,7 @@ void score(std::vector<JointProposal>& proposals, const Judgement& judgement, do
       continue;
     }
     const bool is_short = length_s <= short_gap_s && !at_end;
-    if (kind == CandidateKind::spline && is_short) measured[c] -= std::log(clearly_better);
+    if (kind == CandidateKind::spline && is_short) measured[c] -= portable::log(clearly_better);
     proposal.score = trust * (measured[c] - measured_mean / count) +
                      (1 - trust) * (usual[c] - usual_mean / count);
   }

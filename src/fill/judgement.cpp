@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/portable.hpp"
+
 namespace kinemend::fill {
 
 namespace {
@@ -105,7 +107,7 @@ void Judgement::judge_models() {
   const double ratio = ratio_of(gap_, trials_.products, floor_, [&](const Matrix& products) {
     return spread_about(products, models, even);
   });
-  const double harder = std::pow(ratio, choice_exponent);
+  const double harder = portable::pow(ratio, choice_exponent);
   for (const Eigen::Index c : models) {
     squares_[static_cast<std::size_t>(c)] =
         harder * mean_over(trials_.products, [&](const Matrix& trial) { return trial(c, c); });
@@ -116,8 +118,9 @@ void Judgement::judge_curve(std::size_t candidate) {
   const auto c = static_cast<Eigen::Index>(candidate);
   double& square = squares_[candidate];
   if (kinds_[candidate] == CandidateKind::spline) {
-    square = std::exp(mean_over(trials_.products, [&](const Matrix& trial) {
-      return std::log(trial(c, c) + spline_floor * floor_ + std::numeric_limits<double>::min());
+    square = portable::exp(mean_over(trials_.products, [&](const Matrix& trial) {
+      return portable::log(trial(c, c) + spline_floor * floor_ +
+                           std::numeric_limits<double>::min());
     }));
   } else {
     square = mean_over(trials_.products, [&](const Matrix& trial) { return trial(c, c); });
@@ -127,7 +130,7 @@ void Judgement::judge_curve(std::size_t candidate) {
   const double ratio = ratio_of(gap_, trials_.products, floor_, [&](const Matrix& products) {
     return square_distance(products, c, lines.front());
   });
-  square *= std::pow(ratio, choice_exponent);
+  square *= portable::pow(ratio, choice_exponent);
 }
 
 std::vector<double> Judgement::weights(double favour) const {
@@ -159,7 +162,7 @@ double Judgement::expected_error(std::span<const double> weights) const {
     const double ratio =
         ratio_of(gap_, trials_.products, error_floor * floor_,
                  [&](const Matrix& products) { return spread_about(products, others, w); });
-    harder = std::pow(ratio, error_exponent);
+    harder = portable::pow(ratio, error_exponent);
   }
   // A gap in which the track turns farther than in the trials is harder; one that is straighter may
   // look so because what fills it has missed the turn.
@@ -167,7 +170,7 @@ double Judgement::expected_error(std::span<const double> weights) const {
     const double ratio =
         ratio_of(gap_, trials_.products, error_floor * floor_,
                  [&](const Matrix& products) { return spread_about(products, lines, w); });
-    harder *= std::pow(std::max(1.0, ratio), line_exponent);
+    harder *= portable::pow(std::max(1.0, ratio), line_exponent);
   }
   const double square = mean_over(
       trials_.products, [&](const Matrix& trial) { return std::max(0.0, w.dot(trial * w)); });

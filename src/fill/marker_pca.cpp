@@ -1,8 +1,8 @@
 // The method `pca` for markers: a regression on the principal components of the other markers.
 #include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 
+#include "base/portable.hpp"
 #include "fill/bridge.hpp"
 #include "fill/marker_methods.hpp"
 #include "fill/ridge.hpp"
@@ -43,7 +43,7 @@ class ComponentRegression {
     }
     for (double& weight : weights_) {
       const double u = weight / static_cast<double>(frames.size()) / (weight_radius * radius);
-      weight = std::max(least_weight, std::exp(-u * u / 2));
+      weight = std::max(least_weight, portable::exp(-u * u / 2));
     }
     for (std::size_t i = 0; i < frames.size(); ++i) {
       const auto row = static_cast<Eigen::Index>(i);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/portable.hpp"
 #include "fill/local_regression.hpp"
 #include "fill/marker_methods.hpp"
 
@@ -65,7 +66,8 @@ Rows by_neighbours(const LocalRegression& body, const LocalRegression::Scene& sc
   for (Eigen::Index row = 0; row < result.rows(); ++row) {
     Eigen::VectorXd squares = (inputs.rowwise() - scene.inputs.row(row)).rowwise().squaredNorm();
     const double nearest = squares.minCoeff();
-    const Eigen::VectorXd weights = ((squares.array() - nearest) * scale).exp();
+    const Eigen::VectorXd weights =
+        ((squares.array() - nearest) * scale).unaryExpr([](double x) { return portable::exp(x); });
     result.row(row) = weights.transpose() * outputs / weights.sum();
   }
   return result;
@@ -81,7 +83,7 @@ double likelihood(const LocalRegression& body, const LocalRegression::Scene& sce
     const double z = (length - distances[k].mean) / (distances[k].spread + least_spread);
     sum += z * z;
   }
-  return std::exp(-sum / (2 * static_cast<double>(distances.size())));
+  return portable::exp(-sum / (2 * static_cast<double>(distances.size())));
 }
 
 // Moves a position until its distances to the companions are such as the take has shown.

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+
+#include "base/portable.hpp"
 
 namespace kinemend::fill {
 
@@ -170,12 +171,12 @@ double NaturalSpline::cross_validation_score() const {
 double NaturalSpline::fit_by_cross_validation(double least, double most) {
   // Fine enough by the steps of the coarse grid; not swept.
   constexpr int fine = 6;  // halvings: to a 64th of the grid's step
-  const double low = std::log(least), width = std::log(most) - low;
+  const double low = portable::log(least), width = portable::log(most) - low;
   // The score has its minima no nearer to each other than a factor of about 16.
-  const int coarse = 2 + static_cast<int>(width / std::log(16.0));
+  const int coarse = 2 + static_cast<int>(width / portable::log(16.0));
   const double step = width / (coarse - 1);
   const auto score_at = [&](double log_smoothing) {
-    fit(std::exp(log_smoothing));
+    fit(portable::exp(log_smoothing));
     return cross_validation_score();
   };
   double best = low, best_score = score_at(low);
@@ -187,12 +188,12 @@ double NaturalSpline::fit_by_cross_validation(double least, double most) {
   double reach = step / 2;
   for (int i = 0; i < fine; ++i, reach /= 2) {
     for (const double candidate : {best - reach, best + reach}) {
-      if (candidate < low || candidate > std::log(most)) continue;
+      if (candidate < low || candidate > portable::log(most)) continue;
       const double score = score_at(candidate);
       if (score < best_score) best = candidate, best_score = score;
     }
   }
-  fit(std::exp(best));
+  fit(portable::exp(best));
   return smoothing_;
 }
 
@@ -209,8 +210,8 @@ void NaturalSpline::add_moment(std::size_t interval, double from, double to, dou
   const double half = (to - from) / 2, centre = (to + from) / 2;
   for (std::size_t g = 0; g < gauss_nodes.size(); ++g) {
     const double s = centre + half * gauss_nodes[g];
-    const double kernel =
-        half * gauss_weights[g] * std::pow(at - s, static_cast<double>(m_ - 1)) / factorial(m_ - 1);
+    const double kernel = half * gauss_weights[g] *
+                          portable::pow(at - s, static_cast<double>(m_ - 1)) / factorial(m_ - 1);
     for (std::size_t j = first; j <= last; ++j) {
       const double weight = kernel * basis(j, static_cast<int>(m_) - 1, interval, s);
       for (std::size_t c = 0; c < channels_; ++c) {

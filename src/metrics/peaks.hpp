@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/portable.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/rotation.hpp"
 #include "metrics/track_noise.hpp"
@@ -21,7 +22,7 @@ struct SampleNoise {
 
   /// Deviation of the difference of two samples so many frames apart.
   double of_difference(std::size_t frames) const {
-    return strength * std::sqrt(2 * (1 - std::pow(correlation, static_cast<double>(frames))));
+    return strength * std::sqrt(2 * (1 - portable::pow(correlation, static_cast<double>(frames))));
   }
 };
 
@@ -41,7 +42,7 @@ inline double longest_of_noise(std::size_t count) {
   // P(length > r) = sqrt(2 / pi) r exp(-r^2 / 2) where r is large.
   double length = 4;
   for (int i = 0; i < 4; ++i)
-    length = std::sqrt(2 * std::log(expected * std::sqrt(2 / pi) * length));
+    length = std::sqrt(2 * portable::log(expected * std::sqrt(2 / pi) * length));
   return length;
 }
 

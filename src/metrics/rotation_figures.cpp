@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/portable.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/metrics.hpp"
 #include "metrics/pairing.hpp"
@@ -129,7 +130,7 @@ double psnr_db(const Take& reference, const Take& other, std::size_t first_frame
   const double mean_square = sum_of_squares(angles) / 4 / (3 * static_cast<double>(angles.size()));
   // Not a number stays one: a clip with such values is not the same as the reference.
   return mean_square == 0 ? std::numeric_limits<double>::infinity()
-                          : 10 * std::log10(peak * peak / mean_square);
+                          : 10 * portable::log10(peak * peak / mean_square);
 }
 
 double mse_rad2(std::span<const Quat> reference, std::span<const Quat> other) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string_view>
 
+#include "base/portable.hpp"
 #include "kinemend/experimental/curves.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/svg.hpp"
@@ -102,7 +103,7 @@ std::vector<std::vector<Point>> lines_of(const std::vector<double>& curve, const
 
 // The distance of round numbers, about `count` of which lie within `range`.
 double round_step(double range, double count) {
-  const double step = range / count, power = std::pow(10.0, std::floor(std::log10(step)));
+  const double step = range / count, power = portable::pow(10.0, std::floor(portable::log10(step)));
   for (const double digit : {1.0, 2.0, 5.0}) {
     if (digit * power >= step) return digit * power;
   }

@@ -6,6 +6,7 @@
 #include <complex>
 #include <limits>
 
+#include "base/portable.hpp"
 #include "kinemend/experimental/pictures.hpp"
 #include "kinemend/experimental/svg.hpp"
 #include "kinemend/experimental/text.hpp"
@@ -30,8 +31,9 @@ void transform(std::vector<std::complex<double>>& values) {
   transform(even);
   transform(odd);
   for (std::size_t k = 0; k < size / 2; ++k) {
-    const auto turned =
-        std::polar(1.0, -2 * pi * static_cast<double>(k) / static_cast<double>(size)) * odd[k];
+    const auto [sine, cosine] =
+        portable::sine_and_cosine(-2 * pi * static_cast<double>(k) / static_cast<double>(size));
+    const auto turned = std::complex(cosine, sine) * odd[k];
     values[k] = even[k] + turned;
     values[k + size / 2] = even[k] - turned;
   }
@@ -48,7 +50,7 @@ bool add_window(const std::vector<double>& axis, std::size_t start, double rate_
   std::vector<std::complex<double>> values;
   for (std::size_t i = 0; i < size; ++i) {
     const double window =
-        0.5 - 0.5 * std::cos(2 * pi * static_cast<double>(i) / static_cast<double>(size));
+        0.5 - 0.5 * portable::cos(2 * pi * static_cast<double>(i) / static_cast<double>(size));
     power += window * window;
     values.emplace_back(window * (axis[start + i] - mean));
   }
@@ -80,7 +82,7 @@ struct Axes {
 
   double x(double hertz) const { return left + width * hertz / most_hz; }
   double y(double density) const {
-    return top + height * (high - std::log10(density)) / (high - low);
+    return top + height * (high - portable::log10(density)) / (high - low);
   }
 };
 
@@ -91,8 +93,8 @@ Axes axes_of(const TrackSpectrum& spectrum, bool one_take) {
     if (one_take && curve == &spectrum.before) continue;
     for (const double value : *curve) {
       if (!(value > 0)) continue;
-      low = std::min(low, std::log10(value));
-      high = std::max(high, std::log10(value));
+      low = std::min(low, portable::log10(value));
+      high = std::max(high, portable::log10(value));
     }
   }
   if (low > high) low = high = 0;
@@ -107,7 +109,7 @@ void draw(Svg& svg, const Axes& axes, const std::vector<double>& hertz,
           const std::vector<double>& density, std::string_view ink) {
   std::vector<std::vector<Svg::Point>> lines(1);
   for (std::size_t k = 0; k < density.size(); ++k) {
-    if (std::log10(density[k]) > axes.low) {
+    if (portable::log10(density[k]) > axes.low) {
       lines.back().push_back({axes.x(hertz[k]), axes.y(density[k])});
     } else if (!lines.back().empty()) {
       lines.emplace_back();
@@ -121,7 +123,7 @@ void draw_scales(Svg& svg, const Axes& axes) {
   const double bottom = axes.top + axes.height;
   const double every = std::max(1.0, std::ceil((axes.high - axes.low) / 6));
   for (double power = axes.low; power <= axes.high; power += every) {
-    const double y = axes.y(std::pow(10.0, power));
+    const double y = axes.y(portable::pow(10.0, power));
     svg.line({axes.left, y}, {axes.left + axes.width, y}, fmt::format("stroke=\"{}\"", inks::grid));
     svg.text(axes.left - 5, y + 4, "text-anchor=\"end\"", fmt::format("1e{:.0f}", power));
   }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/portable.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/rotation.hpp"
 
@@ -14,8 +15,8 @@ using Angles = std::array<double, 3>;
 constexpr std::size_t index_of(Axis axis) { return static_cast<std::size_t>(axis); }
 
 Quat turn(Axis axis, double angle) {
-  const double s = std::sin(angle / 2);
-  Quat q{std::cos(angle / 2), 0, 0, 0};
+  const auto [s, c] = portable::sine_and_cosine(angle / 2);
+  Quat q{c, 0, 0, 0};
   (axis == Axis::x ? q.x : axis == Axis::y ? q.y : q.z) = s;
   return q;
 }
@@ -47,7 +48,7 @@ Angles nearer(Angles first, Angles second, const Angles& previous, std::size_t c
 
 // One axis: the turn nearest to q keeps the component about the axis and drops the others.
 Angles hinge_angles(Quat q, RotationOrder order, const Angles& previous) {
-  const double angle = 2 * std::atan2(component(q, order.axes[0]), q.w);
+  const double angle = 2 * portable::atan2(component(q, order.axes[0]), q.w);
   return {nearest_turn(angle, previous[0]), 0, 0};
 }
 
@@ -61,8 +62,8 @@ Angles saddle_angles(Quat q, RotationOrder order, const Angles& previous) {
   const double m00 = q.w, m01 = component(q, b), m10 = component(q, a),
                m11 = sign * component(q, c);
   // Singular value decomposition of 2 x 2 in closed form: sum and difference of the two angles.
-  const double sum = std::atan2(m10 + m01, m00 - m11);
-  const double difference = std::atan2(m10 - m01, m00 + m11);
+  const double sum = portable::atan2(m10 + m01, m00 - m11);
+  const double difference = portable::atan2(m10 - m01, m00 + m11);
   const Angles first{sum + difference, sum - difference, 0};
   const Angles second{first[0] + 2 * pi, first[1],
                       0};  // the other sign of q, the same after whole turns
@@ -139,9 +140,9 @@ Angles to_euler_near(Quat q, RotationOrder order, const Angles& previous) {
     c = v - w;
     d = x - u;
   }
-  const double middle = 2 * std::atan2(std::sqrt(c * c + d * d), std::sqrt(a * a + b * b));
-  const double plus = std::atan2(b, a);
-  const double minus = std::atan2(d, c);
+  const double middle = 2 * portable::atan2(std::sqrt(c * c + d * d), std::sqrt(a * a + b * b));
+  const double plus = portable::atan2(b, a);
+  const double minus = portable::atan2(d, c);
 
   // Nearer to the lock than this, rounding decides between first and last; what is lost is twice
   // this. Chosen by hand, not swept.

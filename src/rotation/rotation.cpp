@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/portable.hpp"
+
 namespace kinemend {
 
 Quat normalized(Quat q) {
@@ -28,9 +30,9 @@ Vec3 rotate(Quat q, Vec3 v) {
 Quat exp(Vec3 rotation_vector) {
   const double angle = norm(rotation_vector);
   // sin(angle / 2) / angle, by its series where the quotient would lose digits.
-  const double scale = angle < 1e-4 ? 0.5 - angle * angle / 48 : std::sin(angle / 2) / angle;
-  return {std::cos(angle / 2), scale * rotation_vector.x, scale * rotation_vector.y,
-          scale * rotation_vector.z};
+  const auto [sine, cosine] = portable::sine_and_cosine(angle / 2);
+  const double scale = angle < 1e-4 ? 0.5 - angle * angle / 48 : sine / angle;
+  return {cosine, scale * rotation_vector.x, scale * rotation_vector.y, scale * rotation_vector.z};
 }
 
 Vec3 log(Quat q) {
@@ -38,7 +40,7 @@ Vec3 log(Quat q) {
   const Vec3 axis{q.x, q.y, q.z};
   const double sine = norm(axis);
   // angle / sin(angle / 2); atan2 keeps all digits at 0 and at pi.
-  const double scale = sine < 1e-8 ? 2.0 / q.w : 2 * std::atan2(sine, q.w) / sine;
+  const double scale = sine < 1e-8 ? 2.0 / q.w : 2 * portable::atan2(sine, q.w) / sine;
   return scale * axis;
 }
 
@@ -47,7 +49,7 @@ double angle_between(Quat a, Quat b) {
   const Vec3 d{(a.w * b.x - a.x * b.w) - (a.y * b.z - a.z * b.y),
                (a.w * b.y - a.y * b.w) - (a.z * b.x - a.x * b.z),
                (a.w * b.z - a.z * b.w) - (a.x * b.y - a.y * b.x)};
-  return 2 * std::atan2(norm(d), std::fabs(dot(a, b)));
+  return 2 * portable::atan2(norm(d), std::fabs(dot(a, b)));
 }
 
 Quat slerp(Quat a, Quat b, double t) { return a * exp(t * log(conjugate(a) * b)); }

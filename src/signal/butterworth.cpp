@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/portable.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "signal/checks.hpp"
 
@@ -22,7 +23,7 @@ std::vector<Biquad> butterworth_lowpass(int order, double cutoff_hz, double rate
 
   // The analog poles lie on a half circle of radius w; z = (2 + s) / (2 - s) takes them into the
   // unit circle, w being prewarped for the bilinear transform.
-  const double w = 2 * std::tan(std::numbers::pi * cutoff_hz / rate_hz);
+  const double w = 2 * portable::tan(std::numbers::pi * cutoff_hz / rate_hz);
   std::vector<Biquad> sections;
   if (order % 2 == 1) {
     const double pole = (2 - w) / (2 + w);
@@ -30,7 +31,7 @@ std::vector<Biquad> butterworth_lowpass(int order, double cutoff_hz, double rate
     sections.push_back({gain, gain, 0, -pole, 0});
   }
   for (int k = order / 2 - 1; k >= 0; --k) {  // pairs of poles, the most damped first
-    const double real = -w * std::sin(std::numbers::pi * (2 * k + 1) / (2.0 * order));
+    const double real = -w * portable::sin(std::numbers::pi * (2 * k + 1) / (2.0 * order));
     const double a0 = 4 - 4 * real + w * w;
     const double gain = w * w / a0;
     sections.push_back({gain, 2 * gain, gain, (2 * w * w - 8) / a0, (4 + 4 * real + w * w) / a0});
@@ -63,7 +64,7 @@ std::size_t settling_frames(const std::vector<Biquad>& sections, double toleranc
   }
   if (radius >= 1) return static_cast<std::size_t>(longest);
   if (radius == 0) return 2 * sections.size();
-  const double decay = std::ceil(std::log(tolerance) / std::log(radius));
+  const double decay = std::ceil(portable::log(tolerance) / portable::log(radius));
   return static_cast<std::size_t>(
       std::min(longest, decay + 2.0 * static_cast<double>(sections.size())));
 }

@@ -1,7 +1,7 @@
 // Builds the precision of coloured noise and the evidence of channels under it.
 #include "signal/coloured_noise.hpp"
 
-#include <cmath>
+#include "base/portable.hpp"
 
 namespace kinemend::signal {
 
@@ -22,7 +22,7 @@ void NoisePrecision::set_channel(std::size_t channel, double correlation,
     weight(t, channel) = 1 / variance;
     weight(t - 1, channel) += correlation * correlation / variance;
     coupling(t - 1, channel) = -correlation / variance;
-    log_determinant[channel] -= std::log(variance);
+    log_determinant[channel] -= portable::log(variance);
   }
 }
 
@@ -55,8 +55,8 @@ ColouredEvidence evidence_of(const ChannelBlock& y, const NoisePrecision& precis
   evidence.logarithms = system.log_determinants();
   for (std::size_t i = 0; i < block_channels; ++i) {
     evidence.differences[i] = precision.observed[i] - static_cast<double>(model.order);
-    evidence.logarithms[i] -=
-        precision.log_determinant[i] + static_cast<double>(differences) * std::log(model.strength);
+    evidence.logarithms[i] -= precision.log_determinant[i] +
+                              static_cast<double>(differences) * portable::log(model.strength);
   }
   return evidence;
 }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "base/portable.hpp"
 
 namespace kinemend::signal {
 
@@ -43,8 +44,8 @@ double misfit(const SmoothingModel& model, const SharedFactor& factor, std::size
               double residual, double variance) {
   const auto order = static_cast<double>(model.order);
   return residual / variance + factor.log_determinant -
-         (static_cast<double>(frames) - order) * std::log(model.strength) -
-         order * std::log(variance);
+         (static_cast<double>(frames) - order) * portable::log(model.strength) -
+         order * portable::log(variance);
 }
 
 // Mean over `half` rows on either side, the first and last rows repeated.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/portable.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "signal/checks.hpp"
 #include "signal/extension.hpp"
@@ -72,7 +73,7 @@ void gaussian_filter(PoseMatrix& matrix, double sigma_frames) {
   double sum = 0;
   for (std::size_t k = radius + 1; k-- > 0;) {
     const double z = static_cast<double>(k) / sigma_frames;
-    weights[k] = std::exp(-0.5 * z * z);
+    weights[k] = portable::exp(-0.5 * z * z);
     sum += k == 0 ? weights[k] : 2 * weights[k];
   }
   for (double& weight : weights) weight /= sum;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "base/portable.hpp"
 #include "signal/leave_one_out_kernels.hpp"
 #include "signal/whittaker_kernels.hpp"
 
@@ -30,7 +31,7 @@ std::size_t memory_of(const SharedFactor& factor) {
   const double discriminant = b * b / 4 - c;
   const double root = discriminant < 0 ? std::sqrt(c) : std::fabs(b) / 2 + std::sqrt(discriminant);
   if (!(root < 1)) return differences;
-  const double frames = std::ceil(std::log(negligible) / std::log(std::max(root, 1e-9)));
+  const double frames = std::ceil(portable::log(negligible) / portable::log(std::max(root, 1e-9)));
   return frames < static_cast<double>(differences) ? static_cast<std::size_t>(frames) + order
                                                    : differences;
 }

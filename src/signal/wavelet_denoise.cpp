@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/portable.hpp"
 #include "base/quantiles.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "signal/checks.hpp"
@@ -28,7 +29,7 @@ int automatic_levels(std::size_t frames, std::size_t filter_length) {
 }
 
 double universal_threshold(std::size_t count) {
-  return std::sqrt(2 * std::log(static_cast<double>(std::max<std::size_t>(count, 2))));
+  return std::sqrt(2 * portable::log(static_cast<double>(std::max<std::size_t>(count, 2))));
 }
 
 // SureShrink's threshold for coefficients in units of the noise (Donoho & Johnstone 1995, eq. 11
@@ -44,7 +45,7 @@ double sure_threshold(std::span<double> coefficients) {
     energy += x;
   }
   const double universal = universal_threshold(count);
-  const double sparse = std::pow(std::log2(n), 1.5) / std::sqrt(n);
+  const double sparse = portable::pow(portable::log2(n), 1.5) / std::sqrt(n);
   if (count < 2 || energy / n - 1 <= sparse) return universal;
 
   std::sort(coefficients.begin(), coefficients.end());

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "base/portable.hpp"
 #include "signal/whittaker_kernels.hpp"
 
 namespace kinemend::signal {
@@ -52,7 +53,7 @@ SharedRows rows_of(const SharedFactor& factor) {
 }
 
 double strength_of_cutoff(double cutoff, std::size_t order) {
-  return std::pow(2 * std::sin(pi * cutoff), -2.0 * static_cast<double>(order));
+  return portable::pow(2 * portable::sin(pi * cutoff), -2.0 * static_cast<double>(order));
 }
 
 SharedFactor factor_shared(std::size_t frames, std::size_t order, double strength) {
@@ -75,9 +76,9 @@ SharedFactor factor_shared(std::size_t frames, std::size_t order, double strengt
     }
     pivots.push_back(pivot);
     factor.inverse_diagonal.push_back(1 / pivot);
-    factor.log_determinant += std::log(pivot);
+    factor.log_determinant += portable::log(pivot);
     if (t > order && has_settled(factor, diagonal, pivot, pivots[t - 1])) {
-      factor.log_determinant += static_cast<double>(differences - 1 - t) * std::log(pivot);
+      factor.log_determinant += static_cast<double>(differences - 1 - t) * portable::log(pivot);
       break;
     }
   }
@@ -186,7 +187,7 @@ BlockRow WeightedSystem::log_determinants() const {
       for (std::size_t c = 0; c < block_channels; ++c)
         product[c] *= diagonal_[t * block_channels + c];
     }
-    for (std::size_t c = 0; c < block_channels; ++c) result[c] += std::log(product[c]);
+    for (std::size_t c = 0; c < block_channels; ++c) result[c] += portable::log(product[c]);
   }
   return result;
 }

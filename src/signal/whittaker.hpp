@@ -10,6 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "base/portable.hpp"
+
 namespace kinemend::signal {
 
 // Channels side by side: for speed, not swept. The largest order of differences: by definition.
@@ -54,8 +56,8 @@ struct CutoffGrid {
   std::size_t count;  ///< at least 2
 
   double hz(std::size_t i) const {
-    return lowest_hz * std::pow(highest_hz / lowest_hz,
-                                static_cast<double>(i) / static_cast<double>(count - 1));
+    return lowest_hz * portable::pow(highest_hz / lowest_hz,
+                                     static_cast<double>(i) / static_cast<double>(count - 1));
   }
 };
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "base/portable.hpp"
+
 namespace kinemend::synth {
 
 namespace {
@@ -59,8 +61,8 @@ TwoBones reach(Vec3 target, double first_length, double second_length, Vec3 pole
   bones.first = c * along + s * side;
   bones.second = direction(distance * along - first_length * bones.first);
   bones.hinge = cross(side, along);
-  bones.bend = std::atan2(dot(cross(bones.first, bones.second), bones.hinge),
-                          dot(bones.first, bones.second));
+  bones.bend = portable::atan2(dot(cross(bones.first, bones.second), bones.hinge),
+                               dot(bones.first, bones.second));
   return bones;
 }
 
@@ -130,7 +132,7 @@ void place_leg(const Body& body, const Posture& posture, std::size_t side, BodyP
   const double facing =
       0.5 * (posture.heading_deg + posture.rotation_deg + foot.yaw_deg) * radians_per_degree;
   const TwoBones bones = reach(foot.ankle - hip_position(body, posture, side), body.thigh,
-                               body.shank, {std::sin(facing), 0, std::cos(facing)});
+                               body.shank, {portable::sin(facing), 0, portable::cos(facing)});
   const Vec3 x = bones.hinge;
   const Quat thigh = from_axes(x, -bones.first, cross(x, -bones.first));
   const Quat shank = from_axes(x, -bones.second, cross(x, -bones.second));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/portable.hpp"
 #include "kinemend/rotation.hpp"
 
 namespace kinemend::synth {
@@ -15,7 +16,7 @@ using Row = std::array<double, 5>;
 
 Row basis(double phase) {
   const double a = 4 * pi * phase;
-  return {1, std::cos(a), std::sin(a), std::cos(2 * a), std::sin(2 * a)};
+  return {1, portable::cos(a), portable::sin(a), portable::cos(2 * a), portable::sin(2 * a)};
 }
 
 Row second_derivative_basis(double phase) {
@@ -79,15 +80,15 @@ PeriodicCurve::PeriodicCurve(std::span<const double> samples) {
   for (std::size_t k = 0; k < harmonics; ++k) {
     for (std::size_t i = 0; i < count; ++i) {
       const double a = 2 * pi * static_cast<double>((k + 1) * i) / static_cast<double>(count);
-      cosines_[k] += 2 * samples[i] * std::cos(a) / static_cast<double>(count);
-      sines_[k] += 2 * samples[i] * std::sin(a) / static_cast<double>(count);
+      cosines_[k] += 2 * samples[i] * portable::cos(a) / static_cast<double>(count);
+      sines_[k] += 2 * samples[i] * portable::sin(a) / static_cast<double>(count);
     }
   }
 }
 
 double PeriodicCurve::operator()(double phase) const {
   const double a = 2 * pi * (phase - std::floor(phase));
-  const double c1 = std::cos(a), s1 = std::sin(a);
+  const double c1 = portable::cos(a), s1 = portable::sin(a);
   double c = c1, s = s1, value = mean_;
   for (std::size_t k = 0; k < cosines_.size(); ++k) {
     value += cosines_[k] * c + sines_[k] * s;
@@ -108,8 +109,8 @@ double StepCurve::operator()(double phase) const {
 double StepCurve::periodic_integral(double phase) const {
   const auto& c = coefficients;
   const double k = 4 * pi, a = k * phase;
-  return (c[1] * std::sin(a) - c[2] * (std::cos(a) - 1)) / k +
-         (c[3] * std::sin(2 * a) - c[4] * (std::cos(2 * a) - 1)) / (2 * k);
+  return (c[1] * portable::sin(a) - c[2] * (portable::cos(a) - 1)) / k +
+         (c[3] * portable::sin(2 * a) - c[4] * (portable::cos(2 * a) - 1)) / (2 * k);
 }
 
 StepCurve fit_step_curve(std::span<const StepEquation> equations, double ridge) {
@@ -159,7 +160,7 @@ Wander::Wander(Random& random, double amplitude, double low_hz, double high_hz) 
 double Wander::operator()(double time) const {
   double value = 0;
   for (const Wave& w : waves_) {
-    value += w.amplitude * std::sin(2 * pi * (w.frequency * time + w.phase));
+    value += w.amplitude * portable::sin(2 * pi * (w.frequency * time + w.phase));
   }
   return value;
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/portable.hpp"
+
 namespace kinemend::synth {
 
 namespace {
@@ -16,7 +18,7 @@ constexpr double toe_out_deg = 6;
 double fraction(double x) { return x - std::floor(x); }
 double side_offset(std::size_t side) { return side == 0 ? 0.0 : 0.5; }
 double side_sign(std::size_t side) { return side == 0 ? 1.0 : -1.0; }
-double cosine(double cycles) { return std::cos(2 * pi * cycles); }
+double cosine(double cycles) { return portable::cos(2 * pi * cycles); }
 
 Vec3 ball_offset(const Body& b) {
   return {0, b.ball_height - b.ankle_height, b.ball_ahead_of_ankle};

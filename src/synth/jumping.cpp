@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/portable.hpp"
 #include "synth/curves.hpp"
 #include "synth/motions.hpp"
 
@@ -71,8 +72,9 @@ class Jump {
   // its length.
   double root_height(double stretch, double pitch_deg) const {
     const double a = -pitch_deg * radians_per_degree;
-    return body_.ball_height + (body_.ankle_height - body_.ball_height) * std::cos(a) +
-           body_.ball_ahead_of_ankle * std::sin(a) + stretch * body_.leg() + body_.hip_below_root;
+    return body_.ball_height + (body_.ankle_height - body_.ball_height) * portable::cos(a) +
+           body_.ball_ahead_of_ankle * portable::sin(a) + stretch * body_.leg() +
+           body_.hip_below_root;
   }
   double reach(double t) const {
     return reach_at_lift_ + ramp(t, lift + 0.1, touch_ - 0.1) * (reach_at_touch_ - reach_at_lift_);

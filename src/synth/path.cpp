@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "base/portable.hpp"
+
 namespace kinemend::synth {
 
 namespace {
@@ -31,7 +33,7 @@ Path::Path(std::function<double(double)> heading_deg, double first, double last)
 
 Vec3 Path::forward(double distance) const {
   const double a = heading_(distance) * radians_per_degree;
-  return {std::sin(a), 0, std::cos(a)};
+  return {portable::sin(a), 0, portable::cos(a)};
 }
 
 Vec3 Path::left(double distance) const {

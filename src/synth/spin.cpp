@@ -2,10 +2,10 @@
 #include "synth/spin.hpp"
 
 #include <array>
-#include <cmath>
 #include <string>
 #include <vector>
 
+#include "base/portable.hpp"
 #include "kinemend/experimental/random.hpp"
 
 namespace kinemend::synth {
@@ -20,8 +20,8 @@ struct Link {
 
   Quat at(double t, RotationOrder order) const {
     const double yaw = 360 * turns_per_s * t;
-    const double pitch = 88 * std::sin(2 * pi * (pitch_hz * t + pitch_phase));
-    const double roll = roll_deg * std::sin(2 * pi * roll_hz * t);
+    const double pitch = 88 * portable::sin(2 * pi * (pitch_hz * t + pitch_phase));
+    const double roll = roll_deg * portable::sin(2 * pi * roll_hz * t);
     return from_euler(
         {yaw * radians_per_degree, pitch * radians_per_degree, roll * radians_per_degree}, order);
   }

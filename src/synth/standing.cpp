@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 
+#include "base/portable.hpp"
 #include "synth/curves.hpp"
 #include "synth/motions.hpp"
 
@@ -81,11 +82,11 @@ ArmAngles waving_arm(const ArmAngles& hanging, double time_s, double weight) {
   ArmAngles up;
   up.flexion = 25;
   up.abduction = 88;
-  up.rotation = -82 + 6 * std::sin(2 * pi * (1.7 * time_s + 0.1));
-  up.elbow = 82 + 26 * std::sin(2 * pi * 1.7 * time_s);
+  up.rotation = -82 + 6 * portable::sin(2 * pi * (1.7 * time_s + 0.1));
+  up.elbow = 82 + 26 * portable::sin(2 * pi * 1.7 * time_s);
   up.pronation = -10;
   up.wrist_flexion = -5;
-  up.wrist_deviation = 12 * std::sin(2 * pi * (1.7 * time_s - 0.12));
+  up.wrist_deviation = 12 * portable::sin(2 * pi * (1.7 * time_s - 0.12));
   up.curl = 6;
   up.collar_up = 10;
   return mix(hanging, up, weight);

@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/portable.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 
 namespace kinemend {
@@ -378,7 +379,7 @@ double rate_from_frame_time(double frame_time_s, std::string_view text) {
   const std::size_t dot = text.find('.');
   if (whole >= 1 && error_of(whole) <= 1e-4 && dot != text.npos &&
       text.find_first_of("eE") == text.npos) {
-    const double half_unit = 0.5 * std::pow(10.0, -static_cast<double>(text.size() - dot - 1));
+    const double half_unit = 0.5 * portable::pow(10.0, -static_cast<double>(text.size() - dot - 1));
     if (std::fabs(frame_time_s - 1 / whole) <= half_unit * 1.0001) return whole;
   }
   return rate;

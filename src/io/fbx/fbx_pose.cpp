@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/portable.hpp"
 #include "rotation/component.hpp"
 
 namespace kinemend {
@@ -35,9 +36,9 @@ Vec3 mix_rotations(Vec3 below, Vec3 value, const FbxLayer& layer, RotationOrder 
 }
 
 Vec3 mix_scales(Vec3 below, Vec3 value, double weight) {
-  return {below.x * std::pow(std::fabs(value.x), weight),
-          below.y * std::pow(std::fabs(value.y), weight),
-          below.z * std::pow(std::fabs(value.z), weight)};
+  return {below.x * portable::pow(std::fabs(value.x), weight),
+          below.y * portable::pow(std::fabs(value.y), weight),
+          below.z * portable::pow(std::fabs(value.z), weight)};
 }
 
 // What a layer makes of the value of the layers below.

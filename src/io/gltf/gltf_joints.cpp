@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/portable.hpp"
 #include "io/gltf/gltf_matrix.hpp"
 #include "io/gltf/gltf_motion.hpp"
 #include "kinemend/error.hpp"
@@ -115,7 +116,7 @@ bool is_uniform_scale(Vec3 s) {
 }
 
 Vec3 mean_scale(Vec3 s) {
-  const double mean = std::cbrt(s.x) * std::cbrt(s.y) * std::cbrt(s.z);
+  const double mean = portable::cbrt(s.x) * portable::cbrt(s.y) * portable::cbrt(s.z);
   return {mean, mean, mean};
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "base/portable.hpp"
 #include "io/motion/motion_columns.hpp"
 #include "io/motion/source_frames.hpp"
 #include "io/text/text_buffer.hpp"
@@ -91,7 +92,7 @@ class MotionRewriter {
         document_(document),
         source_(document),
         decimals_(document.written_decimals()),
-        keep_below_(0.5 * std::pow(10.0, -static_cast<double>(decimals_))),
+        keep_below_(0.5 * portable::pow(10.0, -static_cast<double>(decimals_))),
         written_(clip.joint_count()),
         row_before_(source_.columns().count()),
         copied_(document.bytes.data()) {}

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/portable.hpp"
 #include "io/memory_limit.hpp"
 #include "io/table/marker_zeros.hpp"
 #include "io/text/cell_patch.hpp"
@@ -247,7 +248,7 @@ double rounding_of(const std::vector<double>& times_s) {
     if (dot != digits.npos)
       decimals = std::max(decimals, static_cast<unsigned>(digits.size() - dot - 1));
   }
-  return 0.5 * std::pow(10.0, -static_cast<double>(decimals));
+  return 0.5 * portable::pow(10.0, -static_cast<double>(decimals));
 }
 
 // The rate in use, or the whole number of hertz, that rounded times can stand for.

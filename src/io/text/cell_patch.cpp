@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "base/portable.hpp"
+
 namespace kinemend {
 
 CellPatch::CellPatch(std::string_view bytes, std::size_t begin, const CellStyle& style,
@@ -25,8 +27,9 @@ bool CellPatch::next() {
 }
 
 void CellPatch::replace(std::size_t column, double value, unsigned decimals) {
-  const double keep_below =
-      decimals > most_fixed_decimals ? 0 : 0.5 * std::pow(10.0, -static_cast<double>(decimals));
+  const double keep_below = decimals > most_fixed_decimals
+                                ? 0
+                                : 0.5 * portable::pow(10.0, -static_cast<double>(decimals));
   if (std::fabs(value - values_[column]) <= keep_below) return;
   replacements_.push_back({column, value, decimals});
 }

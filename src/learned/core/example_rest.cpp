@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/portable.hpp"
 #include "base/quantiles.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "learned/core/prior_fall_backs.hpp"
@@ -135,7 +136,7 @@ void smooth_rest(const PriorWork& work, const PoseMatrix& weights, const PoseMat
 
 void fall_back(PriorWork& work, double strangeness, PoseMatrix& cleaned) {
   const double share =
-      ramp(std::log(strangeness), std::log(known_motion), std::log(unknown_motion));
+      ramp(portable::log(strangeness), portable::log(known_motion), portable::log(unknown_motion));
   for (std::size_t part = 0; part_channels * part < cleaned.channels; ++part)
     blend_part(
         work, part, [share](std::size_t) { return share; }, cleaned);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/portable.hpp"
 #include "base/quantiles.hpp"
 #include "learned/core/prior_fall_backs.hpp"
 
@@ -61,7 +62,7 @@ std::vector<double> shares_within_noise(const PriorWork& work) {
       for (std::size_t c = first; c < first + channels_of_part; ++c) {
         const std::size_t i = f * poses.channels + c;
         counts = counts && work.channels.observed[i] != 0 && work.suspect[i] == 0;
-        change += std::pow(poses(f, c) - work.fallback(f, c), 2);
+        change += portable::pow(poses(f, c) - work.fallback(f, c), 2);
       }
       if (counts && change > farthest) shares[f * parts + part] = std::sqrt(farthest / change);
     }

@@ -1,9 +1,9 @@
 // Passes a sequence to the damages of `corrupt` and bridges the samples that are lost.
 #include "learned/core/sequence_damage.hpp"
 
-#include <cmath>
 #include <utility>
 
+#include "base/portable.hpp"
 #include "kinemend/experimental/signal.hpp"
 
 namespace kinemend {
@@ -46,7 +46,7 @@ void bridge_lost(PoseMatrix& poses, const std::vector<std::uint8_t>& observed) {
 }
 
 double log_uniform(Random& random, double low, double high) {
-  return std::exp(random.uniform(std::log(low), std::log(high)));
+  return portable::exp(random.uniform(portable::log(low), portable::log(high)));
 }
 
 }  // namespace kinemend

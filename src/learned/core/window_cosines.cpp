@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/portable.hpp"
+
 namespace kinemend {
 
 Eigen::MatrixXd window_cosines(Eigen::Index frames, Eigen::Index count) {
@@ -13,7 +15,7 @@ Eigen::MatrixXd window_cosines(Eigen::Index frames, Eigen::Index count) {
     for (Eigen::Index i = 0; i < frames; ++i) {
       const double phase = std::numbers::pi * static_cast<double>(k) *
                            (static_cast<double>(i) + 0.5) / static_cast<double>(frames);
-      cosines(i, k) = k == 0 ? 1.0 : std::numbers::sqrt2 * std::cos(phase);
+      cosines(i, k) = k == 0 ? 1.0 : std::numbers::sqrt2 * portable::cos(phase);
     }
   }
   return cosines;

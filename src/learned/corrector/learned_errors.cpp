@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/portable.hpp"
 #include "base/quantiles.hpp"
 
 namespace kinemend {
@@ -31,7 +32,8 @@ TrackError track_error(const MotionTake& take, const MotionResult& result, std::
   samples = std::max(samples, 1.0);
   error.removed /= samples, error.left /= samples, error.quick /= samples;
   if (error.removed > error.quick)
-    error.correlation = std::pow(1 - error.quick / error.removed, 1 / static_cast<double>(later));
+    error.correlation =
+        portable::pow(1 - error.quick / error.removed, 1 / static_cast<double>(later));
   return error;
 }
 

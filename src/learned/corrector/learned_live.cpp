@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/portable.hpp"
 #include "body/rotation_channels.hpp"
 #include "kinemend/error.hpp"
 #include "learned/corrector/live_motion_filter.hpp"
@@ -58,7 +59,7 @@ class LearnedLive final : public LiveFilter {
  public:
   LearnedLive(const MotionNetwork& network, const BodyLayout& layout, const NameMap& names,
               const TakeView& like)
-      : follow_(1 - std::exp(-1 / (follow_s * like.frame_rate_hz))),
+      : follow_(1 - portable::exp(-1 / (follow_s * like.frame_rate_hz))),
         degrees_per_unit_(degrees_per_unit(like, Space::position)) {
     const std::size_t rotations = like.joints != nullptr ? like.owners : 0;
     std::vector<std::int32_t> slots;

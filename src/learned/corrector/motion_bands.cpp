@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/portable.hpp"
+
 namespace kinemend {
 
 namespace {
@@ -18,7 +20,7 @@ constexpr std::size_t first_slow_band = 5;
 // by hand; the network has learned with it.
 constexpr std::size_t measured_band = 5;
 
-float log_feature(float square) { return 0.25F * std::log(square) + 0.5F; }
+float log_feature(float square) { return 0.25F * portable::log(square) + 0.5F; }
 
 std::vector<float> hat(double half_frames) {
   std::vector<double> weights;
@@ -141,12 +143,12 @@ void write_step(const BandBlock& block, std::size_t step, std::ptrdiff_t frame, 
   };
   for (std::size_t band = first_signed_band; band < motion_bands; ++band) {
     row.features[2 * motion_bands + band - first_signed_band] =
-        std::asinh((row.levels[band] - row.levels[band + 1]) / unit_of(band));
+        portable::asinh((row.levels[band] - row.levels[band + 1]) / unit_of(band));
   }
   row.features[missing_feature] = missing;
   row.features[missing_feature + 1] = log_feature(measured.taken_out + least_square);
-  row.features[missing_feature + 2] =
-      std::asinh((row.levels[bank_levels] - row.levels[measured_band]) / unit_of(measured_band));
+  row.features[missing_feature + 2] = portable::asinh(
+      (row.levels[bank_levels] - row.levels[measured_band]) / unit_of(measured_band));
   row.features[missing_feature + 3] = measured.is_known ? 1.0F : 0.0F;
   for (std::size_t i = 0; i + 1 < motion_scales; ++i)
     row.scales[i] = std::sqrt(squares[scale_bands[i]] + least_square);

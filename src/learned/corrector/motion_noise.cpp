@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/portable.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "kinemend/rotation.hpp"
 #include "learned/core/sequence_damage.hpp"
@@ -47,7 +48,7 @@ std::vector<double> bursts(std::size_t frames, double rate_hz, Random& random) {
   double square = 0;
   for (const double value : slow.values) square += value * value;
   const double unit = std::sqrt(static_cast<double>(frames) / std::max(square, 1e-12));
-  for (double& value : slow.values) value = std::exp(0.8 * unit * value);
+  for (double& value : slow.values) value = portable::exp(0.8 * unit * value);
   return slow.values;
 }
 
@@ -75,7 +76,7 @@ void low_pass(PoseMatrix& poses, int order, double cutoff_hz, double rate_hz) {
 void add_random_noise(PoseMatrix& poses, double rate_hz, std::vector<double> strengths,
                       bool has_slow, Random& random) {
   if (random.chance(0.3)) {
-    for (double& strength : strengths) strength *= std::exp(0.5 * random.normal());
+    for (double& strength : strengths) strength *= portable::exp(0.5 * random.normal());
   }
   const PoseMatrix noise = unit_noise(poses.frames, poses.channels, rate_hz, has_slow, random);
   const std::vector<double> factors = random.chance(0.15) ? bursts(poses.frames, rate_hz, random)
@@ -103,7 +104,7 @@ void vary_motion(PoseMatrix& poses, double rate_hz, const Shaking& shaking, Rand
     for (std::size_t f = first; f < last; ++f) {
       const auto inside = static_cast<double>(std::min(f - first, last - 1 - f));
       poses(f, c) += size * std::min(1.0, inside / ramp) *
-                     std::sin(outset + turn * frequency_hz * static_cast<double>(f) / rate_hz);
+                     portable::sin(outset + turn * frequency_hz * static_cast<double>(f) / rate_hz);
     }
   }
 }

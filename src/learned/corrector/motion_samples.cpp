@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/portable.hpp"
 #include "kinemend/rotation.hpp"
 #include "learned/core/sequence_damage.hpp"
 #include "learned/core/warped_sequence.hpp"
@@ -196,7 +197,7 @@ MotionSample random_pair(const MotionPair& pair, std::size_t channels,
   const std::vector<float>& seen = is_clean ? pair.sample.truth : whole.values;
   const bool has_gaps = !is_clean && !whole.missing.empty();
   if (has_gaps) take.missing.assign(take.values.size(), 0);
-  const auto scale = static_cast<float>(std::exp(0.2 * random.normal()));
+  const auto scale = static_cast<float>(portable::exp(0.2 * random.normal()));
   const std::size_t shown = std::min(whole.channels, channels);
   for (std::size_t c = 0; c < shown; ++c) {
     const float factor = random.chance(0.5) ? scale : -scale;

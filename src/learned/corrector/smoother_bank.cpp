@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "base/portable.hpp"
 #include "learned/corrector/smoother_kernel.hpp"
 
 namespace kinemend {
@@ -22,7 +23,7 @@ std::vector<float> taps_of(double sigma_frames) {
   double sum = 0;
   for (std::size_t k = 0; k <= reach; ++k) {
     const double z = static_cast<double>(k) / sigma_frames;
-    taps[k] = std::exp(-0.5 * z * z);
+    taps[k] = portable::exp(-0.5 * z * z);
     sum += k == 0 ? taps[k] : 2 * taps[k];
   }
   for (double& tap : taps) tap /= sum;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/portable.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
 #include "learned/core/example_rest.hpp"
@@ -182,8 +183,8 @@ class ExampleCleaning {
     if (!tuning_.knows_variances) weights.coefficients.clear();
     for (std::size_t c = 0; c < noise.size(); ++c) {
       weights.prior[c] /= tuning_.rest_memory_frames;
-      weights.welsch[c] = std::hypot(weights.welsch[c],
-                                     tuning_.rest_deviations * std::sqrt(prior_.bases.residual[c]));
+      weights.welsch[c] = portable::hypot(
+          weights.welsch[c], tuning_.rest_deviations * std::sqrt(prior_.bases.residual[c]));
     }
     if (options_.lambda > 0) {
       std::fill(weights.data.begin(), weights.data.end(), 1.0);

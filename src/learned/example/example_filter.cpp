@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "base/portable.hpp"
 #include "learned/example/stretches.hpp"
 
 namespace kinemend {
@@ -127,7 +128,7 @@ class Minimisation {
         const double b = alpha(f, c);
         if (b == 0) continue;
         const double r = residual(f, c), p = scale_ * weights_.welsch[c];
-        const double lost = std::expm1(-r * r / (p * p));
+        const double lost = portable::expm1(-r * r / (p * p));
         data += b * (std::isinf(p) ? r * r / 2 : -p * p / 2 * lost);
         confidence_(f, c) = 1 + lost;
       }
@@ -306,7 +307,7 @@ PoseMatrix welsch_weights(const PoseMatrix& poses, const PoseMatrix& measured,
   for (std::size_t i = 0; i < weights.values.size(); ++i) {
     if (!observed.empty() && observed[i] == 0) continue;
     const double off = (poses.values[i] - measured.values[i]) / welsch[i % poses.channels];
-    weights.values[i] = std::exp(-off * off);
+    weights.values[i] = portable::exp(-off * off);
   }
   return weights;
 }

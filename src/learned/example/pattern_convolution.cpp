@@ -2,12 +2,12 @@
 #include "learned/example/pattern_convolution.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <mutex>
 #include <numbers>
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "base/portable.hpp"
 #include "kinemend/experimental/threads.hpp"
 
 namespace kinemend {
@@ -87,15 +87,15 @@ void PatternConvolution::prepare_transforms() {
   };
   for (std::size_t f = 0; f < frequencies_; ++f) {
     for (std::size_t t = 0; t < frequencies_; ++t) {
-      cosines_.push_back(std::cos(angle(f, t)));
-      sines_.push_back(-std::sin(angle(f, t)));
+      cosines_.push_back(portable::cos(angle(f, t)));
+      sines_.push_back(-portable::sin(angle(f, t)));
     }
   }
   for (std::size_t t = 0; t <= fresh_rows_ / 2; ++t) {
     for (std::size_t f = 0; f < frequencies_; ++f) {
       const double share = (f == 0 ? 1.0 : 2.0) / static_cast<double>(block_rows_);
-      cosines_back_.push_back(share * std::cos(angle(f, t)));
-      sines_back_.push_back(-share * std::sin(angle(f, t)));
+      cosines_back_.push_back(share * portable::cos(angle(f, t)));
+      sines_back_.push_back(-share * portable::sin(angle(f, t)));
     }
   }
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "base/portable.hpp"
 #include "learned/core/network_numbers.hpp"
 
 namespace kinemend {
@@ -149,7 +150,7 @@ float roughness_feature(double mean_square, float deviation) {
   // normal. Chosen by hand; networks have learned with them.
   constexpr float squares_of_white = 6, floor_deg = 0.02F, middle = -3, spread = 1.5F;
   const float own = std::sqrt(static_cast<float>(std::max(0.0, mean_square)) / squares_of_white);
-  return (std::log((own + floor_deg) / deviation) - middle) / spread;
+  return (portable::log((own + floor_deg) / deviation) - middle) / spread;
 }
 
 std::vector<float> filter_features(const FilterTake& take, const FilterStatistics& statistics,

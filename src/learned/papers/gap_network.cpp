@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/portable.hpp"
 #include "kinemend/experimental/signal.hpp"
 
 namespace kinemend {
@@ -80,8 +81,8 @@ void fill_span(const std::vector<double>& added, std::size_t channels, std::size
   const double at_start = has_start ? added[first * channels + c] : 0;
   const double at_end = has_end ? added[(last - 1) * channels + c] : 0;
   for (std::size_t f = first; f < last; ++f) {
-    const double from_start = std::exp(-static_cast<double>(f - first) / joining_frames);
-    const double from_end = std::exp(-static_cast<double>(last - 1 - f) / joining_frames);
+    const double from_start = portable::exp(-static_cast<double>(f - first) / joining_frames);
+    const double from_end = portable::exp(-static_cast<double>(last - 1 - f) / joining_frames);
     poses(f, gap_axes + c) += added[f * channels + c] - from_start * at_start - from_end * at_end;
   }
 }

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
+#include "base/portable.hpp"
 #include "nn/activation.hpp"
 
 namespace kinemend {
@@ -103,7 +103,7 @@ Shape shape_of(const float* outputs, std::size_t t, std::size_t frames) {
   const float most = *std::max_element(outputs + shape.first, outputs + shape.last);
   float sum = 0;
   for (std::size_t k = shape.first; k < shape.last; ++k)
-    sum += shape.weights[k] = std::exp(outputs[k] - most);
+    sum += shape.weights[k] = portable::exp(outputs[k] - most);
   for (std::size_t k = shape.first; k < shape.last; ++k) shape.weights[k] /= sum;
   return shape;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/portable.hpp"
 #include "base/quantiles.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
@@ -219,7 +220,7 @@ void average_with_auto(const PriorWork& work, const PoseMatrix& expressed,
     double squares = 0;
     for (std::size_t f = 0; f < cleaned.frames; ++f) {
       for (std::size_t c = first; c < first + 3; ++c)
-        squares += std::pow((cleaned(f, c) - expressed(f, c)) / noise[c], 2);
+        squares += portable::pow((cleaned(f, c) - expressed(f, c)) / noise[c], 2);
     }
     const double rest = squares / (3 * static_cast<double>(cleaned.frames)) / usual_rest;
     const double share = most_of_auto * rest * rest / (1 + rest * rest);

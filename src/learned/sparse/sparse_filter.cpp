@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/portable.hpp"
 #include "base/quantiles.hpp"
 #include "learned/core/window_cosines.hpp"
 #include "learned/sparse/descent_solver.hpp"
@@ -88,7 +89,7 @@ class PoseletFilter {
   sparse::SparseSolution solution_of(sparse::Loss loss, const Windows& windows,
                                      const std::vector<double>& weights) const {
     const double atoms = static_cast<double>(dictionary_.atoms);
-    const double largest = std::sqrt(2 * std::log(std::max(atoms, 2.0)));
+    const double largest = std::sqrt(2 * portable::log(std::max(atoms, 2.0)));
     const double lambda = settings_.lambda * largest * (loss == sparse::Loss::squares ? 2 : 1);
     const std::vector<double> lambdas(windows.count, lambda);
     const sparse::SparseProblem problem{loss, windows.signals, weights, lambdas, {}};

@@ -3,9 +3,9 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
+#include "base/portable.hpp"
 #include "kinemend/experimental/random.hpp"
 
 namespace kinemend {
@@ -116,13 +116,19 @@ MatrixXd shares_of(const MatrixXd& points, const std::vector<Component>& compone
   for (std::size_t c = 0; c < components.size(); ++c) {
     const Eigen::LLT<MatrixXd> factor(components[c].covariance);
     const MatrixXd white = factor.matrixL().solve(points.colwise() - components[c].mean);
-    const double log_root = factor.matrixLLT().diagonal().array().log().sum();
-    shares.col(static_cast<Index>(c)) = (std::log(components[c].weight) - log_root -
+    const double log_root = factor.matrixLLT()
+                                .diagonal()
+                                .array()
+                                .unaryExpr([](double x) { return portable::log(x); })
+                                .sum();
+    shares.col(static_cast<Index>(c)) = (portable::log(components[c].weight) - log_root -
                                          0.5 * white.colwise().squaredNorm().transpose().array())
                                             .matrix();
   }
   for (Index w = 0; w < shares.rows(); ++w) {
-    shares.row(w) = (shares.row(w).array() - shares.row(w).maxCoeff()).exp();
+    shares.row(w) = (shares.row(w).array() - shares.row(w).maxCoeff()).unaryExpr([](double x) {
+      return portable::exp(x);
+    });
     shares.row(w) /= shares.row(w).sum();
   }
   return shares;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "base/portable.hpp"
 #include "base/quantiles.hpp"
 #include "learned/core/window_cosines.hpp"
 #include "learned/wiener/wiener_posterior.hpp"
@@ -30,8 +31,8 @@ constexpr std::size_t chunk_windows = 16;  // a share of work
 VectorXd taper(Index frames) {
   VectorXd weights(frames);
   for (Index i = 0; i < frames; ++i) {
-    const double s = std::sin(3.14159265358979323846 * (static_cast<double>(i) + 0.5) /
-                              static_cast<double>(frames));
+    const double s = portable::sin(3.14159265358979323846 * (static_cast<double>(i) + 0.5) /
+                                   static_cast<double>(frames));
     weights(i) = s * s;
   }
   return weights;

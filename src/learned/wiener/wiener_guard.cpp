@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/portable.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "signal/fourth_difference.hpp"
@@ -44,7 +45,7 @@ struct Estimate {
 double centre_weight(double sigma_frames) {
   double sum = 1;
   for (int j = 1; j < 4 * sigma_frames + 1; ++j)
-    sum += 2 * std::exp(-0.5 * (j / sigma_frames) * (j / sigma_frames));
+    sum += 2 * portable::exp(-0.5 * (j / sigma_frames) * (j / sigma_frames));
   return 1 / sum;
 }
 

@@ -2,9 +2,9 @@
 #include "learned/wiener/wiener_posterior.hpp"
 
 #include <Eigen/Cholesky>
-#include <cmath>
 
 #include "base/parallel.hpp"
+#include "base/portable.hpp"
 
 namespace kinemend {
 
@@ -16,7 +16,11 @@ using Eigen::VectorXd;
 using Component = WienerPrior::Component;
 
 double log_determinant(const Eigen::LLT<MatrixXd>& factor) {
-  return 2 * factor.matrixLLT().diagonal().array().log().sum();
+  return 2 * factor.matrixLLT()
+                 .diagonal()
+                 .array()
+                 .unaryExpr([](double x) { return portable::log(x); })
+                 .sum();
 }
 
 }  // namespace
@@ -37,13 +41,16 @@ MixturePosterior mixture_posterior(const std::vector<Component>& components,
     MatrixXd& mean = result.means[number];
     mean = posterior.solve(b);
     const double same =
-        std::log(component.weight) -
+        portable::log(component.weight) -
         0.5 * (log_determinant(prior) + log_determinant(posterior) + pull.dot(component.mean));
     evidence.col(static_cast<Index>(number)) =
         (same + 0.5 * b.cwiseProduct(mean).colwise().sum().transpose().array()).matrix();
   });
   for (Index w = 0; w < evidence.rows(); ++w) {
-    evidence.row(w) = (evidence.row(w).array() - evidence.row(w).maxCoeff()).exp();
+    evidence.row(w) =
+        (evidence.row(w).array() - evidence.row(w).maxCoeff()).unaryExpr([](double x) {
+          return portable::exp(x);
+        });
     evidence.row(w) /= evidence.row(w).sum();
   }
   result.shares = evidence.transpose();

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/portable.hpp"
+
 namespace kinemend {
 
 namespace {
@@ -50,7 +52,8 @@ RestModel::RestModel(const MatrixXd& prior, const VectorXd& noise, Index frames,
   // Above the model's frequencies, at higher rates, the spectrum is extrapolated.
   for (Index k = 0; k < frames; ++k) {
     const Index known = std::min(k, prior.cols() - 1);
-    const double fall = std::pow(static_cast<double>(known + 1) / static_cast<double>(k + 1), 4);
+    const double fall =
+        portable::pow(static_cast<double>(known + 1) / static_cast<double>(k + 1), 4);
     prior_.row(k) = fall * prior.col(known).transpose();
   }
 }
@@ -62,7 +65,7 @@ int RestModel::noise_octave(const MatrixXd& left, Index channel) const {
   const double seen = left.col(channel).tail(count).squaredNorm();
   const double factor = (seen / noise_(channel) + noise_coefficients) /
                         (static_cast<double>(count) + noise_coefficients);
-  return std::clamp(static_cast<int>(std::lround(std::log2(factor))), least_noise_octave,
+  return std::clamp(static_cast<int>(std::lround(portable::log2(factor))), least_noise_octave,
                     largest_noise_octave);
 }
 
@@ -100,7 +103,12 @@ void RestModel::learn(double window_weight) {
     for (int noise = least_noise_octave; noise <= largest_noise_octave; ++noise) {
       const MatrixXd total = scaled.rowwise() + std::ldexp(1.0, noise) * noise_.transpose();
       scales_.push_back({scaled.cwiseQuotient(total), total.cwiseInverse(),
-                         -0.5 * total.array().log().colwise().sum().matrix().transpose()});
+                         -0.5 * total.array()
+                                    .unaryExpr([](double x) { return portable::log(x); })
+                                    .colwise()
+                                    .sum()
+                                    .matrix()
+                                    .transpose()});
     }
   }
 }
@@ -129,7 +137,7 @@ void RestModel::shrink(MatrixXd& left) const {
       best = std::max(best, share[s]);
     }
     double sum = 0;
-    for (double& value : share) sum += value = std::exp(value - best);
+    for (double& value : share) sum += value = portable::exp(value - best);
     for (Index d = first; d < last; ++d) {
       VectorXd gain = VectorXd::Zero(left.rows());
       for (std::size_t s = 0; s < scale_count; ++s) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "base/portable.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "rotation/component.hpp"
@@ -94,7 +95,7 @@ class ColouredSmoothing {
       for (std::size_t k = 0; k < members.size(); ++k) {
         const double variance = variance_[members[k]];
         const double misfit = evidence.squares[k] / variance + evidence.logarithms[k] +
-                              evidence.differences[k] * std::log(variance);
+                              evidence.differences[k] * portable::log(variance);
         if (!(misfit < least[k])) continue;
         least[k] = misfit;
         models_[members[k]] = model;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "base/portable.hpp"
 #include "base/quantiles.hpp"
 #include "methods/auto/vector_tracks.hpp"
 
@@ -159,7 +160,7 @@ std::vector<double> noise_levels(const VectorTracks& tracks, const SampleMarks& 
 }
 
 double rate_factor_of(double frame_rate_hz, const DeadZoneTuning& tuning) {
-  return std::max(1.0, std::pow(120 / frame_rate_hz, tuning.rate_exponent));
+  return std::max(1.0, portable::pow(120 / frame_rate_hz, tuning.rate_exponent));
 }
 
 std::vector<double> smoothing_shares(const std::vector<double>& noise, double frame_rate_hz,

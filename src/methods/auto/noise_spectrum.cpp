@@ -9,6 +9,7 @@
 #include <span>
 
 #include "base/parallel.hpp"
+#include "base/portable.hpp"
 #include "base/quantiles.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 #include "methods/auto/whitening.hpp"
@@ -32,8 +33,8 @@ constexpr std::size_t fewest_noisy_frames = 24;  // of a window
 
 double deviation_of(std::size_t strength) {
   return least_deviation *
-         std::pow(largest_deviation / least_deviation,
-                  static_cast<double>(strength) / static_cast<double>(strengths - 1));
+         portable::pow(largest_deviation / least_deviation,
+                       static_cast<double>(strength) / static_cast<double>(strengths - 1));
 }
 
 double fast_share_of(double correlation) {
@@ -152,7 +153,7 @@ std::vector<Curve> misfit_curves(const SeenWindows& seen,
   Curve inverse, logarithm;
   for (std::size_t s = 0; s < strengths; ++s) {
     inverse[s] = 1 / (deviation_of(s) * deviation_of(s));
-    logarithm[s] = -std::log(inverse[s]);
+    logarithm[s] = -portable::log(inverse[s]);
   }
   const std::size_t blocks =
       (of_lanes.size() + signal::block_channels - 1) / signal::block_channels;

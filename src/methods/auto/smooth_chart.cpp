@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/portable.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 
 namespace kinemend {
@@ -17,7 +18,7 @@ std::vector<Quat> smooth_reference(std::vector<Quat> track, double width_frames)
   std::vector<double> weights(reach + 1);
   for (std::size_t k = 0; k <= reach; ++k) {
     const double z = static_cast<double>(k) / width_frames;
-    weights[k] = std::exp(-0.5 * z * z);
+    weights[k] = portable::exp(-0.5 * z * z);
   }
   std::vector<Quat> reference(frames);
   for (std::size_t t = 0; t < frames; ++t) {

@@ -2,10 +2,10 @@
 #include "methods/auto/spike_classification.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
+#include "base/portable.hpp"
 #include "base/quantiles.hpp"
 
 namespace kinemend {
@@ -99,7 +99,8 @@ double poisson_tail(double mean, std::size_t at_least) {
   const auto count = static_cast<double>(at_least);
   if (count <= mean) return 1;
   if (mean <= 0) return 0;
-  double term = std::exp(count * std::log(mean) - mean - std::lgamma(count + 1)), sum = 0;
+  double term = portable::exp(count * portable::log(mean) - mean - portable::lgamma(count + 1)),
+         sum = 0;
   for (double k = count; term > 1e-9 * sum; term *= mean / ++k) sum += term;
   return sum;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "base/portable.hpp"
 
 namespace kinemend {
 
@@ -46,7 +47,7 @@ Whitening whitening_of(const VectorTracks& tracks, const SampleMarks& missing, s
   const Vec3 levels = noise_along(differences, {axis(0), axis(1), axis(2)});
   Eigen::Vector3d deviations(levels.x, levels.y, levels.z);
   deviations = deviations.cwiseMax(deviations.maxCoeff() / tuning.largest_ratio);
-  const double ratio = std::log(deviations.maxCoeff() / deviations.minCoeff());
+  const double ratio = portable::log(deviations.maxCoeff() / deviations.minCoeff());
   const double count = static_cast<double>(differences.size());
   if (!(ratio > tuning.log_ratio + tuning.chance_log_ratio / std::sqrt(count))) return {};
   const double mean = std::sqrt(deviations.squaredNorm() / 3);

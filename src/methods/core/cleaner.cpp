@@ -2,9 +2,9 @@
 // noise, and cleaning in place.
 #include "kinemend/cleaner.hpp"
 
-#include <cmath>
 #include <utility>
 
+#include "base/portable.hpp"
 #include "kinemend/error.hpp"
 
 namespace kinemend {
@@ -30,7 +30,8 @@ std::string_view to_string(Action action) {
 double NoiseCharacter::frequency_of_share(double share, double frame_rate_hz) const {
   const double rate_hz = frame_rate_hz / frames_per_sample;
   // The spectrum is that of noise whose samples depend on the one before.
-  return rate_hz / pi * std::atan(std::tan(share * pi / 2) * (1 - correlation) / (1 + correlation));
+  return rate_hz / pi *
+         portable::atan(portable::tan(share * pi / 2) * (1 - correlation) / (1 + correlation));
 }
 
 namespace {

@@ -3,9 +3,9 @@
 #include "methods/core/pieces.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
+#include "base/portable.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 
 namespace kinemend {
@@ -132,7 +132,7 @@ struct PathEnd {
 
   // Where the movement leads in so many frames; both are negative for what was before.
   Vec3 after(double frames, double decay_frames) const {
-    return place + (decay_frames * (1 - std::exp(-frames / decay_frames))) * velocity;
+    return place + (decay_frames * (1 - portable::exp(-frames / decay_frames))) * velocity;
   }
 };
 

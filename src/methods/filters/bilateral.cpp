@@ -1,9 +1,9 @@
 // The method `bilateral`: its options, its cleaner, and its steps on a live stream.
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <vector>
 
+#include "base/portable.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
@@ -70,7 +70,7 @@ class BilateralPass {
     for (std::size_t r = 1; r <= k_; ++r) {
       const Vec3 way = difference(samples[2 * k_ - r], newest);
       weight(2 * k_, r) =
-          kernel_.temporal_weights[r] * std::exp(-kernel_.distance_scale * dot(way, way));
+          kernel_.temporal_weights[r] * portable::exp(-kernel_.distance_scale * dot(way, way));
     }
     const auto increments = increments_.samples();
     Vec3 sum;

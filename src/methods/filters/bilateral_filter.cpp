@@ -12,6 +12,7 @@
 #define HWY_TARGET_INCLUDE "methods/filters/bilateral_filter.cpp"
 #include "hwy/foreach_target.h"
 // Behind foreach_target.h, which includes this file again for each target.
+#include "base/portable.hpp"
 #include "hwy/highway.h"
 #include "methods/filters/rotation_lanes-inl.hpp"
 
@@ -155,7 +156,7 @@ auto end_estimate(const Track& padded, const double* sample_weights, std::size_t
     const std::size_t i = direction > 0 ? first + r : first - r;
     const Vec3 d = difference(end, padded[i]);
     const double weight = sample_weights[i] * kernel.temporal_weights[r] *
-                          std::exp(-kernel.distance_scale * dot(d, d));
+                          portable::exp(-kernel.distance_scale * dot(d, d));
     const double t = static_cast<double>(r);
     s0 += weight, s1 += weight * t, s2 += weight * t * t;
     m0 += weight * d, m1 += weight * t * d;
@@ -224,7 +225,7 @@ BilateralKernel bilateral_kernel(double sigma_t_frames, double sigma_g) {
       std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(3 * sigma_t_frames)));
   for (std::size_t r = 0; r <= k; ++r) {
     const double steps = static_cast<double>(r) / sigma_t_frames;
-    kernel.temporal_weights.push_back(std::exp(-0.5 * steps * steps));
+    kernel.temporal_weights.push_back(portable::exp(-0.5 * steps * steps));
   }
   kernel.distance_scale = 1 / (2 * sigma_g * sigma_g);
   return kernel;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/portable.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/methods.hpp"
 #include "methods/core/windowed.hpp"
@@ -36,7 +37,7 @@ std::vector<double> gaussian_values(double sigma_frames, std::size_t most) {
   std::vector<double> values(2 * k + 1, 1.0);
   for (std::size_t j = 1; j <= k; ++j) {
     const double steps = static_cast<double>(j) / sigma_frames;
-    values[k - j] = values[k + j] = std::exp(-0.5 * steps * steps);
+    values[k - j] = values[k + j] = portable::exp(-0.5 * steps * steps);
   }
   return values;
 }

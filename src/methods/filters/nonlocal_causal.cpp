@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/portable.hpp"
 #include "base/quantiles.hpp"
 #include "kinemend/rotation.hpp"
 
@@ -22,7 +23,7 @@ class RunningNoise {
     // The mean is 3 channels x 6 noise^2 a joint; the median of a chi-square distribution of n
     // degrees is about n (1 - 2 / (9 n))^3.
     const double degrees = 3 * static_cast<double>(joints);
-    const double median_share = std::pow(1 - 2 / (9 * degrees), 3);
+    const double median_share = portable::pow(1 - 2 / (9 * degrees), 3);
     values_[count_++ % most_frames] = squared_difference / (6 * degrees * median_share);
   }
   bool known() const { return count_ >= least_frames; }
@@ -187,7 +188,7 @@ class CausalNonlocal final : public LiveFilter {
       floor = *std::min_element(weights_.begin(), weights_.end());
     if (std::isinf(floor)) floor = 0;
     for (double& value : weights_) {
-      value = std::exp(-std::max(0.0, value - floor) / (2 * bandwidth2));
+      value = portable::exp(-std::max(0.0, value - floor) / (2 * bandwidth2));
     }
   }
 

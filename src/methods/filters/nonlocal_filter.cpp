@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/parallel.hpp"
+#include "base/portable.hpp"
 #include "base/quantiles.hpp"
 #include "methods/filters/nonlocal_ends.hpp"
 #include "methods/filters/nonlocal_kernels.hpp"
@@ -443,7 +444,7 @@ double best_bandwidth(const NonlocalTake& take, const NonlocalSettings& settings
   constexpr std::size_t block = 64, most_blocks = 6;
   std::vector<double> bandwidths, risks;
   for (int step = 0; step < 8; ++step) {
-    bandwidths.push_back(0.3 * std::pow(2.0, 0.5 * step) * std::sqrt(variance));
+    bandwidths.push_back(0.3 * portable::pow(2.0, 0.5 * step) * std::sqrt(variance));
   }
   risks.assign(bandwidths.size(), 0.0);
   const Averager averager(take, settings);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/portable.hpp"
+
 namespace kinemend::page {
 
 namespace {
@@ -20,7 +22,7 @@ std::uint32_t folded(std::uint32_t remainder) {
 // How many bits the remainders need, about.
 double cost(const Words& remainders) {
   double bits = 0;
-  for (const std::uint32_t word : remainders) bits += std::log2(1.0 + word);
+  for (const std::uint32_t word : remainders) bits += portable::log2(1.0 + word);
   return bits;
 }
 

@@ -1,0 +1,47 @@
+// The functions of <cmath> that systems round differently, the same on every system and processor.
+#pragma once
+
+namespace kinemend::portable {
+
+// They use additions, multiplications, divisions and square roots of doubles alone, which IEEE 754
+// defines to the last bit. Nearly every value is the double next to the exact one; none is further
+// from it than the next (tests/base/portable_test.cpp). Special values are those of C: what is not
+// a number gives what is not a number, infinities their limits.
+
+[[nodiscard]] double exp(double x);
+/// e^x - 1.
+[[nodiscard]] double expm1(double x);
+[[nodiscard]] double log(double x);
+[[nodiscard]] double log2(double x);
+[[nodiscard]] double log10(double x);
+/// log(1 + x).
+[[nodiscard]] double log1p(double x);
+[[nodiscard]] double pow(double x, double y);
+[[nodiscard]] double cbrt(double x);
+[[nodiscard]] double asinh(double x);
+/// The gamma function and its logarithm, for x > 0, to a relative error of 1e-14.
+[[nodiscard]] double tgamma(double x);
+[[nodiscard]] double lgamma(double x);
+
+/// Angles in radians, of any size.
+struct SineAndCosine {
+  double sine, cosine;
+};
+[[nodiscard]] SineAndCosine sine_and_cosine(double angle);
+[[nodiscard]] double sin(double angle);
+[[nodiscard]] double cos(double angle);
+[[nodiscard]] double tan(double angle);
+
+[[nodiscard]] double asin(double x);
+[[nodiscard]] double acos(double x);
+[[nodiscard]] double atan(double x);
+[[nodiscard]] double atan2(double y, double x);
+/// sqrt(x^2 + y^2).
+[[nodiscard]] double hypot(double x, double y);
+
+// Of single precision: the double precision in between makes them as exact.
+[[nodiscard]] float exp(float x);
+[[nodiscard]] float log(float x);
+[[nodiscard]] float asinh(float x);
+
+}  // namespace kinemend::portable
