@@ -7,6 +7,8 @@ set(KINEMEND_ROOMS "" CACHE INTERNAL "")
 add_library(kinemend_settings INTERFACE)
 # No contraction: the same seed gives the same bytes with and without fused multiply-add.
 target_compile_options(kinemend_settings INTERFACE $<$<CXX_COMPILER_ID:GNU,Clang>:-ffp-contract=off>)
+# Eigen orders the sums of a product by the registers and the cache of the processor, which it asks for; these are the same everywhere.
+target_compile_definitions(kinemend_settings INTERFACE EIGEN_NO_CPUID EIGEN_ARCH_DEFAULT_NUMBER_OF_REGISTERS=16)
 if(KINEMEND_DEVELOPER)
   target_compile_options(kinemend_settings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
     -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror)

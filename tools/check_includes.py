@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks the direction of includes between the rooms of src/, and that programs see the public headers only.
+"""Checks the direction of includes between the rooms of src/, that programs see the public headers only, and that rooms call the functions of
+mathematics that are the same on every system (src/base/portable.hpp).
 
 Usage: check_includes.py [ROOT]    exit status 1 and a line for each include that breaks a rule.
 """
@@ -66,6 +67,10 @@ PUBLIC = {header: room for room, headers in {
 # Folders of programs: they see include/ (and their own folder) only.
 PROGRAMS = ["cli", "examples", "tools", "python", "web"]
 
+# Functions of <cmath> that systems round differently, and the files that may call them: the exponential of a matrix is Eigen's.
+SYSTEM_MATHS = re.compile(r"\bstd::(?:a?(?:sin|cos|tan)h?|atan2|exp|exp2|expm1|log|log2|log10|log1p|pow|cbrt|hypot|[lt]gamma|erfc?|polar|arg)\(")
+MAY_CALL_SYSTEM_MATHS = {"src/learned/papers/linear_dynamics.cpp"}
+
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 
 
@@ -116,11 +121,21 @@ def check(root):
     return problems
 
 
+def check_maths(root):
+    problems = []
+    for path in sources(root / "src"):
+        name = str(path.relative_to(root))
+        if name not in MAY_CALL_SYSTEM_MATHS:
+            called = sorted(set(SYSTEM_MATHS.findall(path.read_text())))
+            problems += [f"{name}: {function.rstrip('(')} differs by system; use portable::" for function in called]
+    return problems
+
+
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent)
     folders = {path.parent.relative_to(root / "src") for path in sources(root / "src")}
     missing = sorted(str(folder) for folder in folders if not {str(folder), *map(str, folder.parents)} & set(USES))
-    problems = [f"src/{name}: no rule for this room" for name in missing] + check(root)
+    problems = [f"src/{name}: no rule for this room" for name in missing] + check(root) + check_maths(root)
     print("\n".join(problems) if problems else "includes: every room looks the right way")
     return 1 if problems else 0
 

@@ -18,22 +18,24 @@ constexpr DoubleDouble half_pi = two_pi * DoubleDouble{0.25}, whole_pi = two_pi 
 
 constexpr int arc_steps = 64;
 
-// arctan(v), for 0 <= v <= 1, by Euler's series: the sum of 2^2n n!^2 / (2n + 1)! v^(2n+1) / (1 +
-// v^2)^(n+1).
+// arctan(v), for |v| <= 1 / 64.
 constexpr DoubleDouble series_arc(DoubleDouble v) {
-  const DoubleDouble square = v * v, ratio = square / (DoubleDouble{1} + square);
-  DoubleDouble term = v / (DoubleDouble{1} + square), sum = term;
-  for (int n = 1; n < 110; ++n) {
-    term = term * ratio * DoubleDouble{2.0 * n} / DoubleDouble{2.0 * n + 1};
-    sum = sum + term;
+  const DoubleDouble square = v * v;
+  DoubleDouble power = v, sum = v;
+  for (int n = 3; n < 20; n += 2) {
+    power = -(power * square);
+    sum = sum + power / DoubleDouble{static_cast<double>(n)};
   }
   return sum;
 }
 
+// arctan(i / 64): each adds arctan((b - a) / (1 + a b)) to the one before.
 constexpr auto arc_table = [] {
   std::array<DoubleDouble, arc_steps + 1> table;
-  for (int i = 0; i <= arc_steps; ++i)
-    table[static_cast<std::size_t>(i)] = series_arc(DoubleDouble{1.0 * i / arc_steps});
+  for (std::size_t i = 1; i <= arc_steps; ++i) {
+    const double product = static_cast<double>(i * (i - 1)) / arc_steps;
+    table[i] = table[i - 1] + series_arc(DoubleDouble{1} / DoubleDouble{arc_steps + product});
+  }
   return table;
 }();
 
