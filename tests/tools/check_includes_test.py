@@ -6,22 +6,37 @@ import sys
 import tempfile
 import unittest
 
-TOOL = pathlib.Path(__file__).resolve().parents[2] / "tools" / "check_includes.py"
+TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
+sys.path.insert(0, str(TOOLS))
+import check_includes  # noqa: E402
 
 
 class Systems(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
+        self.root = pathlib.Path(self.folder.name)
 
-    def problems(self, name, text):
-        path = pathlib.Path(self.folder.name) / name
+    def write(self, name, text):
+        path = self.root / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
-        done = subprocess.run([sys.executable, str(TOOL), self.folder.name], capture_output=True, text=True, check=False)
+        return path
+
+    def problems(self, name, text):
+        path = self.write(name, text)
+        found = check_includes.check_systems(self.root)
         path.unlink()
-        self.assertEqual(done.returncode, 1 if "is not on every system" in done.stdout else 0, done.stdout + done.stderr)
-        return [line for line in done.stdout.splitlines() if "is not on every system" in line]
+        return found
+
+    def test_the_tool_fails_where_one_is_found(self):
+        run = [sys.executable, str(TOOLS / "check_includes.py"), self.folder.name]
+        self.write("src/base/file.cpp", "#include <vector>\n")
+        self.assertEqual(subprocess.run(run, capture_output=True, check=False).returncode, 0)
+        self.write("src/base/file.cpp", "#include <unistd.h>\n")
+        done = subprocess.run(run, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("src/base/file.cpp: <unistd.h> is not on every system", done.stdout)
 
     def test_headers_of_one_system_are_found(self):
         for header in ("unistd.h", "fcntl.h", "sys/stat.h", "linux/limits.h", "poll.h", "sys/epoll.h", "malloc.h", "pthread.h", "windows.h",
