@@ -114,57 +114,65 @@ function(kinemend_embed_models folder)
   set_source_files_properties(${output} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# kinemend::kinemend is all rooms together. What is installed is one library, kinemend_installed: a shared one, or for another system
-# a static one. The libraries that the rooms use stay inside, so that a project that links it has to find none of them; for a static
-# one it finds zlib, where that is not compiled with the project.
+# kinemend::kinemend is all rooms together. What is installed is one library, kinemend_installed. The libraries that the rooms use stay
+# inside a shared one, so that a project that links it has to find none of them. The package of a static one finds those that are
+# not compiled with the project.
 function(kinemend_library)
   add_library(kinemend INTERFACE)
   add_library(kinemend::kinemend ALIAS kinemend)
   target_link_libraries(kinemend INTERFACE ${KINEMEND_ROOMS})
 
-  set(dependencies "")
   set(objects ${KINEMEND_ROOMS})
+  if(TARGET kinemend_zlib)
+    set(packages "")
+    set(linked "")
+    list(APPEND objects kinemend_zlib)
+  else()
+    set(packages ZLIB Threads)
+    set(linked ZLIB::ZLIB Threads::Threads)
+  endif()
   if(KINEMEND_FOREIGN)
     list(APPEND objects kinemend_highway)
-    set(kind STATIC)
-    if(TARGET kinemend_zlib)
-      list(APPEND objects kinemend_zlib)
-    else()
-      list(APPEND dependencies ZLIB Threads)
-    endif()
   else()
-    set(kind SHARED)
+    list(APPEND packages fmt HWY)
+    list(APPEND linked fmt::fmt hwy::hwy)
   endif()
-  add_library(kinemend_installed ${kind})
+  if(KINEMEND_TBB)
+    list(APPEND packages TBB)
+    list(APPEND linked TBB::tbb)
+  endif()
+  if(BUILD_SHARED_LIBS)
+    set(packages "")
+  endif()
+  add_library(kinemend_installed)
   foreach(part ${objects})
     target_sources(kinemend_installed PRIVATE $<TARGET_OBJECTS:${part}>)
   endforeach()
-  if(kind STREQUAL "SHARED")
-    target_link_libraries(kinemend_installed PRIVATE fmt::fmt $<$<BOOL:${KINEMEND_TBB}>:TBB::tbb> hwy::hwy ZLIB::ZLIB Threads::Threads)
-    target_link_options(kinemend_installed PRIVATE -Wl,--as-needed)
+  target_link_libraries(kinemend_installed PRIVATE ${linked})
+  if(BUILD_SHARED_LIBS)
+    target_link_options(kinemend_installed PRIVATE ${KINEMEND_LINK_OPTIONS} $<$<CXX_COMPILER_ID:GNU>:-Wl,--as-needed>)
     set_target_properties(kinemend_installed PROPERTIES VERSION ${PROJECT_VERSION}
       SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   else()
-    list(TRANSFORM dependencies REPLACE "(.+)" "\\1::\\1" OUTPUT_VARIABLE linked)
-    target_link_libraries(kinemend_installed PRIVATE ${linked})
     target_link_options(kinemend_installed INTERFACE ${KINEMEND_LINK_OPTIONS})
   endif()
   target_include_directories(kinemend_installed INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(kinemend_installed INTERFACE cxx_std_20)
   set_target_properties(kinemend_installed PROPERTIES LINKER_LANGUAGE CXX OUTPUT_NAME kinemend EXPORT_NAME kinemend
     EXCLUDE_FROM_ALL ${KINEMEND_DEVELOPER})
-  kinemend_install_library("${dependencies}")
+  kinemend_install_library("${packages}")
 endfunction()
 
-# `dependencies`: the packages of CMake that a project that links the library has to find.
-function(kinemend_install_library dependencies)
+# `packages`: of CMake; a project that links the library has to find them.
+function(kinemend_install_library packages)
   set(folder ${CMAKE_INSTALL_LIBDIR}/cmake/kinemend)
   include(CMakePackageConfigHelpers)
   write_basic_package_version_file(${PROJECT_BINARY_DIR}/kinemend-config-version.cmake COMPATIBILITY SameMinorVersion)
   configure_file(${PROJECT_SOURCE_DIR}/cmake/kinemend-config.cmake.in ${PROJECT_BINARY_DIR}/kinemend-config.cmake @ONLY)
   install(TARGETS kinemend_installed EXPORT kinemend COMPONENT development
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development NAMELINK_COMPONENT development
-    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT development)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/kinemend DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
   install(EXPORT kinemend NAMESPACE kinemend:: DESTINATION ${folder} FILE kinemend-targets.cmake COMPONENT development)
   install(FILES ${PROJECT_BINARY_DIR}/kinemend-config.cmake ${PROJECT_BINARY_DIR}/kinemend-config-version.cmake
