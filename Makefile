@@ -20,7 +20,7 @@ need = @tools/install_packages packages.txt
 WINDOWS := $(BUILD)/windows/cli/kinemend.exe
 WINE ?= /usr/lib/wine/wine64
 
-.PHONY: help setup build windows windows-test libcxx wasm wasm-test demo deb deb-test install-test cluster-test test test-all asan asan-build asan-test lint format page bench bench-quick blender-addon blender-test blender-pictures web-app npm-package \
+.PHONY: help setup build windows windows-test windows-install-test libcxx libcxx-test libcxx-install-test wasm wasm-test demo deb deb-test install-test cluster-test test test-all asan asan-build asan-test lint format page bench bench-quick blender-addon blender-test blender-pictures web-app npm-package \
   papers papers-quick pictures fuzz soak nightly clean FORCE
 
 help: ## this list
@@ -55,7 +55,7 @@ build: ## the command line and the library, as they ship: build/release/cli/kine
 $(BUILD)/$(PRESET)/.packaged: FORCE
 	$(need) core package
 	@cmake --preset $(PRESET) >/dev/null
-	cmake --build --preset $(PRESET) -j $(JOBS) --target kinemend_cli kinemend_cli_texts kinemend_shared
+	cmake --build --preset $(PRESET) -j $(JOBS) --target kinemend_cli kinemend_cli_texts kinemend_installed
 
 windows: ## the program for 64-bit Windows by MinGW-w64: build/windows/cli/kinemend.exe, which needs no library beside it
 	$(need) core windows
@@ -68,11 +68,15 @@ windows-test: build windows ## run it under Wine: files, streams, view and batch
 	tools/windows_test $(WINDOWS) --through $(WINE)
 	tools/compare_programs $(BUILD)/$(PRESET)/cli/kinemend $(WINDOWS) --through $(WINE)
 
-libcxx: ## compile the library with Clang and libc++ as on macOS, with the threads of the standard library, and test it
+libcxx: ## compile everything with Clang and libc++ as on macOS, with the threads of the standard library, and test it
 	$(need) core test sanitize libcxx
 	@cmake --preset libcxx >/dev/null
 	cmake --build --preset libcxx -j $(JOBS)
 	ctest --preset libcxx -j $(JOBS)
+
+libcxx-test: build libcxx ## compare its bytes with those of the program here, on twenty takes and on every fixture
+	tools/compare_programs $(BUILD)/$(PRESET)/cli/kinemend $(BUILD)/libcxx/cli/kinemend
+	tools/compare_programs $(BUILD)/$(PRESET)/cli/kinemend $(BUILD)/libcxx/cli/kinemend --fixtures
 
 wasm: ## the module for JavaScript by Emscripten: build/wasm/wasm/kinemend.mjs and kinemend_module.wasm
 	$(need) core wasm
@@ -116,8 +120,17 @@ deb: $(BUILD)/$(PRESET)/.packaged ## the Debian packages kinemend and libkinemen
 deb-test: deb ## install the packages into a fresh Debian, clean a take and build the README's snippet there (needs root)
 	tools/deb_test build/deb
 
-install-test: $(BUILD)/$(PRESET)/.packaged ## install into a folder and build the README's snippet against it
+install-test: $(BUILD)/$(PRESET)/.packaged ## install into a folder and build the programs of README and docs/install.md against it
 	tools/install_test $(BUILD)/$(PRESET)
+
+windows-install-test: windows ## the same for Windows: the static library, its headers and its package, and programs that run under Wine
+	$(need) core windows wine
+	cmake --build --preset windows -j $(JOBS) --target kinemend_installed
+	tools/install_test $(BUILD)/windows --through $(WINE) -DCMAKE_TOOLCHAIN_FILE=$(CURDIR)/cmake/toolchains/mingw-w64.cmake
+
+libcxx-install-test: libcxx ## the same with Clang and libc++
+	cmake --build --preset libcxx -j $(JOBS) --target kinemend_installed
+	tools/install_test $(BUILD)/libcxx -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_FLAGS=-stdlib=libc++
 
 $(BUILD)/$(TESTS)/.built: FORCE
 	$(need) core test
@@ -193,7 +206,7 @@ nightly: ## what continuous integration leaves out: sanitisers, packages in a fr
 	$(need)
 	tools/lint --includers
 	$(MAKE) asan ASAN=asan-all
-	$(MAKE) libcxx windows-test
+	$(MAKE) libcxx-test libcxx-install-test windows-test windows-install-test
 	$(MAKE) fuzz soak test-all deb-test install-test cluster-test bench-quick
 	tests/live/clients/node_osc_test $(BUILD)/$(TESTS)/cli/kinemend
 

@@ -6,7 +6,7 @@ set(KINEMEND_ROOMS "" CACHE INTERNAL "")
 # Settings that every target of the project shares.
 add_library(kinemend_settings INTERFACE)
 # No contraction: the same seed gives the same bytes with and without fused multiply-add.
-target_compile_options(kinemend_settings INTERFACE $<$<CXX_COMPILER_ID:GNU,Clang>:-ffp-contract=off>)
+target_compile_options(kinemend_settings INTERFACE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>)
 # Eigen orders the sums of a product by the registers and the cache of the processor, which it asks for; these are the same everywhere.
 target_compile_definitions(kinemend_settings INTERFACE EIGEN_NO_CPUID EIGEN_ARCH_DEFAULT_NUMBER_OF_REGISTERS=16)
 if(KINEMEND_DEVELOPER)
@@ -116,35 +116,67 @@ function(kinemend_embed_models folder)
   set_source_files_properties(${output} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# kinemend::kinemend is all rooms together. What is installed is one shared library: the libraries that the rooms use stay inside,
-# so that a project that links it has to find none of them.
+# kinemend::kinemend is all rooms together. What is installed is one library, kinemend_installed. The libraries that the rooms use stay
+# inside a shared one, so that a project that links it has to find none of them. The package of a static one finds those that are
+# not compiled with the project.
 function(kinemend_library)
   add_library(kinemend INTERFACE)
   add_library(kinemend::kinemend ALIAS kinemend)
   target_link_libraries(kinemend INTERFACE ${KINEMEND_ROOMS})
 
-  # For another system the program alone is built.
-  if(KINEMEND_FOREIGN)
-    return()
+  set(objects ${KINEMEND_ROOMS})
+  if(TARGET kinemend_zlib)
+    set(packages "")
+    set(linked "")
+    list(APPEND objects kinemend_zlib)
+  else()
+    set(packages ZLIB Threads)
+    set(linked ZLIB::ZLIB Threads::Threads)
   endif()
-  add_library(kinemend_shared SHARED)
-  foreach(room ${KINEMEND_ROOMS})
-    target_sources(kinemend_shared PRIVATE $<TARGET_OBJECTS:${room}>)
+  if(KINEMEND_FOREIGN)
+    list(APPEND objects kinemend_highway)
+  else()
+    list(APPEND packages fmt HWY)
+    list(APPEND linked fmt::fmt hwy::hwy)
+  endif()
+  if(KINEMEND_TBB)
+    list(APPEND packages TBB)
+    list(APPEND linked TBB::tbb)
+  endif()
+  if(BUILD_SHARED_LIBS)
+    set(packages "")
+  endif()
+  add_library(kinemend_installed)
+  foreach(part ${objects})
+    target_sources(kinemend_installed PRIVATE $<TARGET_OBJECTS:${part}>)
   endforeach()
-  set_target_properties(kinemend_shared PROPERTIES LINKER_LANGUAGE CXX)
-  target_link_libraries(kinemend_shared PRIVATE fmt::fmt $<$<BOOL:${KINEMEND_TBB}>:TBB::tbb> hwy::hwy ZLIB::ZLIB Threads::Threads)
-  target_include_directories(kinemend_shared INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-  target_compile_features(kinemend_shared INTERFACE cxx_std_20)
-  target_link_options(kinemend_shared PRIVATE -Wl,--as-needed)
-  set_target_properties(kinemend_shared PROPERTIES OUTPUT_NAME kinemend EXPORT_NAME kinemend VERSION ${PROJECT_VERSION}
-    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} EXCLUDE_FROM_ALL ${KINEMEND_DEVELOPER})
+  target_link_libraries(kinemend_installed PRIVATE ${linked})
+  if(BUILD_SHARED_LIBS)
+    target_link_options(kinemend_installed PRIVATE ${KINEMEND_LINK_OPTIONS} $<$<CXX_COMPILER_ID:GNU>:-Wl,--as-needed>)
+    set_target_properties(kinemend_installed PROPERTIES VERSION ${PROJECT_VERSION}
+      SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  else()
+    target_link_options(kinemend_installed INTERFACE ${KINEMEND_LINK_OPTIONS})
+  endif()
+  target_include_directories(kinemend_installed INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(kinemend_installed INTERFACE cxx_std_20)
+  set_target_properties(kinemend_installed PROPERTIES LINKER_LANGUAGE CXX OUTPUT_NAME kinemend EXPORT_NAME kinemend
+    EXCLUDE_FROM_ALL ${KINEMEND_DEVELOPER})
+  kinemend_install_library("${packages}")
+endfunction()
 
+# `packages`: of CMake; a project that links the library has to find them.
+function(kinemend_install_library packages)
   set(folder ${CMAKE_INSTALL_LIBDIR}/cmake/kinemend)
   include(CMakePackageConfigHelpers)
   write_basic_package_version_file(${PROJECT_BINARY_DIR}/kinemend-config-version.cmake COMPATIBILITY SameMinorVersion)
-  install(TARGETS kinemend_shared EXPORT kinemend LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
-    NAMELINK_COMPONENT development)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/kinemend-config.cmake.in ${PROJECT_BINARY_DIR}/kinemend-config.cmake @ONLY)
+  install(TARGETS kinemend_installed EXPORT kinemend COMPONENT development
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development NAMELINK_COMPONENT development
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT development)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/kinemend DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
-  install(EXPORT kinemend NAMESPACE kinemend:: DESTINATION ${folder} FILE kinemend-config.cmake COMPONENT development)
-  install(FILES ${PROJECT_BINARY_DIR}/kinemend-config-version.cmake DESTINATION ${folder} COMPONENT development)
+  install(EXPORT kinemend NAMESPACE kinemend:: DESTINATION ${folder} FILE kinemend-targets.cmake COMPONENT development)
+  install(FILES ${PROJECT_BINARY_DIR}/kinemend-config.cmake ${PROJECT_BINARY_DIR}/kinemend-config-version.cmake
+    DESTINATION ${folder} COMPONENT development)
 endfunction()

@@ -2,14 +2,13 @@
 // count: for one source of a program.
 #pragma once
 
-#include <malloc.h>
-
 #include <cerrno>
 #include <cstddef>
 
 #include "counted_memory.hpp"
 
 #if !defined(KINEMEND_SANITIZED) && defined(__GLIBC__)
+#include <malloc.h>
 
 extern "C" {
 void* __libc_malloc(std::size_t size);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Checks the direction of includes between the rooms of src/, that programs see the public headers only, and that rooms call the functions of
-mathematics that are the same on every system (src/base/portable.hpp).
+"""Checks the direction of includes between the rooms of src/, that programs see the public headers only, that what is of one system stands in
+src/base/platform and cli/platform, and that rooms call functions of mathematics that are the same on every system (src/base/portable.hpp).
 
 Usage: check_includes.py [ROOT]    exit status 1 and a line for each include that breaks a rule.
 """
@@ -68,10 +68,34 @@ PUBLIC = {header: room for room, headers in {
 PROGRAMS = ["cli", "examples", "tools", "python", "web"]
 
 # Functions of <cmath> that systems round differently, and the files that may call them: the exponential of a matrix is Eigen's.
-SYSTEM_MATHS = re.compile(r"\bstd::(?:a?(?:sin|cos|tan)h?|atan2|exp|exp2|expm1|log|log2|log10|log1p|pow|cbrt|hypot|[lt]gamma|erfc?|polar|arg)\(")
+SYSTEM_MATHS = re.compile(r"\bstd::(a?(?:sin|cos|tan)h?|atan2|exp|exp2|expm1|log|log2|log10|log1p|pow|cbrt|hypot|[lt]gamma|erfc?|polar|arg)\(")
 MAY_CALL_SYSTEM_MATHS = {"src/learned/papers/linear_dynamics.cpp"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
+
+# What every system has: headers of the standard library, and of the libraries that the project uses.
+SYSTEM_INCLUDE = re.compile(r"^\s*#\s*include\s*<([^>]+)>", re.MULTILINE)
+ON_EVERY_SYSTEM = re.compile(r"[a-z_]+|(unsupported/)?Eigen/\w+|Spectra/.*|(fmt|hwy|fast_float|torch)/.*\.h|toml\+\+/toml\.h|"
+                             r"(nlohmann|CLI)/\w+\.hpp|zlib\.h|xxhash\.h")
+# Files that have a form for systems without the header, or that one system alone compiles.
+OF_ONE_SYSTEM = {"src/base/parallel.cpp": "tbb/", "src/io/text/number.hpp": "emmintrin.h", "wasm/": "emscripten.h"}
+PLATFORM = ("src/base/platform/", "cli/platform/")
+PORTABLE = ["include", "src", "cli", "examples", "tools", "wasm"]
+
+# What some systems add to headers of the standard library, by the header.
+EXTENSIONS = re.compile(r"(?<![\w.>:])(?:::)?(?:" + "|".join([
+    # <cstdlib>, <cstdio>
+    r"(?:secure_getenv|setenv|unsetenv|putenv|mkstemp|mkostemp|mkdtemp|realpath|qsort_r|reallocarray|aligned_alloc)\s*\(",
+    r"(?:fileno|fdopen|popen|pclose|getline|getdelim|asprintf|vasprintf|dprintf|fmemopen|open_memstream|fseeko|ftello)\s*\(",
+    # <cstring>
+    r"(?:memmem|mempcpy|memrchr|rawmemchr|strcasestr|strchrnul|strdup|strndup|strerror_r|stpcpy|strsep|strcasecmp|strncasecmp)\s*\(",
+    # <cmath>, <ctime>
+    r"(?:sincos|exp10|pow10|lgamma_r|localtime_r|gmtime_r|timegm|strptime|clock_gettime|nanosleep)\s*\(",
+    # Names and macros.
+    r"(?:ssize_t|off_t|pid_t|environ|program_invocation_\w+|M_PI|_GNU_SOURCE|__GLIBC__|__linux__|__gnu_cxx|__attribute__)\b",
+    r"__builtin_(?!bit_cast)",
+]) + r")|/proc/self")
+COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 
 
 def closure(room):
@@ -96,8 +120,28 @@ def room_of_include(name):
     return next((room for room in ("/".join(parts[:2]), parts[0]) if len(parts) > 1 and room in USES), None)
 
 
-def check(root):
+def stands_apart(name, what):
+    return any(name.startswith(place) and what.startswith(allowed) for place, allowed in OF_ONE_SYSTEM.items())
+
+
+def check_systems(root):
+    """A line for each header, function and name of one system outside the folders that are for them."""
     problems = []
+    for path in (path for folder in PORTABLE for path in sources(root / folder)):
+        name = path.relative_to(root).as_posix()
+        if name.startswith(PLATFORM):
+            continue
+        text = path.read_text()
+        problems += [f"{name}: <{header}> is not on every system; what needs it stands in {' or '.join(PLATFORM)}"
+                     for header in SYSTEM_INCLUDE.findall(text)
+                     if not ON_EVERY_SYSTEM.fullmatch(header) and not stands_apart(name, header)]
+        problems += [f"{name}: {found.group().strip(' (')} is not on every system; what needs it stands in {' or '.join(PLATFORM)}"
+                     for found in EXTENSIONS.finditer(COMMENT.sub("", text))]
+    return problems
+
+
+def check(root):
+    problems = check_systems(root)
     for header in sources(root / "include"):
         if header.stem not in PUBLIC:
             problems.append(f"{header.relative_to(root)}: no room is named for this public header")
@@ -127,7 +171,7 @@ def check_maths(root):
         name = str(path.relative_to(root))
         if name not in MAY_CALL_SYSTEM_MATHS:
             called = sorted(set(SYSTEM_MATHS.findall(path.read_text())))
-            problems += [f"{name}: {function.rstrip('(')} differs by system; use portable::" for function in called]
+            problems += [f"{name}: std::{function} differs by system; use portable::{function}" for function in called]
     return problems
 
 

@@ -28,7 +28,11 @@ std::string temporary_folder() {
   const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
   if (!error) return folder.string();
   const char* named = std::getenv("TMPDIR");
-  fail(ErrorKind::cannot_write, named != nullptr ? named : "/tmp", "cannot be made", error.value());
+  const std::string wanted = named != nullptr ? named : "/tmp";
+  // Standard libraries differ in what they say of a folder that does not exist.
+  std::error_code ignored;
+  const bool exists = std::filesystem::exists(wanted, ignored);
+  fail(ErrorKind::cannot_write, wanted, "cannot be made", exists ? error.value() : ENOENT);
 }
 
 int nameless_file(const std::string& folder) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "check/checks.hpp"
@@ -126,8 +127,10 @@ std::vector<Exchange> find_exchanges(const Take& clip, const std::vector<Break>&
     used[candidate.a] = used[candidate.b] = 1;
     exchanges.push_back(candidate.exchange);
   }
-  std::sort(exchanges.begin(), exchanges.end(),
-            [](const Exchange& a, const Exchange& b) { return a.first_after < b.first_after; });
+  std::sort(exchanges.begin(), exchanges.end(), [](const Exchange& a, const Exchange& b) {
+    return std::tie(a.first_after, a.first_marker, a.second_marker) <
+           std::tie(b.first_after, b.first_marker, b.second_marker);
+  });
   return exchanges;
 }
 

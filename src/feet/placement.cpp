@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "feet/clean_legs.hpp"
 #include "feet/floor.hpp"
@@ -190,7 +191,7 @@ std::vector<PartCorrection> place_contacts(const Soles& soles, const LegMotion& 
       if (held[i] != 0 && Soles::point_of(contacts[i]) == p) own.push_back(i);
     }
     std::sort(own.begin(), own.end(), [&](std::size_t a, std::size_t b) {
-      return contacts[a].first_frame < contacts[b].first_frame;
+      return std::tie(contacts[a].first_frame, a) < std::tie(contacts[b].first_frame, b);
     });
     for (const std::size_t i : own) {
       for (std::size_t f = contacts[i].first_frame; f <= contacts[i].last_frame; ++f) {

@@ -4,10 +4,10 @@
 
 #include <cmath>
 #include <map>
-#include <random>
 #include <string>
 #include <vector>
 
+#include "kinemend/experimental/random.hpp"
 #include "kinemend/rotation.hpp"
 #include "osc/osc_packets.hpp"
 
@@ -87,11 +87,10 @@ inline VmcBody vmc_truth(std::size_t f) {
 /// The same with noise of some degrees per axis, and of 5 mm for root and hips.
 inline VmcBody vmc_noisy(std::size_t f, double noise_deg = 1.5) {
   VmcBody body = vmc_truth(f);
-  std::mt19937 random(static_cast<unsigned>(f));
-  std::normal_distribution<double> normal;
+  Random random(f);
   const double scale = noise_deg * 3.14159265358979 / 180;
   for (auto& [name, pose] : body) {
-    const double x = normal(random), y = normal(random), z = normal(random);
+    const double x = random.normal(), y = random.normal(), z = random.normal();
     const Vec3 error{x, y, z};
     pose.rotation = pose.rotation * exp(scale * error);
     if (name == "root" || name == "Hips") pose.position += (0.005 * noise_deg / 1.5) * error;

@@ -177,7 +177,10 @@ TEST(VmcSession, KeepsGoingThroughLossReorderingAndGarbage) {
           late.push_back(datagram);
           continue;
         }
-        if (fate < 38) relay.send(std::string(random() % 90, static_cast<char>(random())), now_s);
+        if (fate < 38) {
+          const std::size_t size = random() % 90;
+          relay.send(std::string(size, static_cast<char>(random())), now_s);
+        }
         relay.send(datagram, now_s);
         for (const std::string& old : late) relay.send(old, now_s);
         late.clear();
@@ -210,7 +213,8 @@ TEST(VmcSession, FillsFramesThatWereLostAndStaysAsFarBehind) {
   EXPECT_NEAR(static_cast<double>(relay.session.counts().made_up),
               300.0 - static_cast<double>(sent), 6);
   relay.session.settle();
-  expect_no_larger_steps(relay, 1.05);
+  // Across a long loss the body's own motion counts for more than the noise, which may shorten it.
+  expect_no_larger_steps(relay, 1.1);
 }
 
 TEST(VmcSession, LetsAFaceGoOnWhileTheBodyRests) {

@@ -2,6 +2,7 @@
 #include "io/fbx/fbx_patch.hpp"
 
 #include <algorithm>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -18,8 +19,9 @@ class FbxPatcher {
  public:
   FbxPatcher(const FbxTree& tree, std::vector<FbxPatch> patches)
       : tree_(tree), patches_(std::move(patches)) {
-    std::sort(patches_.begin(), patches_.end(),
-              [](const FbxPatch& a, const FbxPatch& b) { return a.begin < b.begin; });
+    std::sort(patches_.begin(), patches_.end(), [](const FbxPatch& a, const FbxPatch& b) {
+      return std::tie(a.begin, a.end) < std::tie(b.begin, b.end);
+    });
     std::ptrdiff_t shift = 0;
     for (const FbxPatch& patch : patches_) {
       shift += static_cast<std::ptrdiff_t>(patch.bytes.size()) -

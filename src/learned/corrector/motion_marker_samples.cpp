@@ -42,7 +42,8 @@ PoseMatrix from_root(PoseMatrix positions) {
 // All together, as the laboratory lies, and as many markers as a body has more or fewer.
 void place_at_random(PoseMatrix& positions, Random& random) {
   const Quat turn = random_turn(random);
-  const double size = log_uniform(random, 0.6, 2) * (random.chance(0.5) ? 1 : -1);
+  double size = log_uniform(random, 0.6, 2);
+  if (!random.chance(0.5)) size = -size;
   for (std::size_t f = 0; f < positions.frames; ++f) {
     for (std::size_t c = 0; c < positions.channels; c += 3) {
       const Vec3 at =
@@ -118,8 +119,10 @@ std::vector<std::uint8_t> damage_markers(PoseMatrix& positions, double rate_hz,
   if (random.chance(0.2)) add_jumps(positions, random);
   if (random.chance(0.15)) observed = lose_marker_samples(positions, rate_hz, random);
   if (rate_hz >= 100 && random.chance(0.15)) lower_marker_rate(positions, random);
-  if (sampling.has_slow_noise && random.chance(0.3))
-    low_pass(positions, 1 + static_cast<int>(random.below(3)), random.uniform(3, 12), rate_hz);
+  if (sampling.has_slow_noise && random.chance(0.3)) {
+    const double cutoff_hz = random.uniform(3, 12);
+    low_pass(positions, 1 + static_cast<int>(random.below(3)), cutoff_hz, rate_hz);
+  }
   return observed;
 }
 

@@ -32,7 +32,9 @@ PoseMatrix unit_noise(std::size_t frames, std::size_t channels, double rate_hz, 
     }
     return noise;
   }
-  low_pass(noise, 1 + static_cast<int>(random.below(4)), log_uniform(random, 0.7, 12), rate_hz);
+  // Two draws among the arguments of one call would come in another order from another compiler.
+  const double cutoff_hz = log_uniform(random, 0.7, 12);
+  low_pass(noise, 1 + static_cast<int>(random.below(4)), cutoff_hz, rate_hz);
   double square = 0;
   for (const double value : noise.values) square += value * value;
   const double unit = std::sqrt(static_cast<double>(noise.values.size()) / std::max(square, 1e-12));
@@ -88,8 +90,10 @@ void add_random_noise(PoseMatrix& poses, double rate_hz, std::vector<double> str
 }
 
 void vary_motion(PoseMatrix& poses, double rate_hz, const Shaking& shaking, Random& random) {
-  if (random.chance(0.2))
-    low_pass(poses, 1 + static_cast<int>(random.below(3)), log_uniform(random, 4, 20), rate_hz);
+  if (random.chance(0.2)) {
+    const double cutoff_hz = log_uniform(random, 4, 20);
+    low_pass(poses, 1 + static_cast<int>(random.below(3)), cutoff_hz, rate_hz);
+  }
   if (!random.chance(shaking.chance)) return;
   const double frequency_hz = log_uniform(random, 0.2, 12), share = random.uniform(0.05, 0.5);
   const double largest_deg =

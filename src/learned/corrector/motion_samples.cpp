@@ -75,8 +75,10 @@ struct DamagedStretch {
     lose_samples(random);
     bridge_lost(poses, observed);
     if (rate_hz >= 100 && random.chance(0.15)) lower_rate(random);
-    if (sampling.has_slow_noise && random.chance(0.3))
-      low_pass(poses, 1 + static_cast<int>(random.below(3)), random.uniform(3, 12), rate_hz);
+    if (sampling.has_slow_noise && random.chance(0.3)) {
+      const double cutoff_hz = random.uniform(3, 12);
+      low_pass(poses, 1 + static_cast<int>(random.below(3)), cutoff_hz, rate_hz);
+    }
   }
 };
 
