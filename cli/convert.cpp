@@ -75,14 +75,6 @@ Take turned(const Take& take, const Arguments& arguments) {
   return turn_axes(take, from, to);
 }
 
-/// "analog channels, force plates": what a file holds beside its markers and would not follow.
-std::string rest_of(const Take& take) {
-  if (take.has_joints()) return "";
-  std::vector<std::string> names;
-  for (const SourceFact& fact : take.source.facts) names.push_back(fact.name);
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
 void say_normalised(const Take& take, const Normalised& done, const Arguments& arguments) {
   const std::string& name = take.source.name;
   const std::string unit = take.has_joints() ? unit_name(take.metres_per_unit) : take.unit;
@@ -107,13 +99,6 @@ void normalise_take(Take& take, const Arguments& arguments) {
   if (!settings.floor_at_zero && !settings.face_forward) return;
   settings.names = names_of_map(arguments.text("map"));
   if (arguments.given("up")) settings.up = axis_named(arguments.text("up"));
-  if (const std::string rest = rest_of(take); !rest.empty()) {
-    const std::string line = fmt::format(
-        "{}: {} left out: they do not follow when markers are moved", take.source.name, rest);
-    if (arguments.flag("strict"))
-      throw Error(ErrorKind::quality_limit, line + " (an error under --strict)");
-    say_warning(line);
-  }
   say_normalised(take, normalise(take, settings), arguments);
 }
 

@@ -1,5 +1,6 @@
 // Reads a head line by line and rejects what two readers could understand differently.
 #include "http_head.hpp"
+#include "kinemend/experimental/letter_case.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -23,14 +24,6 @@ bool is_line_of_text(std::string_view text) {
     const auto byte = static_cast<unsigned char>(c);
     return c == '\t' || (byte >= 0x20 && byte != 0x7F);
   });
-}
-
-std::string lowered(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return result;
 }
 
 std::string_view without_blanks(std::string_view text) {
@@ -87,7 +80,7 @@ class HeadReader {
     const std::size_t colon = line.find(':');
     if (colon == line.npos || !is_token(line.substr(0, colon)) || !is_line_of_text(line))
       return refuse(http::bad_request);
-    const std::string name = lowered(line.substr(0, colon));
+    const std::string name = lower_case(line.substr(0, colon));
     const std::string_view value = without_blanks(line.substr(colon + 1));
     HttpHead& head = parsed_.head;
     if (name == "host") return put(host_, head.host, value);
@@ -96,9 +89,10 @@ class HeadReader {
     if (name == "content-type") return put(type_, head.type, value);
     if (name == "content-length") return read_length(value);
     if (name == "transfer-encoding") return refuse(http::length_required);
-    if (name == "content-encoding" && lowered(value) != "identity") return refuse(http::wrong_type);
-    if (name == "connection") read_connection(lowered(value));
-    if (name == "expect" && lowered(value) == "100-continue") head.expects_continue = true;
+    if (name == "content-encoding" && lower_case(value) != "identity")
+      return refuse(http::wrong_type);
+    if (name == "connection") read_connection(lower_case(value));
+    if (name == "expect" && lower_case(value) == "100-continue") head.expects_continue = true;
   }
 
   // Two of one header could be read one way here and another way elsewhere.

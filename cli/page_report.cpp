@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/letter_case.hpp"
 #include "takes.hpp"
 
 namespace kinemend::cli {
@@ -25,10 +26,7 @@ std::string quoted(const std::string& word) {
 }
 
 std::string lower_extension(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
+  return lower_case(std::filesystem::path(path).extension().string());
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -15,6 +14,7 @@
 #include "kinemend/experimental/body.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/experimental/letter_case.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/report.hpp"
 #include "run_files.hpp"
@@ -106,9 +106,7 @@ void check_take_ending(const std::string& output) {
 
 void check_only_ending(const std::string& output, std::string_view ending) {
   const std::string found = ending_of(output);
-  const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
-  if (found.empty() || std::equal(found.begin(), found.end(), ending.begin(), ending.end(), same))
-    return;
+  if (found.empty() || same_but_for_case(found, ending)) return;
   throw Error(ErrorKind::usage, fmt::format("{}: {} files are not written here; only {} is",
                                             printable(output), printable(found), ending));
 }

@@ -166,6 +166,7 @@ Json session_json(const ViewFiles& files) {
           {"plan", files.plan},
           {"gaps", files.gaps},
           {"with_gaps", files.with_gaps},
+          {"default_method", default_method},
           {"methods", methods_json()},
           {"presets", presets_json()},
           {"fill_methods", fill_methods_json()}};

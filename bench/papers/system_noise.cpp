@@ -95,7 +95,6 @@ struct Figures {
   Series kurtosis;
   double count = 0;
   double across = 0, across_count = 0;
-  test::Spectrum spectrum;
 
   void add(const Series& error, double rate_hz) {
     constexpr std::size_t lag[] = {1, 2, 4, 8};
@@ -109,12 +108,6 @@ struct Figures {
     variance += test::variance_of(error);
     fast_variance += test::variance_of(fast);
     kurtosis.push_back(test::kurtosis_of(fast));
-    if (spectrum.density.empty()) {
-      spectrum = found;
-    } else if (spectrum.density.size() == found.density.size()) {
-      for (std::size_t k = 0; k < found.density.size(); ++k)
-        spectrum.density[k] += found.density[k];
-    }
     ++count;
   }
   double median_kurtosis() {
@@ -182,26 +175,6 @@ void write(Table& table, const Line& line, const std::string& source, Figures& f
              text(std::sqrt(figures.variance / count)),
              text(std::sqrt(figures.fast_variance / count)), text(figures.median_kurtosis()),
              text(figures.across_count > 0 ? figures.across / figures.across_count : 0)});
-}
-
-/// Means over a quarter of an octave.
-void write(Table& table, const Line& line, const std::string& source,
-           const test::Spectrum& spectrum, double count) {
-  const double ratio = std::pow(2, 0.25);
-  const double octaves = std::log2(static_cast<double>(spectrum.density.size()));
-  for (int band = 0; band < 4 * octaves; ++band) {
-    const double low = spectrum.step_hz * std::pow(ratio, band);
-    double sum = 0, lines = 0;
-    for (std::size_t k = 1; k < spectrum.density.size(); ++k) {
-      const double f = spectrum.step_hz * static_cast<double>(k);
-      if (f < low * 0.999 || f >= low * ratio * 0.999) continue;
-      sum += spectrum.density[k];
-      ++lines;
-    }
-    if (lines == 0) continue;
-    table.add({quoted(line.name), source, fmt::format("{:.4g}", low * std::sqrt(ratio)),
-               fmt::format("{:.4g}", sum / lines / count)});
-  }
 }
 
 Pair trc_pair(const Arguments& arguments, const std::string& name) {
@@ -342,7 +315,6 @@ void experiment(const Arguments& arguments) {
   Table table(arguments, "system_noise.csv",
               "noise,source,lag_1,lag_2,lag_4,lag_8,below_2,from_2_to_6,from_6_to_15,rms,fast_rms,"
               "kurtosis,correlation");
-  Table spectra(arguments, "system_spectra.csv", "noise,source,frequency_hz,density");
   for (const Line& line : has_pairs ? lines_of(arguments) : made_lines()) {
     Figures real, made;
     for (const Pair& pair : line.pairs) {
@@ -352,11 +324,8 @@ void experiment(const Arguments& arguments) {
     }
     write(table, line, "real", real);
     write(table, line, "generated", made);
-    write(spectra, line, "real", real.spectrum, real.count);
-    write(spectra, line, "generated", made.spectrum, made.count);
   }
   table.close();
-  spectra.close();
 }
 
 const Registration registration("system_noise", experiment);

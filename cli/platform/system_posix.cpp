@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "kinemend/error.hpp"
+#include "platform/console.hpp"
 #include "platform/system.hpp"
 
 extern char** environ;
@@ -51,10 +52,11 @@ constexpr std::array end_signals = {SIGINT, SIGTERM};
 
 int append_to_file(const std::string& path, std::string_view bytes) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  const ssize_t count = file < 0 ? -1 : ::write(file, bytes.data(), bytes.size());
-  const int error = errno;
-  if (file >= 0) ::close(file);
-  return count == static_cast<ssize_t>(bytes.size()) ? 0 : error;
+  if (file < 0) return errno;
+  const int error = write_all(file, bytes);
+  // Some file systems tell of a full disk only here.
+  const bool is_closed = ::close(file) == 0;
+  return error != 0 || is_closed ? error : errno;
 }
 
 std::optional<std::string> file_identity(const std::string& path) {

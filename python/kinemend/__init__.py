@@ -11,7 +11,17 @@ docs/python.md of the project is the guide.
 """
 
 from . import cleaners
-from ._commands import Result, check, clean, compare, contacts, corrupt, fill, train
+from ._commands import (
+    Result,
+    RobotLimits,
+    check,
+    clean,
+    compare,
+    contacts,
+    corrupt,
+    fill,
+    train,
+)
 from ._core import Model, Take, version as __version__
 from ._errors import Error
 from ._files import diagnostics, losses, read, to_bytes, write
@@ -55,6 +65,7 @@ __all__ = [
     "Option",
     "Report",
     "Result",
+    "RobotLimits",
     "Take",
     "Training",
     "__version__",

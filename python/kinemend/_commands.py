@@ -272,12 +272,52 @@ def fill(
     )
 
 
+@dataclass(frozen=True, kw_only=True)
+class RobotLimits:
+    """What a take has to keep to if a robot or a simulated body imitates it.
+
+    None is the limit that `kinemend check --robot` has (docs/check-robot.md).
+
+    Attributes
+    ----------
+    speed_deg_s, acceleration_deg_s2 : float, optional
+        What a joint may do at most (> 0). Default: 1146 and 72700.
+    joints : mapping
+        Names or shell patterns to limits of these joints, such as
+        `{"*Knee": {"speed_deg_s": 900}}`; the last one that matches counts.
+    step_s : float, optional
+        Time over which speeds and accelerations are differences (0.001 to 1). Default: 0.02.
+    penetration_cm, floating_cm : float, optional
+        Depth of a foot below its standing level, and height of a standing foot above the floor
+        (>= 0). Default: 5.
+    jump_deg, jump_cm : float, optional
+        Of a joint, and of the root or a marker, within one frame (> 0). Default: 30 and 10.
+    floor_cm : float, optional
+        Distance of the floor from height 0 (>= 0). Default: 5.
+    """
+
+    speed_deg_s: float | None = None
+    acceleration_deg_s2: float | None = None
+    joints: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    step_s: float | None = None
+    penetration_cm: float | None = None
+    floating_cm: float | None = None
+    jump_deg: float | None = None
+    jump_cm: float | None = None
+    floor_cm: float | None = None
+
+    def _given(self) -> dict[str, float]:
+        numbers = {name: value for name, value in vars(self).items() if name != "joints"}
+        return {name: value for name, value in numbers.items() if value is not None}
+
+
 def check(
     take: Take,
     *,
     up: Literal["x", "y", "z"] | None = None,
     metres_per_unit: float | None = None,
     feet_names: Mapping[str, str] | None = None,
+    robot: bool | RobotLimits = False,
 ) -> Report:
     """Find what is wrong with a take before it is cleaned, worst first.
 
@@ -291,6 +331,9 @@ def check(
         Of lengths. Default: what the take says, else what makes the body a person.
     feet_names : mapping, optional
         Known names of feet to names in the take.
+    robot : bool or RobotLimits, optional
+        Also find what a robot or a simulated body cannot follow, as `kinemend check --robot`:
+        with its limits, or with your own.
 
     Examples
     --------
@@ -298,8 +341,16 @@ def check(
     >>> report.findings[0].kind, report.findings[0].verdict
     ('spike', 'warning')
     """
+    limits = robot if isinstance(robot, RobotLimits) else RobotLimits()
     return _report(
-        _core.check(take, up=up, metres_per_unit=metres_per_unit, feet_names=feet_names or {})
+        _core.check(
+            take,
+            up=up,
+            metres_per_unit=metres_per_unit,
+            feet_names=feet_names or {},
+            robot=limits._given() if robot else None,
+            joint_limits=limits.joints,
+        )
     )
 
 

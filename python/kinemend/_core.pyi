@@ -222,7 +222,13 @@ def fill(
     map: str,
 ) -> tuple[Take, CoreReport]: ...
 def check(
-    take: Take, *, up: str | None, metres_per_unit: float | None, feet_names: Mapping[str, str]
+    take: Take,
+    *,
+    up: str | None,
+    metres_per_unit: float | None,
+    feet_names: Mapping[str, str],
+    robot: Mapping[str, float] | None,
+    joint_limits: Mapping[str, Mapping[str, float]],
 ) -> CoreReport: ...
 def contacts(take: Take, *, feet_names: Mapping[str, str]) -> CoreReport: ...
 def compare(

@@ -3,8 +3,10 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -81,9 +83,58 @@ py::tuple fill(const HeldTakePtr& held, const std::string& method, const py::ite
   return py::make_tuple(result, report);
 }
 
+// Sets the member that is called `name`; false where none is.
+template <class Settings>
+bool set_number(Settings& settings, std::string_view name, const py::handle& value,
+                std::initializer_list<std::pair<std::string_view, double Settings::*>> members) {
+  for (const auto& [known, member] : members) {
+    if (known != name) continue;
+    settings.*member = value.cast<double>();
+    return true;
+  }
+  return false;
+}
+
+bool set_limit(JointLimits& limits, std::string_view name, const py::handle& value) {
+  return set_number(limits, name, value,
+                    {{"speed_deg_s", &JointLimits::speed_deg_s},
+                     {"acceleration_deg_s2", &JointLimits::acceleration_deg_s2}});
+}
+
+bool set_robot_number(RobotSettings& robot, std::string_view name, const py::handle& value) {
+  return set_limit(robot.limits, name, value) ||
+         set_number(robot, name, value,
+                    {{"step_s", &RobotSettings::step_s},
+                     {"penetration_cm", &RobotSettings::penetration_cm},
+                     {"floating_cm", &RobotSettings::floating_cm},
+                     {"jump_deg", &RobotSettings::jump_deg},
+                     {"jump_cm", &RobotSettings::jump_cm},
+                     {"floor_cm", &RobotSettings::floor_cm}});
+}
+
+// Joints of a pattern have the limits of all others where they state none, as in a file of limits.
+RobotSettings robot_settings_of(const py::dict& numbers, const py::dict& joints) {
+  RobotSettings robot;
+  for (const auto& [key, value] : numbers) {
+    if (const std::string name = bytes_of(key); !set_robot_number(robot, name, value))
+      throw Error(ErrorKind::usage, "robot: unknown setting " + name);
+  }
+  for (const auto& [pattern, limits] : joints) {
+    NamedJointLimits named{bytes_of(pattern), robot.limits};
+    for (const auto& [key, value] : limits.cast<py::dict>()) {
+      if (const std::string name = bytes_of(key); !set_limit(named.limits, name, value))
+        throw Error(ErrorKind::usage, "robot: " + named.pattern + ": unknown limit " + name);
+    }
+    robot.joints.push_back(std::move(named));
+  }
+  return robot;
+}
+
 ReportPtr check(const HeldTakePtr& held, const std::optional<std::string>& up,
-                std::optional<double> metres_per_unit, const py::dict& feet_names) {
+                std::optional<double> metres_per_unit, const py::dict& feet_names,
+                const std::optional<py::dict>& robot, const py::dict& joint_limits) {
   CheckSettings settings;
+  if (robot) settings.robot = robot_settings_of(*robot, joint_limits);
   settings.up = axis_named(up);
   settings.metres_per_unit = metres_per_unit;
   settings.names = known_names_of(feet_names);
@@ -187,7 +238,8 @@ void bind_measures(py::module_& module) {
   module.def("fill", fill, "take"_a, py::kw_only(), "method"_a, "names"_a, "donor"_a,
              "longest_gap_s"_a, "fill_all"_a, "max_error"_a, "max_error_deg"_a, "unlabelled"_a,
              "range"_a, "model"_a, "map"_a);
-  module.def("check", check, "take"_a, py::kw_only(), "up"_a, "metres_per_unit"_a, "feet_names"_a);
+  module.def("check", check, "take"_a, py::kw_only(), "up"_a, "metres_per_unit"_a, "feet_names"_a,
+             "robot"_a, "joint_limits"_a);
   module.def("contacts", contacts, "take"_a, py::kw_only(), "feet_names"_a);
   module.def("compare", compare, "reference"_a, "other"_a, py::kw_only(), "psnr_peak"_a,
              "metres_per_unit"_a, "up"_a, "fit"_a, "fit_to"_a, "lag_frames"_a, "least_motion"_a);

@@ -1,5 +1,6 @@
 // Splits names into words and interprets each beside the names of its neighbours.
 #include "body/body_names.hpp"
+#include "kinemend/experimental/letter_case.hpp"
 
 #include <algorithm>
 #include <array>
@@ -87,7 +88,6 @@ constexpr std::array spellings = std::to_array<Spelling>({
     {"ball", Bone::toe},
 });
 
-char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }
 bool is_letter_or_digit(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
@@ -109,7 +109,7 @@ std::vector<std::string> tokens_of(std::string_view name) {
     if (is_upper(name[i]) && (!after_upper || before_lower)) open = false;
     if (!open) tokens.emplace_back();
     open = true;
-    tokens.back() += lower(name[i]);
+    tokens.back() += lower_case(name[i]);
   }
   return tokens;
 }

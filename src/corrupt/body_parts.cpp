@@ -5,18 +5,12 @@
 #include <array>
 #include <cctype>
 
+#include "kinemend/experimental/letter_case.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend::corrupt {
 
 namespace {
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
 
 template <std::size_t N>
 bool has_part(std::string_view name, const std::array<std::string_view, N>& parts) {
@@ -28,7 +22,7 @@ bool has_part(std::string_view name, const std::array<std::string_view, N>& part
 enum class Side : std::uint8_t { none, left, right };
 
 Side side_of(std::string_view bare) {
-  const std::string name = lower(bare);
+  const std::string name = lower_case(bare);
   if (name.find("left") != std::string::npos) return Side::left;
   if (name.find("right") != std::string::npos) return Side::right;
   // LWRA, RToe; elbowL, hip_r.
@@ -54,7 +48,7 @@ NamedPart named_part(std::string_view name) {
   static constexpr std::array<std::string_view, 16> arms{
       "arm", "elbow", "elb", "wrist", "wra",   "wrb",   "hand",   "fin",
       "upa", "frm",   "fra", "thumb", "index", "pinky", "middle", "ring"};
-  const std::string text = lower(without_subject(name));
+  const std::string text = lower_case(without_subject(name));
   if (text == "hips") return NamedPart::other;
   if (has_part(text, legs)) return NamedPart::leg;
   return has_part(text, arms) ? NamedPart::arm : NamedPart::other;
@@ -79,7 +73,7 @@ std::vector<std::size_t> wrists_and_ankles(const std::vector<std::string>& names
                                                           "pinky", "little", "finger", "toe"};
   std::vector<std::size_t> found;
   for (std::size_t j = 0; j < names.size(); ++j) {
-    const std::string name = lower(names[j]);
+    const std::string name = lower_case(names[j]);
     if (has_part(name, ends) && !has_part(name, beyond)) found.push_back(j);
   }
   return found;

@@ -135,7 +135,8 @@ struct GapOptions : TargetOptions {
 
 template <class Options>
 OptionTable<Options>& add_scope(OptionTable<Options>& table, const char* help) {
-  return table.choice(&Options::scope, "scope", scopes, help);
+  return table.choice(&Options::scope, "scope", scopes,
+                      std::string(help) + "; for markers, joint and limb mean single markers");
 }
 
 template <class Options>

@@ -11,6 +11,7 @@
 #include "base/quote.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
+#include "kinemend/experimental/letter_case.hpp"
 #include "kinemend/feet.hpp"
 #include "motion/name_pattern.hpp"
 

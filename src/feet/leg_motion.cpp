@@ -2,7 +2,6 @@
 #include "feet/leg_motion.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -10,6 +9,7 @@
 #include "feet/blocks.hpp"
 #include "feet/sole_point.hpp"
 #include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/experimental/letter_case.hpp"
 
 namespace kinemend::feet {
 
@@ -49,10 +49,7 @@ Vec3 offset_of(const Take& clip, std::size_t joint) {
 }
 
 bool is_named_heel(const std::string& name) {
-  std::string lower(name);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower.find("heel") != std::string::npos;
+  return lower_case(name).find("heel") != std::string::npos;
 }
 
 void set_sole(const Take& clip, const Leg& leg, LegModel& model) {

@@ -3,25 +3,18 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "kinemend/experimental/letter_case.hpp"
 #include "kinemend/feet.hpp"
 #include "kinemend/metrics.hpp"
 
 namespace kinemend {
 
 namespace {
-
-std::string lower_case(std::string_view name) {
-  std::string lower(name);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower;
-}
 
 bool has(std::string_view text, std::string_view part) {
   return text.find(part) != std::string_view::npos;

@@ -16,6 +16,7 @@
 #include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/experimental/subjects.hpp"
 #include "kinemend/feet.hpp"
+#include "motion/take_change.hpp"
 
 namespace kinemend {
 
@@ -163,7 +164,10 @@ void move(Take& take, Quat turn, Vec3 shift) {
           (turns ? rotate(turn, take.root_position(f)) : take.root_position(f)) + shift;
     return;
   }
-  take.source.document.reset();
+  TakeChange change;
+  change.axes = {rotate(turn, {1, 0, 0}), rotate(turn, {0, 1, 0}), rotate(turn, {0, 0, 1})};
+  change.shift = shift;
+  take.source.document = document_after(take.source, change);
   for (std::size_t f = 0; f < take.frame_count(); ++f) {
     for (std::size_t m = 0; m < take.marker_count(); ++m) {
       if (!take.is_observed(f, m) || !take.holds_positions(m)) continue;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "kinemend/experimental/letter_case.hpp"
 #include "motion/name_pattern.hpp"
 
 namespace kinemend {
@@ -50,7 +51,7 @@ constexpr std::string_view phalanges[] = {"Proximal", "Intermediate", "Distal"};
 VmcBones::VmcBones(const std::vector<std::string>& more) {
   const auto add = [this](std::string name, std::string_view parent) {
     parents_.push_back(find(parent));
-    keys_.push_back(small_letters(name));
+    keys_.push_back(lower_case(name));
     names_.push_back(std::move(name));
   };
   for (const HumanBone& bone : human_bones) add(std::string(bone.name), bone.parent);
@@ -70,7 +71,7 @@ VmcBones::VmcBones(const std::vector<std::string>& more) {
 }
 
 std::int32_t VmcBones::find(std::string_view name) const {
-  const auto found = std::find(keys_.begin(), keys_.end(), small_letters(name));
+  const auto found = std::find(keys_.begin(), keys_.end(), lower_case(name));
   return found == keys_.end() ? -1 : static_cast<std::int32_t>(found - keys_.begin());
 }
 

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <string>
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/experimental/letter_case.hpp"
 #include "kinemend/metrics.hpp"
 #include "metrics/pairing.hpp"
 
@@ -46,9 +46,7 @@ std::vector<std::size_t> foot_joints(const Skeleton& skeleton) {
                                                              "ball"};
   std::vector<std::size_t> found;
   for (std::size_t j = 0; j < skeleton.joint_count(); ++j) {
-    std::string name = skeleton.names[j];
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string name = lower_case(skeleton.names[j]);
     const auto in_name = [&](std::string_view fragment) {
       return name.find(fragment) != std::string::npos;
     };

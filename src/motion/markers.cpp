@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <utility>
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/experimental/letter_case.hpp"
 #include "motion/take_checks.hpp"
 
 namespace kinemend {
@@ -75,9 +75,7 @@ double metres_per_unit(std::string_view unit) {
       {"foot", 0.3048},
       {"feet", 0.3048},
   }};
-  std::string lower(unit);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string lower = lower_case(unit);
   const auto found = std::find_if(known.begin(), known.end(),
                                   [&](const auto& entry) { return entry.first == lower; });
   return found == known.end() ? 0 : found->second;

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/letter_case.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/experimental/wildcards.hpp"
 #include "kinemend/take.hpp"
@@ -14,8 +15,6 @@
 namespace kinemend {
 
 namespace {
-
-char small(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 bool is_meant(const std::string& name, const std::string& pattern) {
   return name == pattern || matches_wildcards(pattern, name);
@@ -35,25 +34,14 @@ bool mark(const std::vector<std::string>& names, const std::string& pattern,
 
 }  // namespace
 
-std::string small_letters(std::string_view text) {
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(), small);
-  return lower;
-}
-
-bool same_but_for_case(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](char x, char y) { return small(x) == small(y); });
-}
-
 std::vector<std::uint8_t> names_meant(const std::vector<std::string>& names,
                                       const std::string& pattern) {
   std::vector<std::uint8_t> marks(names.size(), 0);
   if (mark(names, pattern, marks)) return marks;
   std::vector<std::string> lower;
   lower.reserve(names.size());
-  for (const std::string& name : names) lower.push_back(small_letters(name));
-  mark(lower, small_letters(pattern), marks);
+  for (const std::string& name : names) lower.push_back(lower_case(name));
+  mark(lower, lower_case(pattern), marks);
   return marks;
 }
 

@@ -8,11 +8,6 @@
 
 namespace kinemend {
 
-/// In lower case (ASCII).
-std::string small_letters(std::string_view text);
-/// Whether two names are equal except for case (ASCII).
-bool same_but_for_case(std::string_view a, std::string_view b);
-
 /// N marks, 1 where a name equals the given one or matches the shell pattern, with or without its
 /// subject. Where none does, case is ignored. All are 0 without a match.
 std::vector<std::uint8_t> names_meant(const std::vector<std::string>& names,

@@ -10,6 +10,7 @@ TakeChange both(const TakeChange& first, const TakeChange& second) {
   result.length_factor = first.length_factor * second.length_factor;
   for (std::size_t i = 0; i < result.axes.size(); ++i)
     result.axes[i] = second.turned(first.axes[i]);
+  result.shift = second.moved(first.shift);
   result.resampled = first.resampled || second.resampled;
   result.drops_layout = first.drops_layout || second.drops_layout;
   return result;

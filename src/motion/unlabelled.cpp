@@ -1,8 +1,7 @@
 // Compares a name with the names that capture systems give to unlabelled points.
 #include "motion/unlabelled.hpp"
+#include "kinemend/experimental/letter_case.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <string>
 
 namespace kinemend {
@@ -14,10 +13,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 // Lower case, without the number at the end.
 std::string stem_of(std::string_view name) {
   while (!name.empty() && is_digit(name.back())) name.remove_suffix(1);
-  std::string stem(name);
-  std::transform(stem.begin(), stem.end(), stem.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return stem;
+  return lower_case(name);
 }
 
 }  // namespace

@@ -10,6 +10,10 @@ namespace kinemend {
 
 namespace {
 
+// The longest padding of a take that is shorter than its padding: bounds memory where a file states
+// a rate that no camera has. At 6 Hz it settles at any rate up to 75 kHz.
+constexpr std::size_t most_repeated_frames = 65536;
+
 // The steady state of a filter for the constant input `row`.
 void start_at_rest(std::span<const Biquad> sections, const double* row, std::size_t channels,
                    std::vector<double>& memory) {
@@ -49,7 +53,9 @@ void filter_zero_phase(PoseMatrix& matrix, const std::vector<Biquad>& sections,
                        std::size_t pad_frames) {
   if (matrix.frames == 0 || matrix.channels == 0 || sections.empty()) return;
   const std::size_t channels = matrix.channels;
-  const std::size_t pad = std::min(pad_frames, matrix.frames - 1);
+  const std::size_t pad =
+      matrix.frames > 1 ? std::min(pad_frames, std::max(matrix.frames - 1, most_repeated_frames))
+                        : 0;
   const auto stride = static_cast<std::ptrdiff_t>(channels);
   std::vector<double> head = reflected_rows(matrix, -static_cast<std::ptrdiff_t>(pad), pad);
   std::vector<double> tail =

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <chrono>
+#include <csignal>
 #include <thread>
 
 #include "cli/program.hpp"
@@ -33,6 +34,46 @@ class BatchSums : public Program {
   }
   Json summary() const { return Json::parse(contents(folder / "out/summary.json")).at("figures"); }
 };
+
+// While it lives, no file of this process and its children grows beyond so many bytes.
+class LimitOfFiles {
+ public:
+  explicit LimitOfFiles(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~LimitOfFiles() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  LimitOfFiles(const LimitOfFiles&) = delete;
+  LimitOfFiles& operator=(const LimitOfFiles&) = delete;
+
+ private:
+  void (*handler_)(int);
+  rlimit before_{};
+};
+
+TEST_F(BatchSums, ARowThatCannotBeWrittenIsAnErrorWithItsReason) {
+  make_folder("raw", 1);
+  fs::create_directories(folder / "out");
+  fs::create_symlink("/dev/full", folder / "out/rows.jsonl");
+  const Ran full = run({"batch", "raw", "-o", "out"});
+  EXPECT_EQ(full.code, 4);
+  EXPECT_THAT(full.err, HasSubstr("rows.jsonl: No space left on device"));
+}
+
+TEST_F(BatchSums, ARowThatIsWrittenInPartIsAnErrorWithItsReason) {
+  make_folder("raw", 1);
+  fs::create_directories(folder / "out");
+  const std::size_t before = 1 << 20, room = 10;
+  put(folder / "out/rows.jsonl", std::string(before - 1, ' ') + "\n");
+  const LimitOfFiles limit(before + room);
+  const Ran ran = run({"batch", "raw", "-o", "out"});
+  EXPECT_EQ(ran.code, 4);
+  EXPECT_THAT(ran.err, HasSubstr("rows.jsonl: File too large"));
+}
 
 TEST_F(BatchSums, ManyTakesAreSummedUpInFewLines) {
   make_folder("raw", 40);

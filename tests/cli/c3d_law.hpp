@@ -51,6 +51,7 @@ class C3dLaw : public Program {
                                                     {"convert", "--from-up", "z", "--up", "x"},
                                                     {"convert", "--fps", "25"},
                                                     {"convert", "--fps", "100"},
+                                                    {"convert", "--up", "z", "--floor-at-zero"},
                                                     {"convert", "--plain"},
                                                     {"convert", "--to", "c3d"},
                                                     {"clean"},

@@ -31,6 +31,15 @@ TEST_F(C3dFiles, AreTheSameInTheirOwnUnitRateAndAxes) {
   }
 }
 
+TEST_F(C3dFiles, StayWholeWhenTheyArePutOnTheFloor) {
+  const std::string take = c3d_fixture("laboratory");
+  const Ran ran =
+      run({"convert", take, "--up", "z", "--floor-at-zero", "-o", "floor.c3d", "--strict"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.err, AllOf(HasSubstr("the feet stand at 0"), Not(HasSubstr("left out"))));
+  EXPECT_EQ(info("floor.c3d").at("facts"), info(take).at("facts"));
+}
+
 TEST_F(C3dFiles, ARateThatAnalogChannelsCannotFollowIsNamed) {
   const std::string take = c3d_fixture("laboratory");
   const Ran ran = run({"convert", take, "--fps", "60", "-o", "out.c3d"});

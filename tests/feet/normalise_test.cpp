@@ -7,6 +7,7 @@
 #include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/experimental/normalise.hpp"
 #include "kinemend/experimental/synth.hpp"
+#include "motion/take_change.hpp"
 
 namespace kinemend::test {
 namespace {
@@ -146,7 +147,31 @@ TEST(Normalise, MovesMarkersAsTheJointsUnderThem) {
   const Vec3 way = markers.position(markers.frame_count() - 1, 0) - markers.position(0, 0);
   EXPECT_GT(way.z, 100) << "it walks forward";
   EXPECT_LT(std::fabs(way.x), 45) << "but for what the pelvis turns in a stride";
-  EXPECT_EQ(markers.source.document, nullptr);
+}
+
+struct Recorder : FollowingDocument {
+  TakeChange change;
+
+  std::shared_ptr<const SourceDocument> after(const TakeChange& further) const override {
+    auto moved = std::make_shared<Recorder>();
+    moved->change = both(change, further);
+    return moved;
+  }
+};
+
+TEST(Normalise, TheRestOfAFileOfMarkersFollowsThem) {
+  Take markers = joint_markers(elsewhere(take_of("walk"), -1.2, {70, 15, 3}), true);
+  for (std::string& name : markers.names) {
+    if (name.starts_with("Left")) name = "L" + name.substr(4);
+    if (name.starts_with("Right")) name = "R" + name.substr(5);
+  }
+  markers.source.document = std::make_shared<Recorder>();
+  const std::vector<Vec3> before = markers.positions;
+  normalise(markers, both());
+  const auto* document = dynamic_cast<const Recorder*>(markers.source.document.get());
+  ASSERT_NE(document, nullptr);
+  for (std::size_t i = 0; i < before.size(); ++i)
+    ASSERT_LT(norm(document->change.moved(before[i]) - markers.positions[i]), 1e-9) << i;
 }
 
 TEST(Normalise, PutsThePelvisAtTheOriginWhereTheRootStaysBehind) {

@@ -153,6 +153,24 @@ TEST_P(LiveMethod, TakesNoNoticeOfJointsThatWereNotSeen) {
   }
 }
 
+TEST_P(LiveMethod, BridgesAGapOfAJointThatIsLongerThanItsWindow) {
+  Take a = take(180), b = a;
+  a.observed.assign(a.rotations.size(), 1);
+  for (std::size_t f = 60; f < 120; ++f) {
+    a.observed[f * a.joint_count() + 2] = 0;
+    a.rotation(f, 2) = {};
+    b.rotation(f, 2) = exp({0.1, 3, 0});
+  }
+  b.observed = a.observed;
+  const auto first = run(*make_stream(*cleaner_, a), a),
+             second = run(*make_stream(*cleaner_, b), b);
+  for (std::size_t f = 0; f < 180; ++f)
+    ASSERT_LT(angle_between(first[f].rotations[2], second[f].rotations[2]), 1e-12) << f;
+  const Quat before = first[58].rotations[2], after = first[121].rotations[2];
+  for (std::size_t f = 60; f < 120; ++f)
+    ASSERT_LT(angle_between(first[f].rotations[2], before), angle_between(before, after) + 1) << f;
+}
+
 TEST_P(LiveMethod, AGapOfOneJointChangesNoOther) {
   if (GetParam().method == "nonlocal") GTEST_SKIP() << "compares whole poses";
   const Take whole = take(120);

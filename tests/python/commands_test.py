@@ -46,6 +46,40 @@ def test_check_finds_what_the_program_finds(all_formats, program):
         assert is_part_of(entry, as_json(kinemend.check(kinemend.read(all_formats / name))))
 
 
+LIMITS = """
+speed_deg_s = 400
+[joints."*Leg"]
+speed_deg_s = 100
+[joints.LeftLeg]
+acceleration_deg_s2 = 900
+"""
+
+
+def test_check_finds_what_a_robot_cannot_follow(all_formats, program):
+    take = kinemend.read(all_formats / "walk.bvh")
+    theirs = program.take_of_json("check", all_formats / "walk.bvh", "--robot", "--json")
+    ours = kinemend.check(take, robot=True)
+    assert ours.robot is not None and is_part_of(theirs, as_json(ours))
+    assert kinemend.check(take).robot is None
+    (program.folder / "limits.toml").write_text(LIMITS)
+    theirs = program.take_of_json("check", all_formats / "walk.bvh", "--limits", "limits.toml", "--json")
+    limits = kinemend.RobotLimits(
+        speed_deg_s=400, joints={"*Leg": {"speed_deg_s": 100}, "LeftLeg": {"acceleration_deg_s2": 900}})
+    ours = kinemend.check(take, robot=limits)
+    assert any(finding.kind == "joint_speed" for finding in ours.findings)
+    assert is_part_of(theirs, as_json(ours))
+
+
+def test_check_takes_every_limit_of_a_robot(all_formats):
+    take = kinemend.read(all_formats / "walk.bvh")
+    strict = kinemend.check(take, robot=kinemend.RobotLimits(
+        acceleration_deg_s2=1, step_s=0.05, penetration_cm=0, floating_cm=0, jump_deg=0.01, jump_cm=0.01, floor_cm=0))
+    assert len(strict.findings) > len(kinemend.check(take, robot=True).findings)
+    for refused in ({"step_s": 0}, {"jump_cm": 0}, {"joints": {"*": {"speeds": 1}}}):
+        with pytest.raises(kinemend.Error):
+            kinemend.check(take, robot=kinemend.RobotLimits(**refused))
+
+
 def test_fill_fills_what_the_program_fills(all_formats, program):
     program.run("fill", all_formats / "gaps.trc", "-o", "theirs.trc", "--report", "r.json")
     entry = json.loads((program.folder / "r.json").read_text())["takes"][0]

@@ -60,15 +60,12 @@ function emptyPage(page: HTMLElement, session: Session, ...parts: HTMLElement[])
   page.dataset.ready = 'running';
 }
 
-/** Of the program, where neither a flag nor a preset names one. */
-const defaultMethod = 'learned';
-
 class Controls {
   readonly element = element('section', { class: 'view-controls', 'aria-label': 'Controls' });
   private command: 'clean' | 'fill' = 'clean';
   private readonly general: Record<'clean' | 'fill', Record<string, Value>> = { clean: {}, fill: {} };
   private preset: Session['presets'][number] | null = null;
-  private method = defaultMethod;
+  private method: string;
   /** Labels of controls whose values are not allowed, by "clean.strength". */
   private readonly refused = new Map<string, string>();
   private readonly options: Record<string, Record<string, Value>> = {};
@@ -97,6 +94,7 @@ class Controls {
   private readonly isJoints: boolean;
 
   constructor(private readonly page: HTMLElement, private readonly session: Session, private readonly transport: ViewTransport) {
+    this.method = this.presetMethod;
     this.dialog = new SaveDialog((file, replace) => this.save(file, replace), (saved) => this.afterSaving(saved), transport);
     this.isJoints = session.kind === 'joints';
     const again = (): void => this.later();
@@ -182,7 +180,7 @@ class Controls {
     this.later();
   }
   /** The method that is used where none is chosen. */
-  private get presetMethod(): string { return String(this.preset?.values.method ?? defaultMethod); }
+  private get presetMethod(): string { return String(this.preset?.values.method ?? this.session.default_method); }
 
   private fillMethods(): string[] {
     return this.session.fill_methods.filter((one) => (this.isJoints ? one.joints : one.markers)).map(({ name }) => name);

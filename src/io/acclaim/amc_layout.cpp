@@ -9,6 +9,7 @@
 
 #include "io/acclaim/asf_scanner.hpp"
 #include "io/bvh/bvh_hierarchy.hpp"
+#include "kinemend/experimental/letter_case.hpp"
 
 namespace kinemend {
 
@@ -54,25 +55,19 @@ class JointNames {
   explicit JointNames(const Skeleton& skeleton) {
     for (std::size_t j = 0; j < skeleton.joint_count(); ++j) {
       exact_.try_emplace(skeleton.names[j], j);
-      lower_.try_emplace(lower(skeleton.names[j]), j);
+      lower_.try_emplace(lower_case(skeleton.names[j]), j);
     }
   }
 
   std::optional<std::size_t> find(std::string_view name) const {
     const auto exact = exact_.find(std::string(name));
     if (exact != exact_.end()) return exact->second;
-    const auto any_case = lower_.find(lower(name));
+    const auto any_case = lower_.find(lower_case(name));
     if (any_case != lower_.end()) return any_case->second;
     return std::nullopt;
   }
 
  private:
-  static std::string lower(std::string_view name) {
-    std::string text(name);
-    for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return text;
-  }
-
   std::unordered_map<std::string, std::size_t> exact_, lower_;
 };
 

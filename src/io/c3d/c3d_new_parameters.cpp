@@ -107,15 +107,17 @@ class ParameterMaker {
     if (!others.empty()) set_texts(all_, "POINT", "SCALARS", others);
   }
 
-  // "+X": an axis with its sign, "X" where it is positive.
+  // "+X": an axis with its sign, "X" where it is positive; the nearest one after a turn by any
+  // angle.
   std::string turned_axis(std::string_view axis) const {
     const bool negative = axis.substr(0, 1) == "-";
     const bool has_sign = negative || axis.substr(0, 1) == "+";
     const std::size_t index = std::string_view("XYZ").find(axis.substr(has_sign ? 1 : 0));
     if (axis.size() != (has_sign ? 2 : 1) || index > 2) return std::string(axis);
     const Vec3 v = negative ? -change_.axes[index] : change_.axes[index];
-    const char letter = v.x != 0 ? 'X' : v.y != 0 ? 'Y' : 'Z';
-    const bool is_negative = v.x + v.y + v.z < 0;
+    const double x = std::fabs(v.x), y = std::fabs(v.y), z = std::fabs(v.z);
+    const char letter = x >= y && x >= z ? 'X' : y >= z ? 'Y' : 'Z';
+    const bool is_negative = (letter == 'X' ? v.x : letter == 'Y' ? v.y : v.z) < 0;
     return (is_negative ? "-" : has_sign || negative ? "+" : "") + std::string(1, letter);
   }
 
@@ -186,10 +188,10 @@ class ParameterMaker {
   // the points. What the plates measure, moments too, has the units of the analog channels.
   void describe_plates() {
     const double factor = change_.length_factor;
-    if (factor != 1 || change_.turns()) {
+    if (change_.moves()) {
       change_numbers("FORCE_PLATFORM", "CORNERS", C3dType::real, [&](std::vector<double>& values) {
         for (std::size_t i = 0; i + 2 < values.size(); i += 3) {
-          const Vec3 corner = factor * change_.turned({values[i], values[i + 1], values[i + 2]});
+          const Vec3 corner = change_.moved({values[i], values[i + 1], values[i + 2]});
           values[i] = corner.x;
           values[i + 1] = corner.y;
           values[i + 2] = corner.z;

@@ -14,7 +14,6 @@ using Cells = std::vector<std::string>;
 
 inline constexpr std::size_t most_columns = 4 * most_markers;
 
-std::string lower_case(std::string_view text);
 std::string_view without_spaces_around(std::string_view text);
 /// NaN where the text is not a finite number. A decimal comma is allowed.
 double number_of(std::string_view text);

@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <optional>
 
 #include "io/table/csv_head.hpp"
+#include "kinemend/experimental/letter_case.hpp"
 
 namespace kinemend {
 

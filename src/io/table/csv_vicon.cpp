@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "io/table/csv_head.hpp"
+#include "kinemend/experimental/letter_case.hpp"
 
 namespace kinemend {
 
@@ -164,7 +165,7 @@ class ViconReader {
   }
 
   static bool is(const std::string& axis, char letter) {
-    return axis.size() == 1 && std::tolower(static_cast<unsigned char>(axis[0])) == letter;
+    return axis.size() == 1 && lower_case(axis[0]) == letter;
   }
 
   // "mm" or "(mm)" below each axis; programs before Nexus leave the row out.

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "io/text/fixed_digits.hpp"
+#include "kinemend/experimental/letter_case.hpp"
 
 namespace kinemend {
 
@@ -18,7 +19,7 @@ namespace {
 bool starts_with_word(std::string_view text, std::string_view word) {
   return text.size() >= word.size() &&
          std::equal(word.begin(), word.end(), text.begin(),
-                    [](char w, char t) { return w == (t >= 'A' && t <= 'Z' ? t - 'A' + 'a' : t); });
+                    [](char w, char t) { return w == lower_case(t); });
 }
 
 // "nan", "-nan(ind)", "Infinity", and "1.#QNAN" as older C libraries print it.

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "io/text/number.hpp"
+#include "kinemend/experimental/letter_case.hpp"
 
 namespace kinemend {
 
@@ -31,13 +32,7 @@ std::string_view line_ending_of(std::string_view text) {
   return text.substr(end, 2) == "\r\n" ? "\r\n" : "\r";
 }
 
-bool equal_ignoring_case(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  };
-  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(),
-                                            [&](char x, char y) { return lower(x) == lower(y); });
-}
+bool equal_ignoring_case(std::string_view a, std::string_view b) { return same_but_for_case(a, b); }
 
 Error SourceText::error_at(std::size_t offset, std::string_view message) const {
   return Error::at_line(name, line_at(bytes, offset), message);

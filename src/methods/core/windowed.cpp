@@ -14,8 +14,8 @@ void append_row(std::vector<T>& values, const std::vector<T>& row) {
 }
 
 template <class T>
-void drop_rows(std::vector<T>& values, std::size_t rows, std::size_t width) {
-  values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rows * width));
+void drop_first_row(std::vector<T>& values, std::size_t width) {
+  values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(width));
 }
 
 template <class T>
@@ -38,6 +38,7 @@ std::size_t bridge_frames(const TakeView& like) {
 WindowedFilter::WindowedFilter(const TakeView& like, std::size_t half)
     : half_(half), bridge_(bridge_frames(like)), view_(like) {
   view_.frames = 0;
+  if (view_.gaps == GapTreatment::bridge) held_.resize(rotations_in(view_));
 }
 
 bool WindowedFilter::push(const Frame& in, Frame& out) {
@@ -59,10 +60,11 @@ bool WindowedFilter::flush(Frame& out) {
 
 void WindowedFilter::give(bool has_stepped, Frame& out) {
   copy(next_, out);
+  bridge_from_held();
   point_at_samples();
   clean(next_, has_stepped, out);
   if (++next_ <= lookahead()) return;
-  forget(next_ - lookahead());
+  forget_first();
   next_ = lookahead();
 }
 
@@ -77,11 +79,50 @@ void WindowedFilter::append(const Frame& frame) {
   ++view_.frames;
 }
 
-void WindowedFilter::forget(std::size_t frames) {
-  drop_rows(rotations_, frames, rotations_in(view_));
-  drop_rows(positions_, frames, positions_in(view_));
-  drop_rows(observed_, frames, view_.owners);
-  view_.frames -= frames;
+void WindowedFilter::forget_first() {
+  hold_first();
+  drop_first_row(rotations_, rotations_in(view_));
+  drop_first_row(positions_, positions_in(view_));
+  drop_first_row(observed_, view_.owners);
+  --view_.frames;
+}
+
+void WindowedFilter::hold_first() {
+  for (std::size_t n = 0; n < held_.size(); ++n) {
+    Held& held = held_[n];
+    if (observed_[n] != 0 && !held.is_in_window) {
+      held = {rotations_[n], 1, false};
+    } else {
+      if (held.frames_before > 0) ++held.frames_before;
+      held.is_in_window = false;
+    }
+  }
+}
+
+// The window's first frame, where it is in a gap, gets what the geodesic across the whole gap has
+// there, and counts as seen. As long as the gap has no end, that is the rotation before it.
+void WindowedFilter::bridge_from_held() {
+  for (std::size_t n = 0; n < held_.size(); ++n) {
+    Held& held = held_[n];
+    if (held.frames_before == 0 || (observed_[n] != 0 && !held.is_in_window)) continue;
+    const std::size_t end = first_seen(n);
+    rotations_[n] = held.rotation;
+    if (end < view_.frames) {
+      const double share =
+          static_cast<double>(held.frames_before) / static_cast<double>(held.frames_before + end);
+      const Vec3 turn = log(conjugate(held.rotation) * rotations_[end * rotations_in(view_) + n]);
+      rotations_[n] = normalized(held.rotation * exp(share * turn));
+    }
+    observed_[n] = 1;
+    held.is_in_window = true;
+  }
+}
+
+// The frame of the window behind its first in which a rotation is seen; their number if in none.
+std::size_t WindowedFilter::first_seen(std::size_t rotation) const {
+  std::size_t frame = 1;
+  while (frame < view_.frames && observed_[frame * view_.owners + rotation] == 0) ++frame;
+  return std::min(frame, view_.frames);
 }
 
 void WindowedFilter::point_at_samples() {

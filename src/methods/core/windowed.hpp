@@ -39,7 +39,8 @@ class SlidingWindow {
 };
 
 /// Keeps the frames that the next result depends on. At the ends of the stream they are fewer, as
-/// they are at the ends of a take.
+/// they are at the ends of a take. A gap of a joint that begins before the window keeps the last
+/// rotation that was seen, so that gaps longer than the window are bridged too.
 class WindowedFilter : public LiveFilter {
  public:
   /// Where gaps are cut, a filter also waits for the longest gap that is bridged, and for what its
@@ -62,8 +63,18 @@ class WindowedFilter : public LiveFilter {
   const TakeView& window() const { return view_; }
 
  private:
+  // The last rotation of a joint that was seen before the window.
+  struct Held {
+    Quat rotation;
+    std::size_t frames_before = 0;  // how far before the first frame kept; 0: none was seen
+    bool is_in_window = false;      // the window's first frame has a bridge instead of its own
+  };
+
   void append(const Frame& frame);
-  void forget(std::size_t frames);
+  void forget_first();
+  void hold_first();
+  void bridge_from_held();
+  std::size_t first_seen(std::size_t rotation) const;
   void point_at_samples();
   void copy(std::size_t frame, Frame& result) const;
   void give(bool has_stepped, Frame& out);
@@ -73,7 +84,8 @@ class WindowedFilter : public LiveFilter {
   std::vector<Quat> rotations_;
   std::vector<Vec3> positions_;
   std::vector<std::uint8_t> observed_;
-  std::size_t next_ = 0;  // the frame of the window that comes out next
+  std::vector<Held> held_;  // one for each rotation whose gaps are bridged
+  std::size_t next_ = 0;    // the frame of the window that comes out next
   Frame newest_;
 };
 
