@@ -43,8 +43,8 @@ std::size_t settling_frames(const std::vector<Biquad>& sections, double toleranc
 
 /// Runs the sections forward and backward: no shift in time, and the squared gain. The signal is
 /// continued at both ends by its point reflection over `pad_frames`, which is repeated where they
-/// are F or more, each run starting from the steady state of its first sample. With the default padding this is SciPy's
-/// `sosfiltfilt`.
+/// are F or more, each run starting from the steady state of its first sample. With the default
+/// padding this is SciPy's `sosfiltfilt`.
 void filter_zero_phase(PoseMatrix& matrix, const std::vector<Biquad>& sections);
 void filter_zero_phase(PoseMatrix& matrix, const std::vector<Biquad>& sections,
                        std::size_t pad_frames);
