@@ -18,7 +18,7 @@ export interface Result {
 /** The page of `kinemend view` without a server; for the app. */
 export interface View {
   open(name: string): {code: number; report: string; messages: string};
-  ask(action: string, body: string): {status: number; body: string};
+  ask(action: string, body: string): {status: number; body: Uint8Array};
 }
 
 export interface Kinemend {

@@ -75,7 +75,7 @@ export async function load(settings = {}) {
     },
     ask(action, body) {
       const status = withText([action, body], module._kinemend_view_ask);
-      return {status, body: decoder.decode(answer('report'))};
+      return {status, body: answer('report')};
     },
   };
 
