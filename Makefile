@@ -95,13 +95,13 @@ npm-package: wasm ## the npm package of the module: build/wasm/wasm/npm/kinemend
 
 wasm-test: build web-app npm-package ## the module in Node, the app and the package in a browser write the same bytes as the program on twenty takes
 	$(need) page browser
-	tools/compare_programs $(BUILD)/$(PRESET)/cli/kinemend tools/wasm_program
 	rm -rf $(BUILD)/wasm/takes
 	tools/compare_programs $(BUILD)/$(PRESET)/cli/kinemend $(BUILD)/wasm/takes --make-takes
 	cd $(BUILD)/wasm/web && npm ci --ignore-scripts --prefer-offline --silent
 	cd $(BUILD)/wasm/web && node $(CURDIR)/web/test/app_test.mjs $(CURDIR)/$(BUILD)/$(PRESET)/cli/kinemend $$(command -v chromium) ../wasm/kinemend.html screenshots \
 	  $(CURDIR)/examples/takes $(CURDIR)/$(BUILD)/wasm/takes
 	cd $(BUILD)/wasm/web && node $(CURDIR)/wasm/npm/package_test.mjs $(CURDIR)/$(BUILD)/$(PRESET)/cli/kinemend $$(command -v chromium) ../wasm/npm/kinemend-*.tgz $(CURDIR)/examples/takes
+	tools/compare_programs $(BUILD)/$(PRESET)/cli/kinemend tools/wasm_program
 
 blender-addon: ## the Blender add-on: build/blender/kinemend_blender-0.1.0.zip
 	@tools/make_blender_addon

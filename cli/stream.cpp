@@ -15,61 +15,13 @@
 #include "live_output.hpp"
 #include "live_vmc.hpp"
 #include "method_options.hpp"
+#include "stream_plan.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
 namespace kinemend::cli {
 
 namespace {
-
-constexpr std::string_view default_method = "median";
-
-std::string live_name(const LiveMethod& method) {
-  std::string name = method.name;
-  for (const auto& [option, value] : method.options)
-    name += fmt::format(" --{}{}", std::get<bool>(value) ? "" : "no-", dashed(option));
-  return name;
-}
-
-bool has_live_form(const Method& method) {
-  return std::any_of(method.options.begin(), method.options.end(),
-                     [](const OptionSpec& spec) { return spec.name == "live"; });
-}
-
-// Whether a method runs live: as it is, with an option, or with its model.
-bool may_run_live(const Method& method) {
-  static const std::vector<LiveMethod> list = live_methods();
-  return has_live_form(method) || std::any_of(list.begin(), list.end(), [&](const LiveMethod& m) {
-           return m.name == method.name;
-         });
-}
-
-// For a learned method that has a live form. Errors: those of the model.
-std::unique_ptr<Cleaner> live_with_model(const Method& method, OptionValues values) {
-  values.try_emplace("live", true);
-  return make_cleaner(method.name, values);
-}
-
-// A cleaner that runs live: an option without which the method does not is set, unless the user
-// has set it.
-std::unique_ptr<Cleaner> live_cleaner(const Method& method, OptionValues values) {
-  const std::vector<LiveMethod> list = live_methods();
-  const auto found = std::find_if(list.begin(), list.end(),
-                                  [&](const LiveMethod& m) { return m.name == method.name; });
-  bool runs = found != list.end();
-  if (runs) {
-    for (const auto& [option, value] : found->options)
-      runs = values.try_emplace(option, value).first->second == value && runs;
-  }
-  if (runs) return make_cleaner(method.name, values);
-  if (has_live_form(method)) return live_with_model(method, std::move(values));
-  std::vector<std::string> names;
-  names.reserve(list.size());
-  for (const LiveMethod& m : list) names.push_back(live_name(m));
-  throw Error(ErrorKind::usage,
-              fmt::format("stream: {} needs the whole take; methods that run live: {}", method.name,
-                          fmt::join(names, ", ")));
-}
 
 // The option that says where frames come from; empty: from standard input.
 std::string source_option(const Arguments& arguments) {
@@ -114,24 +66,12 @@ LivePlan plan_of(const Arguments& arguments) {
 }
 
 LiveOptions options_of(const Arguments& arguments, const Method& method) {
-  LiveOptions options;
-  options.format = arguments.text("format") == "jsonl" ? LiveFormat::jsonl : LiveFormat::bvh;
-  options.strength = arguments.number("strength");
-  // This method only repairs spikes, and a repair is made in full at any strength.
-  if (method.name == "hampel" && options.strength > 0) options.strength = 1;
-  options.frame_rate_hz = arguments.given("fps") ? arguments.number("fps") : 0;
+  LiveOptions options = live_options(arguments, method);
   options.neuron = arguments.given("neuron");
-  options.feet = arguments.flag("feet");
-  options.numbered = arguments.flag("numbered");
   // Only datagrams overtake one another.
   options.datagrams = arguments.given("udp");
   if (options.datagrams)
     options.reorder_frames = static_cast<std::size_t>(arguments.whole("reorder"));
-  options.skipped_words = static_cast<std::size_t>(arguments.whole("skip_words"));
-  options.body_height = arguments.number("body_height");
-  options.longest_gap_s = arguments.number("longest_gap_s");
-  if (const std::string path = arguments.text("skeleton"); !path.empty())
-    options.skeleton = read_file(path);
   return options;
 }
 
@@ -261,20 +201,6 @@ Flag endpoint_flag(std::string name, std::string value, std::string group, std::
 }
 
 std::vector<Flag> stream_flags() {
-  Flag method =
-      text_flag("method", "NAME", "Cleaning", "how to clean: a method that runs live",
-                "An option that a method needs to run live, such as --causal, is set for you.");
-  method.spec.default_value = std::string(default_method);
-  method.spec.choices = method_names();
-  for (const Method& known : methods()) {
-    if (may_run_live(known)) method.offered.push_back(known.name);
-  }
-  method.has_default = true;
-  method.letter = 'm';
-  Flag format = text_flag("format", "", "Output", "how to write cleaned frames");
-  format.spec.default_value = std::string("bvh");
-  format.spec.choices = {"bvh", "jsonl"};
-  format.has_default = true;
   Flag on_stall = text_flag("on_stall", "", "Trouble", "what to do while no frames arrive",
                             "wait: write nothing. hold: repeat the last frame at the frame rate.");
   on_stall.spec.default_value = std::string("wait");
@@ -286,10 +212,6 @@ std::vector<Flag> stream_flags() {
                         "those on this machine.");
   bind.spec.default_value = std::string("127.0.0.1");
   bind.has_default = true;
-  Flag skeleton =
-      text_flag("skeleton", "FILE", "Input",
-                "BVH file with skeleton and frame rate, for a sender that sends no header");
-  skeleton.completion = Completion::file;
   Flag bones = text_flag("bones", "A,B,...", "Cleaning", "with --vmc: bones to clean (default all)",
                          "Names are those of the messages, such as Head, or root. Others pass "
                          "unchanged, with the same delay.");
@@ -299,9 +221,6 @@ std::vector<Flag> stream_flags() {
                  "It shows latency, loss and noise by joint; /status.json has the same. "
                  "Port 0 takes any free port, which is printed.");
   status.has_default = false;
-  Flag fps =
-      number_flag("fps", "Hz", 0, 0.1, 100000, "Input", "frame rate; overrides that of the header");
-  fps.has_default = false;
   Flag quiet = switch_flag("quiet", "Output", "print warnings and errors only");
   quiet.letter = 'q';
   return {
@@ -318,38 +237,28 @@ std::vector<Flag> stream_flags() {
                     "Bones and root are cleaned. Every other message passes unchanged and in "
                     "order."),
       bind,
-      skeleton,
-      fps,
-      switch_flag("numbered", "Input", "each line of values begins with its frame number",
-                  "Lost, late and duplicate frames are recognised by it. Lost frames are "
-                  "interpolated."),
+      live_flag("skeleton"),
+      live_flag("fps"),
+      live_flag("numbered"),
       whole_flag("reorder", 4, 0, 1000, "Input",
                  "with --udp --numbered: frames that wait for a missing one",
                  "A frame that another one overtook is put back in its place. After so many more "
                  "frames it counts as lost. 0 never waits."),
-      whole_flag("skip_words", 0, 0, 1000, "Input",
-                 "words to skip at the start of each line of values"),
-      number_flag("body_height", "", 1750, 1e-6, 1e9, "Input",
-                  "markers: height of the person, in the units of the stream",
-                  "Methods with settings in length scale them by it."),
+      live_flag("skip_words"),
+      live_flag("body_height"),
       switch_flag("once", "Input", "exit when the first sender disconnects"),
-      method,
-      number_flag("strength", "", 1, 0, 1, "Cleaning",
-                  "blend between the input (0) and the cleaned motion (1)"),
-      switch_flag(
-          "feet", "Cleaning", "hold feet that stand where they are",
-          "For joints. It moves legs only, and adds no delay. Knees may move less smoothly."),
+      live_flag("method"),
+      live_flag("strength"),
+      live_flag("feet"),
       bones,
       endpoint_flag("to_tcp", "HOST:PORT", "Output", "send cleaned frames to a TCP server"),
       endpoint_flag("to_udp", "HOST:PORT", "Output",
                     "send cleaned frames over UDP, one line per datagram"),
       endpoint_flag("to_vmc", "HOST:PORT", "Output", "with --vmc: where its datagrams go"),
       status,
-      format,
+      live_flag("format"),
       quiet,
-      number_flag("longest_gap_s", "s", 1, 0, 3600, "Trouble",
-                  "longest run of lost frames that is interpolated",
-                  "The output then keeps its frame rate. A longer gap is a restart."),
+      live_flag("longest_gap_s"),
       whole_flag("stall_ms", 1000, 0, 1e9, "Trouble",
                  "report when no frame arrives for so many milliseconds; 0: never"),
       on_stall,
@@ -376,9 +285,7 @@ Command stream_command() {
       "and a summary is printed on standard error.";
   command.flags = stream_flags();
   command.group_heading = "With --method %";
-  command.groups = method_groups();
-  std::erase_if(command.groups,
-                [](const OptionGroup& group) { return !may_run_live(find_method(group.name)); });
+  command.groups = live_groups();
   command.groups_are_flags = true;
   command.examples = {{"kinemend stream < take.bvh > clean.bvh", "clean a file as if it were live"},
                       {"kinemend stream --tcp 7001 --to-udp 127.0.0.1:7002",

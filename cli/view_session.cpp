@@ -208,6 +208,7 @@ Json json_of(const GapCurves& curves) {
           {"curves", std::move(list)}};
 }
 
+constexpr const char* parts_of_page = "application/octet-stream";  // web/src/served.ts
 constexpr const char* html = "text/html; charset=utf-8";
 constexpr const char* plain = "text/plain; charset=utf-8";
 
@@ -319,8 +320,8 @@ ViewReply ViewSession::run(const ViewAsked& asked, const Turn& turn) {
   tell(turn, "waiting", 0);
   const std::lock_guard lock(work_);
   tell(turn, "reading", 0);
-  if (!files_.other.empty()) return {200, html, comparison()};
-  return {200, html, asked.is_fill ? fill_page(asked, turn) : clean_page(asked, turn)};
+  if (!files_.other.empty()) return {200, parts_of_page, comparison()};
+  return {200, parts_of_page, asked.is_fill ? fill_page(asked, turn) : clean_page(asked, turn)};
 }
 
 std::string ViewSession::comparison() const {

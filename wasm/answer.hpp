@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace kinemend::wasm {
 
@@ -23,6 +25,8 @@ inline const std::filesystem::path output_folder = "/out";
 void make_folders();
 /// The last part of a name, so that it cannot leave its folder.
 std::string plain_name(const char* name);
+/// {"method": "butterworth", "cutoff_hz": 6, "despike": false} as words of the command line.
+std::vector<std::string> words_of(std::string_view options);
 void put(const std::filesystem::path& path, const std::uint8_t* bytes, std::size_t size);
 
 /// Runs `work` after clearing `answer`, and keeps what it printed. An exception becomes a message

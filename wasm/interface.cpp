@@ -50,13 +50,9 @@ void fail_answer(const char* words) {
   cli::platform::captured.err += std::string("kinemend: ") + words + "\n";
 }
 
-}  // namespace kinemend::wasm
-
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::json;
-using namespace kinemend::wasm;
 
 std::string dashed(std::string name) {
   for (char& c : name) c = c == '_' ? '-' : c;
@@ -74,7 +70,8 @@ void add_words(const std::string& name, const Json& value, std::vector<std::stri
   }
 }
 
-// {"method": "butterworth", "cutoff_hz": 6, "despike": false} as words of the command line.
+}  // namespace
+
 std::vector<std::string> words_of(std::string_view options) {
   std::vector<std::string> words;
   if (options.empty()) return words;
@@ -83,6 +80,13 @@ std::vector<std::string> words_of(std::string_view options) {
   for (const auto& [name, value] : json.items()) add_words(name, value, words);
   return words;
 }
+
+}  // namespace kinemend::wasm
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace kinemend::wasm;
 
 void run(const std::string& command, const std::string& name, const std::string& output,
          std::string_view options) {

@@ -75,12 +75,44 @@ export async function load(settings = {}) {
     },
     ask(action, body) {
       const status = withText([action, body], module._kinemend_view_ask);
-      return {status, body: decoder.decode(answer('report'))};
+      return {status, body: answer('report')};
     },
   };
 
+  /**
+   * Begins a live stream, as `kinemend stream` does: text as it arrives goes in, cleaned frames come out as text, a constant number of frames
+   * later. Throws where the options do not fit.
+   */
+  function stream(options = {}) {
+    const id = withText([JSON.stringify(options)], module._kinemend_stream_open);
+    if (id === 0) throw new Error(decoder.decode(answer('messages')).trim());
+    const live = {
+      messages: [],
+      get delayFrames() { return module._kinemend_stream_delay(id); },
+      push(piece) {
+        const bytes = typeof piece === 'string' ? new TextEncoder().encode(piece) : piece;
+        const place = copied(bytes);
+        try {
+          return given(module._kinemend_stream_push(id, place, bytes.length));
+        } finally {
+          module._free(place);
+        }
+      },
+      finish: () => given(module._kinemend_stream_finish(id)),
+      close: () => module._kinemend_stream_close(id),
+    };
+    const given = (code) => {
+      const words = decoder.decode(answer('messages')).trim();
+      if (code !== 0) throw new Error(words);
+      if (words !== '') live.messages.push(...words.split('\n'));
+      return decoder.decode(answer('report'));
+    };
+    return live;
+  }
+
   return {
     run,
+    stream,
     putFile,
     readFile,
     removeFile: (name) => withText([name], module._kinemend_remove_file),

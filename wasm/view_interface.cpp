@@ -1,8 +1,11 @@
 // The page of `view` without a server: a session on a take in memory answers the same requests.
 #include <emscripten.h>
 
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "answer.hpp"
 #include "kinemend/io.hpp"
@@ -19,9 +22,24 @@ using namespace kinemend::wasm;
 
 std::unique_ptr<kinemend::cli::ViewSession> session;
 
+constexpr std::size_t sniffed_bytes = 4096;  // as kinemend/io.hpp has it
+
+bool is_of_joints(const std::string& name) {
+  std::string head(sniffed_bytes, '\0');
+  std::ifstream file(name, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  const kinemend::Format* format = kinemend::format_of_content(head);
+  // The first run reads the take: where the format tells what it holds, it is not read twice.
+  if (format != nullptr && format->read != nullptr &&
+      (format->write == nullptr) != (format->write_markers == nullptr))
+    return format->write != nullptr;
+  return kinemend::read_take(std::filesystem::path(name), {}).take.has_joints();
+}
+
 void open(const std::string& name) {
   kinemend::cli::ViewFiles files = kinemend::cli::view_files_beside(name);
-  files.of_joints = kinemend::read_take(std::filesystem::path(name), {}).take.has_joints();
+  files.of_joints = is_of_joints(name);
   const auto told = [](std::string_view stage, double done) {
     kinemend_tell(std::string(stage).c_str(), done);
   };
@@ -50,8 +68,8 @@ int kinemend_view_ask(const char* action, const char* body) {
       answer.code = gone;
       return;
     }
-    const kinemend::cli::ViewReply reply = session->answer("POST", action, body);
-    answer.out = reply.body;
+    kinemend::cli::ViewReply reply = session->answer("POST", action, body);
+    answer.out = std::move(reply.body);
     answer.code = reply.status;
   });
   return answer.code;

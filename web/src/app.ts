@@ -2,10 +2,10 @@
 
 import 'uplot/dist/uPlot.min.css';
 import './style.css';
+import { warmRenderer } from './body';
 import { bytesOf } from './codec';
 import { button, element } from './dom';
-import { unpackedLzma } from './lzma';
-import { sevenBitBytes } from './seven_bits';
+import { Engine } from './engine';
 import { themeButton } from './theme';
 import { startView, type ViewPage } from './view';
 import { WorkerTransport, type NamedBytes } from './worker_transport';
@@ -27,7 +27,7 @@ class App {
   private view: ViewPage | null = null;
   private transport: WorkerTransport | null = null;
 
-  constructor(private readonly module: WebAssembly.Module, private readonly worker: string) {
+  constructor(private readonly engine: Engine) {
     this.choose.hidden = true;
     this.choose.addEventListener('change', () => {
       void this.open([...(this.choose.files ?? [])]);
@@ -42,7 +42,13 @@ class App {
       void this.open([...(event.dataTransfer?.files ?? [])]);
     });
     this.welcome();
+    this.status.textContent = 'starting\u2026';
+    void warmRenderer().catch(() => undefined);
+    engine.ready.then(() => this.say(''), (error: unknown) => cannotStart(error));
   }
+
+  /** What the page does while no take is open. */
+  private say(words: string): void { if (this.transport === null) this.status.textContent = words; }
 
   private welcome(): void {
     this.page.replaceChildren(element('header', {}, element('div', {}, element('h1', {}, 'Clean a take')), themeButton(() => undefined)),
@@ -61,14 +67,14 @@ class App {
     this.status.classList.remove('error');
     this.status.textContent = `opening ${take.name}\u2026`;
     try {
-      const named = await Promise.all(files.map(async (file) => ({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) })));
-      const transport = new WorkerTransport(() => new Worker(this.worker), this.module, take.name, named, download);
+      const transport = new WorkerTransport(this.engine, take.name, files, download);
       this.transport = transport;
       const session = await transport.open();
       if (this.transport !== transport) return;
       this.status.textContent = '';
       this.view = startView(this.page, session, transport);
     } catch (error) {
+      this.transport = null;
       this.welcome();
       this.status.textContent = error instanceof Error ? error.message : String(error);
       this.status.classList.add('error');
@@ -84,19 +90,21 @@ class App {
   }
 }
 
-async function start(): Promise<void> {
-  const worker = await bytesOf('worker');
-  const module = document.getElementById('data-module');
-  if (worker === null || module === null) throw new Error('the page is incomplete');
-  const packed = sevenBitBytes(module.textContent ?? '');
-  module.textContent = '';
-  const code = unpackedLzma(packed, Number(module.dataset.size));
-  new App(await WebAssembly.compile(code), URL.createObjectURL(new Blob([worker], { type: 'text/javascript' })));
-}
-
-start().catch((error: unknown) => {
+function cannotStart(error: unknown): void {
   const page = document.getElementById('page') as HTMLElement;
   page.replaceChildren(element('h1', {}, 'This page cannot start'), element('p', {}, String(error)),
     element('p', {}, 'It needs a browser of 2023 or later, and the file must be complete.'));
   page.dataset.ready = 'failed';
-});
+}
+
+async function start(): Promise<void> {
+  const worker = await bytesOf('worker');
+  const module = document.getElementById('data-module');
+  if (worker === null || module === null) throw new Error('the page is incomplete');
+  const packed = module.textContent ?? '';
+  module.textContent = '';
+  const address = URL.createObjectURL(new Blob([worker], { type: 'text/javascript' }));
+  new App(new Engine(() => new Worker(address), packed, Number(module.dataset.size)));
+}
+
+start().catch(cannotStart);

@@ -115,6 +115,18 @@ export function makeRenderer(): three.WebGLRenderer | null {
   }
 }
 
+/** Compiles what draws bodies while nobody waits for one; the materials are those of `Body`. */
+export async function warmRenderer(): Promise<void> {
+  const made = makeRenderer();
+  if (made === null) return;
+  const scene = new three.Scene();
+  const ball = new three.SphereGeometry(1, 3, 2);
+  const materials = [new three.MeshLambertMaterial(), new three.MeshLambertMaterial({ transparent: true }), new three.MeshBasicMaterial({ transparent: true })];
+  scene.add(new three.HemisphereLight(), new three.DirectionalLight(), new three.GridHelper(), new three.Line(ball, new three.LineBasicMaterial()),
+    ...materials.map((material) => new three.InstancedMesh(ball, material, 1)));
+  await made.compileAsync(scene, new three.PerspectiveCamera());
+}
+
 export class Body {
   readonly options: BodyOptions = { before: true, after: true, apart: false, follow: true };
   readonly figures: Figure[] = [];

@@ -1,5 +1,7 @@
 // Takes apart what src/report/page/codec.cpp put together.
 
+import { Slices } from './slices';
+
 /** The bytes of an element of the page as they were packed; the element is empty afterwards. */
 export function packedBytesOf(holder: HTMLElement): Uint8Array {
   const text = atob(holder.textContent ?? '');
@@ -18,10 +20,13 @@ export async function bytesOf(name: string): Promise<Uint8Array | null> {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-export async function jsonOf<T>(name: string): Promise<T | null> {
-  const bytes = await bytesOf(name);
+export async function jsonOf<T>(name: string, parts: Parts = bytesOf): Promise<T | null> {
+  const bytes = await parts(name);
   return bytes === null ? null : (JSON.parse(new TextDecoder().decode(bytes)) as T);
 }
+
+/** Data of a page by name: those in its elements, or those of an answer (served.ts). */
+export type Parts = (name: string) => Promise<Uint8Array | null>;
 
 /** Multiples of the quantum of one channel, a number a frame. */
 export interface Samples {
@@ -99,9 +104,11 @@ function readSecond(reader: Reader, samples: Int32Array, stride: number): void {
 
 type Read = (reader: Reader, samples: Int32Array, stride: number) => void;
 
-function readPart(bytes: Uint8Array, all: Samples[], stride: number, read: Read): void {
+async function readPart(bytes: Uint8Array, all: Samples[], stride: number, read: Read): Promise<void> {
   const reader = new Reader(bytes);
+  const slices = new Slices();
   for (const channel of all) {
+    await slices.rest();
     if (channel.before.length === 0) continue;
     if (channel.after === null) {
       read(reader, channel.before, stride);
@@ -116,9 +123,9 @@ function readPart(bytes: Uint8Array, all: Samples[], stride: number, read: Read)
   }
 }
 
-export function readFirstPart(bytes: Uint8Array, all: Samples[], stride: number): void {
-  readPart(bytes, all, stride, readFirst);
+export function readFirstPart(bytes: Uint8Array, all: Samples[], stride: number): Promise<void> {
+  return readPart(bytes, all, stride, readFirst);
 }
-export function readSecondPart(bytes: Uint8Array, all: Samples[], stride: number): void {
-  readPart(bytes, all, stride, readSecond);
+export function readSecondPart(bytes: Uint8Array, all: Samples[], stride: number): Promise<void> {
+  return readPart(bytes, all, stride, readSecond);
 }

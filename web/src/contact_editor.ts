@@ -1,5 +1,6 @@
 // The lines of a contacts file: when each foot is in ground contact.
 
+import type { Answer } from './view_transport';
 import { button } from './dom';
 import { LineEditor, type Sight } from './line_editor';
 
@@ -14,7 +15,7 @@ const form = {
 };
 
 export class ContactEditor extends LineEditor {
-  constructor(sight: () => Sight | null, find: () => Promise<Response>, again: () => void) {
+  constructor(sight: () => Sight | null, find: () => Promise<Answer>, again: () => void) {
     super(form, sight, again);
     const found = button('Find contacts', 'load the contacts file, or find contacts in the take', () => void this.load(find()));
     found.dataset.action = 'contacts';

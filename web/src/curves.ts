@@ -3,6 +3,7 @@
 import uPlot from 'uplot';
 import { colour, describeCanvas, element, isolated } from './dom';
 import type { Player } from './player';
+import { pause } from './slices';
 import { accelerationOf, accelerationOfSteps, speedOf, spectrumOf, turningSpeed } from './signal';
 import { turnBetween, type Take, type Which } from './take';
 
@@ -18,6 +19,8 @@ interface Line {
   dash?: number[];
 }
 
+/** Of a longer take a panel is drawn at a time, so that the page listens between them. Chosen by hand, not swept. */
+const framesAtOnce = 10_000;
 /** Numbers that change faster cannot be read. */
 const restOfLegend_ms = 100;
 const axisColours = ['axis-1', 'axis-2', 'axis-3'];
@@ -71,11 +74,11 @@ class Signal {
   }
   difference(): Values {
     const { take, track } = this;
+    if (this.quantity === 'rotation') return take.turnsApart(track);
     const before = this.of('before');
     const after = this.of('after');
     return Array.from({ length: take.told }, (_, f) => {
       if (before.some((axis) => axis[f] === null) || after.some((axis) => axis[f] === null)) return null;
-      if (this.quantity === 'rotation') return Math.hypot(...turnBetween(take.rotation(track, f, 'before'), take.rotation(track, f, 'after')));
       return Math.hypot(...before.map((axis, a) => (after[a][f] as number) - (axis[f] as number)));
     });
   }
@@ -86,7 +89,11 @@ export class Curves {
   kinds = new Set<Kind>(['values', 'difference']);
   plots: uPlot[] = [];
   private readonly signals = new Map<string, Signal>();
+  private isStarted = false;
   private isZooming = false;
+  private turn = 0;
+  /** Until all panels are there. */
+  whole: Promise<void> = Promise.resolve();
 
   constructor(private readonly holder: HTMLElement, private readonly take: Take, private readonly player: Player) {
     this.quantity = take.isJoints ? 'rotation' : 'position';
@@ -146,7 +153,15 @@ export class Curves {
     return signal.unit;
   }
 
+  /** Draws for the first time. */
+  start(): void {
+    this.isStarted = true;
+    this.rebuild();
+  }
+
   rebuild(): void {
+    if (!this.isStarted) return;
+    ++this.turn;
     for (const plot of this.plots) plot.destroy();
     this.plots = [];
     this.holder.replaceChildren();
@@ -159,33 +174,60 @@ export class Curves {
       this.holder.append(element('p', { class: 'empty' }, `Choose a ${noun} in the table to show its curves.`));
       return;
     }
-    for (const track of this.player.chosen) this.addTrack(track);
-    this.rescale();
-    this.drawCursor();
+    const panels = this.player.chosen.flatMap((track) => this.panelsOf(track));
+    if (this.take.told <= framesAtOnce) {
+      for (const add of panels) add();
+      this.rescale();
+      this.drawCursor();
+      this.whole = Promise.resolve();
+    } else {
+      this.whole = this.addInTurn(panels, this.turn);
+    }
   }
 
-  private addTrack(track: number): void {
+  private async addInTurn(panels: (() => void)[], turn: number): Promise<void> {
+    for (const add of panels) {
+      await pause();
+      if (turn !== this.turn) return;
+      add();
+      this.rescale();
+      this.drawCursor();
+    }
+  }
+
+  /** Each adds one panel. */
+  private panelsOf(track: number): (() => void)[] {
+    const order: Kind[] = ['values', 'difference', 'speed', 'acceleration', 'spectrum'];
+    const kinds = order.filter((kind) => this.kinds.has(kind) && (kind !== 'difference' || this.take.data.two));
+    let isEmpty = false;
+    return [() => { isEmpty = this.addWords(track); }, ...kinds.map((kind) => () => { if (!isEmpty) this.addKind(track, kind); })];
+  }
+
+  /** Says why there is nothing to draw; returns whether that is so. */
+  private addWords(track: number): boolean {
     const signal = this.signal(track);
     const name = this.take.data.names[track] || `(no name, ${track + 1})`;
     if (signal.names.length === 0) {
       this.holder.append(element('p', { class: 'empty' }, `${name} has no rotation in this take.`));
-      return;
+      return true;
     }
     if (this.take.takes.every((which) => signal.of(which).every((values) => values.every((value) => value === null)))) {
       this.holder.append(element('p', { class: 'empty' }, `${isolated(name)} is missing in every frame.`));
-      return;
+      return true;
     }
-    const order: Kind[] = ['values', 'difference', 'speed', 'acceleration', 'spectrum'];
-    for (const kind of order) {
-      if (!this.kinds.has(kind) || (kind === 'difference' && !this.take.data.two)) continue;
-      const what = kind === 'values' ? (this.quantity === 'rotation' ? 'angles' : 'position') : kind;
-      const unit = kind === 'spectrum' ? `${signal.unit}${superscript}/Hz` : this.unit(signal, kind);
-      const panel = element('figure', { class: 'panel' }, element('figcaption', {}, element('b', {}, isolated(name)), ` ${what}, ${unit}`));
-      this.holder.append(panel);
-      if (kind === 'spectrum') this.addSpectrum(panel, signal);
-      else this.addPanel(panel, this.lines(signal, kind));
-      describeCanvas(panel.querySelector('canvas'), `${name}, ${what} in ${unit}${this.take.data.two ? `: ${this.take.data.labels.join(' and ')}` : ''}`);
-    }
+    return false;
+  }
+
+  private addKind(track: number, kind: Kind): void {
+    const signal = this.signal(track);
+    const name = this.take.data.names[track] || `(no name, ${track + 1})`;
+    const what = kind === 'values' ? (this.quantity === 'rotation' ? 'angles' : 'position') : kind;
+    const unit = kind === 'spectrum' ? `${signal.unit}${superscript}/Hz` : this.unit(signal, kind);
+    const panel = element('figure', { class: 'panel' }, element('figcaption', {}, element('b', {}, isolated(name)), ` ${what}, ${unit}`));
+    this.holder.append(panel);
+    if (kind === 'spectrum') this.addSpectrum(panel, signal);
+    else this.addPanel(panel, this.lines(signal, kind));
+    describeCanvas(panel.querySelector('canvas'), `${name}, ${what} in ${unit}${this.take.data.two ? `: ${this.take.data.labels.join(' and ')}` : ''}`);
   }
 
   private common(width: number): Pick<uPlot.Options, 'width' | 'height'> & { axis: Partial<uPlot.Axis> } {

@@ -1,5 +1,6 @@
 // An editor of the lines of a side file: contacts, or missing samples.
 
+import type { Answer } from './view_transport';
 import { button, element } from './dom';
 import type { Player } from './player';
 import type { Take } from './take';
@@ -54,7 +55,7 @@ export class LineEditor {
   }
 
   /** Replaces the text by lines that are fetched. */
-  protected async load(fetched: Promise<Response>): Promise<void> {
+  protected async load(fetched: Promise<Answer>): Promise<void> {
     try {
       const reply = await fetched;
       if (!reply.ok) {

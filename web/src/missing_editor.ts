@@ -1,5 +1,6 @@
 // Samples to treat as missing: the lines of a side file of gaps.
 
+import type { Answer } from './view_transport';
 import { button } from './dom';
 import { LineEditor, type Sight } from './line_editor';
 
@@ -18,7 +19,7 @@ function quoted(name: string): string {
 }
 
 export class MissingEditor extends LineEditor {
-  constructor(sight: () => Sight | null, read: () => Promise<Response>, again: () => void, noun: string) {
+  constructor(sight: () => Sight | null, read: () => Promise<Answer>, again: () => void, noun: string) {
     super(form, sight, again);
     const found = button('Load the file', 'load the gaps that were saved before', () => void this.load(read()));
     const begin = button('Begin here', `add a line for each chosen ${noun}: missing from the current frame on`, () => this.begin(noun));
@@ -28,7 +29,7 @@ export class MissingEditor extends LineEditor {
   }
 
   /** Loads the lines that runs use from the start. */
-  async start(fetched: Promise<Response>): Promise<void> {
+  async start(fetched: Promise<Answer>): Promise<void> {
     try {
       const reply = await fetched;
       if (reply.ok && this.area.value === '') this.area.value = await reply.text();

@@ -6,6 +6,7 @@ import { showBatch, type Batch } from './batch_page';
 import { jsonOf } from './codec';
 import { element } from './dom';
 import type { ReportDocument, TakeData } from './report';
+import { Take } from './take';
 import { showTake } from './take_page';
 import type { Session } from './served';
 import { startView } from './view';
@@ -23,7 +24,8 @@ async function start(): Promise<void> {
     const report = await jsonOf<ReportDocument>('report');
     const take = await jsonOf<TakeData>('take');
     if (report === null || take === null) throw new Error('the page contains no report');
-    await showTake(page, report, take);
+    await showTake(page, report, await Take.load(take));
+    page.dataset.ready = 'true';
   } catch (error) {
     page.replaceChildren(element('h1', {}, 'This report cannot be shown'), element('p', {}, String(error)),
       element('p', {}, 'The page needs a browser of 2023 or later, and the file must be complete.'));

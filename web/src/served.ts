@@ -1,5 +1,6 @@
-// What the page of `kinemend view` reads from its server: the session, gap plans, curves of one gap.
+// What the page of `kinemend view` reads from its server: the session, the parts of a result, gap plans, curves of one gap.
 
+import type { Parts } from './codec';
 import type { Option, Value } from './option_control';
 
 /** What the page of `kinemend view` holds before there is a take: cli/view_session.cpp writes it. */
@@ -50,4 +51,16 @@ export interface GapCurves {
   last: number;
   axes: string[];
   curves: { method: string; filled: boolean; reason: string; distance: number | null; expected_error: number | null; values: (number | null)[][] }[];
+}
+
+/** The parts of a result, as `joined` of src/report/page/document.hpp puts them together. */
+export function partsOf(answer: ArrayBuffer): Parts {
+  const bytes = new Uint8Array(answer);
+  let at = bytes.indexOf(10) + 1;
+  const parts = new Map<string, Uint8Array>();
+  for (const [name, size] of JSON.parse(new TextDecoder().decode(bytes.subarray(0, at))) as [string, number][]) {
+    parts.set(name, bytes.subarray(at, at + size));
+    at += size;
+  }
+  return (name) => Promise.resolve(parts.get(name) ?? null);
 }

@@ -1,6 +1,6 @@
 // The motion: angles and positions of tracks at any frame, and poses by forward kinematics.
 
-import { bytesOf, emptySamples, readFirstPart, readSecondPart, type Samples } from './codec';
+import { bytesOf, emptySamples, readFirstPart, readSecondPart, type Parts, type Samples } from './codec';
 import type { Gaps, TakeData } from './report';
 
 export type Which = 'before' | 'after';
@@ -60,7 +60,7 @@ export class Take {
   private readonly translatedChannels = new Map<number, number>();
   private readonly missing = new Map<string, Map<number, Uint8Array>>();
 
-  private constructor(readonly data: TakeData) {
+  private constructor(readonly data: TakeData, private readonly parts: Parts) {
     this.told = data.told;
     this.samples = emptySamples(data.quanta.length, data.told, data.two);
     this.points = data.names.length + (data.skeleton?.ends.length ?? 0);
@@ -85,17 +85,17 @@ export class Take {
     }
   }
 
-  static async load(data: TakeData): Promise<Take> {
-    const take = new Take(data);
-    const bytes = await bytesOf('first');
-    if (bytes !== null) readFirstPart(bytes, take.samples, data.stride);
+  static async load(data: TakeData, parts: Parts = bytesOf): Promise<Take> {
+    const take = new Take(data, parts);
+    const bytes = await parts('first');
+    if (bytes !== null) await readFirstPart(bytes, take.samples, data.stride);
     return take;
   }
 
   /** The frames between, of a long take. */
   async loadRest(): Promise<void> {
-    const bytes = this.whole ? null : await bytesOf('second');
-    if (bytes !== null) readSecondPart(bytes, this.samples, this.data.stride);
+    const bytes = this.whole ? null : await this.parts('second');
+    if (bytes !== null) await readSecondPart(bytes, this.samples, this.data.stride);
     this.whole = true;
   }
 
@@ -162,6 +162,48 @@ export class Take {
     if (this.isMissing(joint, frame, which)) return null;
     return this.value(this.rotationChannels[joint] + axis, frame, which);
   }
+  /** The samples of a channel and its quantum: for loops over all frames. */
+  private channel(channel: number, which: Which): [Int32Array, number] {
+    const { before, after } = this.samples[channel];
+    return [which === 'after' && after !== null ? after : before, this.data.quanta[channel]];
+  }
+  /** Rotations of all frames: w, x, y, z of each. */
+  rotations(joint: number, which: Which): Float64Array {
+    const result = new Float64Array(4 * this.told);
+    for (let f = 0; f < this.told; ++f) result[4 * f] = 1;
+    [...this.order(joint)].forEach((axis, a) => {
+      const [samples, quantum] = this.channel(this.rotationChannels[joint] + a, which);
+      // A turn about one axis mixes w with that axis, and the two others.
+      const i = 1 + axisOf[axis], j = 1 + (i % 3), k = 1 + (j % 3);
+      for (let f = 0, at = 0; f < this.told; ++f, at += 4) {
+        const half = samples[f] * quantum * halfDegree;
+        const c = Math.cos(half), s = Math.sin(half);
+        const w = result[at], x = result[at + i], y = result[at + j], z = result[at + k];
+        result[at] = w * c - x * s;
+        result[at + i] = w * s + x * c;
+        result[at + j] = y * c + z * s;
+        result[at + k] = z * c - y * s;
+      }
+    });
+    return result;
+  }
+  /** The angle between the two takes in each frame, degrees; null where either is missing. */
+  turnsApart(joint: number): (number | null)[] {
+    const before = this.rotations(joint, 'before'), after = this.rotations(joint, 'after');
+    const noneBefore = this.missing.get('before own')?.get(joint), noneAfter = this.missing.get('after own')?.get(joint);
+    const result = new Array<number | null>(this.told);
+    for (let f = 0, at = 0; f < this.told; ++f, at += 4) {
+      if (noneBefore?.[f] === 1 || noneAfter?.[f] === 1) {
+        result[f] = null;
+        continue;
+      }
+      const [w, x, y, z] = [before[at], before[at + 1], before[at + 2], before[at + 3]];
+      const [W, X, Y, Z] = [after[at], after[at + 1], after[at + 2], after[at + 3]];
+      const sine = Math.hypot(w * X - x * W - y * Z + z * Y, w * Y + x * Z - y * W - z * X, w * Z - x * Y + y * X - z * W);
+      result[f] = (2 * Math.atan2(sine, Math.abs(w * W + x * X + y * Y + z * Z)) * 180) / Math.PI;
+    }
+    return result;
+  }
   rotation(joint: number, frame: number, which: Which): Quat {
     let result: Quat = [1, 0, 0, 0];
     const order = this.order(joint);
@@ -220,6 +262,12 @@ export class Take {
     return axes;
   }
   angles(joint: number, which: Which): (number | null)[][] {
-    return [...this.order(joint)].map((_, a) => Array.from({ length: this.told }, (_unused, f) => this.angle(joint, a, f, which)));
+    const gone = this.missing.get(`${which} own`)?.get(joint);
+    return [...this.order(joint)].map((_, a) => {
+      const [samples, quantum] = this.channel(this.rotationChannels[joint] + a, which);
+      const values = new Array<number | null>(this.told);
+      for (let f = 0; f < this.told; ++f) values[f] = gone?.[f] === 1 ? null : samples[f] * quantum;
+      return values;
+    });
   }
 }

@@ -5,9 +5,10 @@ import { Curves, type Kind, type Quantity } from './curves';
 import { button, choice, counted, element, toggle } from './dom';
 import { addFacts } from './facts';
 import { Player } from './player';
-import type { Finding, ReportDocument, TakeData, TakeEntry } from './report';
+import type { Finding, ReportDocument, TakeEntry } from './report';
 import { TrackTable } from './tables';
-import { Take } from './take';
+import { pause } from './slices';
+import type { Take } from './take';
 import { themeButton } from './theme';
 import { Timeline } from './timeline';
 import { addTransport } from './transport';
@@ -167,20 +168,19 @@ export interface Around {
   before?: Shown | null;
   /** Called when light and dark change. */
   onTheme?: () => void;
+  /** Whether another result is awaited by now. This one is then not shown: an error says so. */
+  isOver?: () => boolean;
 }
 
-export async function showTake(page: HTMLElement, document_: ReportDocument, data: TakeData, { panel = [], before = null, onTheme }: Around = {}): Promise<Shown> {
+/** The caller says that the page is ready, where it still is the latest. */
+export async function showTake(page: HTMLElement, document_: ReportDocument, take: Take, { panel = [], before = null, onTheme, isOver = () => false }: Around = {}): Promise<Shown> {
   const ended = new AbortController();
   const entry = document_.takes[0];
-  const take = await Take.load(data);
+  const { data } = take;
   const player = new Player(take.told, take.rate || 1);
   const loading = element('span', { class: 'loading' }, take.whole ? '' : 'loading the remaining frames\u2026');
   const title = element('h1', {}, nameOf(entry.input));
   const verdict = element('p', { class: 'verdict' }, entry.verdict ?? '');
-  const [bodySection, body] = addBody(take, player);
-  const transport = element('div', { class: 'transport' });
-  addTransport(transport, take, player);
-  bodySection.append(transport);
   const [tableSection] = section(take.isJoints ? 'Joints' : 'Markers', 'tracks');
   const table = new TrackTable(tableSection, take, player, entry);
   const [timelineSection] = section('Findings and changes', 'found');
@@ -190,6 +190,13 @@ export async function showTake(page: HTMLElement, document_: ReportDocument, dat
     if (whole >= 0) player.choose([whole]);
     else if (tracks.length > 0) player.choose(tracks.slice(0, 4));
   });
+  await pause();
+  if (isOver()) throw new Error('another result replaces this one');
+  // The canvas of the body leaves the page before: from here on nothing is awaited until this page is the one that is shown.
+  const [bodySection, body] = addBody(take, player);
+  const transport = element('div', { class: 'transport' });
+  addTransport(transport, take, player);
+  bodySection.append(transport);
   const [curvesSection, curves] = addCurves(take, player);
   const facts = element('div', { class: 'facts' });
   addFacts(facts, take, document_, entry);
@@ -229,12 +236,14 @@ export async function showTake(page: HTMLElement, document_: ReportDocument, dat
     lookAsBefore(shown, before);
     before.dispose();
   }
+  await pause();
+  curves.start();
   await take.loadRest();
   loading.remove();
-  if (data.stride > 1) {
+  if (data.stride > 1 && !ended.signal.aborted) {
     curves.forget();
     player.refresh();
   }
-  page.dataset.ready = 'true';
+  await curves.whole;
   return shown;
 }

@@ -1,6 +1,6 @@
 // The page that `kinemend view` serves: the page of a take, with controls that run it anew.
 
-import { jsonOf } from './codec';
+import { jsonOf, type Parts } from './codec';
 import { button, choice, element } from './dom';
 import { ContactEditor } from './contact_editor';
 import { GapEditor } from './gap_editor';
@@ -9,7 +9,8 @@ import { MissingEditor } from './missing_editor';
 import { field, optionControl, showProblem, type Option, type Value } from './option_control';
 import type { ReportDocument, TakeData } from './report';
 import { SaveDialog, type Saved } from './save_dialog';
-import type { GapCurves, GapPlan, Session } from './served';
+import { partsOf, type GapCurves, type GapPlan, type Session } from './served';
+import { Take } from './take';
 import { showTake, type Shown } from './take_page';
 import { themeButton } from './theme';
 import { serverTransport, type ViewTransport } from './view_transport';
@@ -43,14 +44,11 @@ function tellProgress(transport: ViewTransport, say: (words: string) => void): (
 }
 
 /** The report and the motion in the server's answer. */
-async function dataOf(html: string): Promise<[ReportDocument, TakeData]> {
-  const made = new DOMParser().parseFromString(html, 'text/html');
-  for (const old of document.querySelectorAll('[id^="data-"]')) old.remove();
-  for (const part of made.querySelectorAll('[id^="data-"]')) document.body.append(document.adoptNode(part));
-  const report = await jsonOf<ReportDocument>('report');
-  const take = await jsonOf<TakeData>('take');
+async function dataOf(parts: Parts): Promise<[ReportDocument, Take]> {
+  const report = await jsonOf<ReportDocument>('report', parts);
+  const take = await jsonOf<TakeData>('take', parts);
   if (report === null || take === null) throw new Error('the answer contains no report');
-  return [report, take];
+  return [report, await Take.load(take, parts)];
 }
 
 /** Before there is a result: the take's name, and what the server is doing. */
@@ -311,12 +309,15 @@ class Controls {
       const reply = await this.transport.ask('run', this.asked());
       if (turn !== this.turn) return;
       if (!reply.ok) return this.fail((await reply.json()).error);
-      const html = await reply.text();
+      const parts = partsOf(await reply.arrayBuffer());
       if (turn !== this.turn) return;
       const answered = since(begun);
       ended();
-      const [report, take] = await dataOf(html);
-      await this.take(report, take);
+      const [report, take] = await dataOf(parts);
+      if (turn !== this.turn) return;
+      await this.take(report, take, await jsonOf<GapPlan>('plan', parts), () => turn !== this.turn);
+      if (turn !== this.turn) return;
+      this.page.dataset.ready = 'true';
       for (const control of this.rows[this.command].querySelectorAll<HTMLElement>('[aria-invalid]')) showProblem(control, '');
       this.status.classList.remove('error');
       this.status.textContent = 'done';
@@ -347,11 +348,10 @@ class Controls {
     this.shown?.dispose();
   }
 
-  private async take(report: ReportDocument, take: TakeData): Promise<void> {
-    this.line.textContent = take.command_line;
-    const plan = await jsonOf<GapPlan>('plan');
+  private async take(report: ReportDocument, take: Take, plan: GapPlan | null, isOver: () => boolean): Promise<void> {
+    this.line.textContent = take.data.command_line;
     const scrolled = window.scrollY;
-    this.shown = await showTake(this.page, report, take, { panel: [this.element], before: this.shown, onTheme: () => this.gaps.redraw() });
+    this.shown = await showTake(this.page, report, take, { panel: [this.element], before: this.shown, isOver, onTheme: () => this.gaps.redraw() });
     if (plan !== null) {
       this.gaps.show(plan, this.shown.take);
       this.draw();
@@ -395,9 +395,10 @@ async function showComparison(page: HTMLElement, session: Session): Promise<void
   try {
     const reply = await serverTransport.ask('run');
     if (!reply.ok) throw new Error((await reply.json()).error);
-    const [report, take] = await dataOf(await reply.text());
+    const [report, take] = await dataOf(partsOf(await reply.arrayBuffer()));
     ended();
     await showTake(page, report, take);
+    page.dataset.ready = 'true';
   } catch (error) {
     status.textContent = serverTransport.inWords(error);
     page.dataset.ready = 'error';

@@ -3,9 +3,12 @@
 /** What this tab calls itself: a run stops the one before it of the same tab. */
 const tab = Array.from(crypto.getRandomValues(new Uint32Array(4)), (word) => word.toString(16)).join('-');
 
+/** What the page reads of an answer: a `Response` has it. */
+export type Answer = Pick<Response, 'ok' | 'status' | 'json' | 'text' | 'arrayBuffer'>;
+
 export interface ViewTransport {
   /** Answers as cli/view_session.hpp says: `action` is run, curves, save, contacts, gaps or progress. */
-  ask(action: string, asked?: object): Promise<Response>;
+  ask(action: string, asked?: object): Promise<Answer>;
   /** Ends the run that is under way; its request is answered with 409. */
   stop(): void;
   /** The page is closed. */

@@ -1,30 +1,44 @@
 // Answers the requests of the page by the module for JavaScript, in a worker of the same page: nothing is sent anywhere.
 
 import type { Session } from './served';
-import type { ViewTransport } from './view_transport';
+import type { Engine } from './engine';
+import type { Answer, ViewTransport } from './view_transport';
 
 export interface NamedBytes {
   name: string;
   bytes: Uint8Array;
 }
 
-/** What the page tells the worker: first the module and the files, then requests. */
-export type ToWorker = { module: WebAssembly.Module; files: NamedBytes[]; take: string } | { id: number; action: string; body: string };
-/** What the worker tells the page. `files`: those that a request to save has written. */
-export type FromWorker = { session: Session } | { problem: string } | { stage: string; done: number } | { id: number; status: number; body: string; files: NamedBytes[] };
+/** What the page tells the worker: the module, packed or compiled; the files; then requests. */
+export type ToWorker = { packed: string; size: number } | { module: WebAssembly.Module } | { files: File[]; take: string } | { id: number; action: string; body: string };
+/** What the worker tells the page: the module that it has unpacked, or why it could not; then of its take. `files`: those that a request to save has written. */
+export type FromWorker = { module: WebAssembly.Module } | { broken: string } | { session: Session } | { problem: string } | { stage: string; done: number }
+  | { id: number; status: number; body: Uint8Array; files: NamedBytes[] };
 
-const stopped = JSON.stringify({ error: 'stopped' });
+const stopped = { error: 'stopped' };
+
+/** An answer whose bytes are those that the worker has handed over: a `Response` would copy them. */
+function answerOf(status: number, body: Uint8Array): Answer {
+  const text = (): string => new TextDecoder().decode(body);
+  return {
+    ok: status >= 200 && status < 300,
+    status,
+    text: () => Promise.resolve(text()),
+    json: () => Promise.resolve(JSON.parse(text())),
+    arrayBuffer: () => Promise.resolve(body.buffer as ArrayBuffer),
+  };
+}
+const answerInJson = (status: number, told: object): Answer => answerOf(status, new TextEncoder().encode(JSON.stringify(told)));
 
 export class WorkerTransport implements ViewTransport {
   private worker: Worker | null = null;
-  private readonly waiting = new Map<number, { long: boolean; answer: (reply: Response) => void }>();
+  private readonly waiting = new Map<number, { long: boolean; answer: (reply: Answer) => void }>();
   private opened: { done: (session: Session) => void; fail: (error: Error) => void } | null = null;
   private told = { stage: '', done: 0 };
   private next = 0;
 
-  /** `start` makes a worker; `files` hold the take and what it needs; `save` gets each file that was written. */
-  constructor(private readonly start: () => Worker, private readonly module: WebAssembly.Module, private readonly take: string,
-    private readonly files: NamedBytes[], private readonly save: (file: NamedBytes) => void) {}
+  /** `files`: the take and what it needs; the worker reads them. `save` gets each file that was written. */
+  constructor(private readonly engine: Engine, private readonly take: string, private readonly files: File[], private readonly save: (file: NamedBytes) => void) {}
 
   /** Reads the take. */
   open(): Promise<Session> {
@@ -34,8 +48,8 @@ export class WorkerTransport implements ViewTransport {
     });
   }
 
-  ask(action: string, asked: object = {}): Promise<Response> {
-    if (action === 'progress') return Promise.resolve(new Response(JSON.stringify(this.told)));
+  ask(action: string, asked: object = {}): Promise<Answer> {
+    if (action === 'progress') return Promise.resolve(answerInJson(200, this.told));
     const long = action === 'run' || action === 'curves';
     // A worker cannot be told anything while it works: a run that another replaces ends with its worker.
     if (action === 'run' && [...this.waiting.values()].some((request) => request.long)) this.stop();
@@ -64,13 +78,13 @@ export class WorkerTransport implements ViewTransport {
 
   private begin(): void {
     this.told = { stage: '', done: 0 };
-    this.worker = this.start();
+    this.worker = this.engine.worker();
     this.worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.hear(data);
     this.worker.onerror = (event) => {
       event.preventDefault();
       this.fail(event.message || 'the worker has ended');
     };
-    this.post({ module: this.module, files: this.files, take: this.take });
+    this.post({ files: this.files, take: this.take });
   }
 
   private post(told: ToWorker): void { this.worker?.postMessage(told); }
@@ -78,11 +92,12 @@ export class WorkerTransport implements ViewTransport {
   private hear(told: FromWorker): void {
     if ('session' in told) this.opened?.done(told.session);
     else if ('problem' in told) this.fail(told.problem);
+    else if ('broken' in told) this.fail(told.broken);
     else if ('stage' in told) this.told = told;
-    else {
+    else if ('id' in told) {
       for (const file of told.files) this.keep(file);
       this.told = { stage: '', done: 0 };
-      this.waiting.get(told.id)?.answer(new Response(told.body, { status: told.status }));
+      this.waiting.get(told.id)?.answer(answerOf(told.status, told.body));
       this.waiting.delete(told.id);
     }
   }
@@ -91,7 +106,7 @@ export class WorkerTransport implements ViewTransport {
   private keep(file: NamedBytes): void {
     if (/\.(contacts|plan\.csv|gaps\.csv)$/.test(file.name)) {
       const before = this.files.findIndex(({ name }) => name === file.name);
-      this.files.splice(before < 0 ? this.files.length : before, before < 0 ? 0 : 1, file);
+      this.files.splice(before < 0 ? this.files.length : before, before < 0 ? 0 : 1, new File([file.bytes], file.name));
     }
     this.save(file);
   }
@@ -99,13 +114,13 @@ export class WorkerTransport implements ViewTransport {
   private fail(words: string): void {
     this.opened?.fail(new Error(words));
     this.worker?.terminate();
-    this.refuseAll(500, JSON.stringify({ error: words }));
+    this.refuseAll(500, { error: words });
     if (this.worker !== null) this.begin();
   }
 
-  private refuseAll(status: number, body: string): void {
+  private refuseAll(status: number, told: object): void {
     const requests = [...this.waiting.values()];
     this.waiting.clear();
-    for (const { answer } of requests) answer(new Response(body, { status }));
+    for (const { answer } of requests) answer(answerInJson(status, told));
   }
 }

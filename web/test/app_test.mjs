@@ -10,7 +10,7 @@ import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync
 import { createRequire } from 'node:module';
 import { basename, extname, join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { faintTexts, launchArgs, markers } from './support.mjs';
+import { faintTexts, launchArgs, markers, watchStalls } from './support.mjs';
 
 const { chromium } = createRequire(join(process.cwd(), 'package.json'))('playwright-core');
 const [program, executablePath, app, screenshots, takes, more] = process.argv.slice(2);
@@ -33,6 +33,7 @@ const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, acc
 const asked = [], problems = [];
 page.on('request', (request) => asked.push(request.url()));
 page.on('pageerror', (error) => problems.push(String(error)));
+await page.addInitScript(watchStalls);
 await page.goto(pathToFileURL(app).href);
 
 /** As page.waitForFunction, which the policy of the page forbids. */
@@ -115,6 +116,31 @@ await step('the page waits for a take', async () => {
   await page.screenshot({ path: join(output, 'empty.png') });
 });
 
+await step('a take that is dropped while the module starts waits for it', async () => {
+  await page.reload();
+  await until(() => document.getElementById('page').dataset.ready === 'waiting');
+  const text = readFileSync(join(output, 'walk.bvh')).toString();
+  const words = await page.evaluate((content) => {
+    const told = document.querySelector('#bar .status').textContent;
+    const carried = new DataTransfer();
+    carried.items.add(new File([content], 'walk.bvh'));
+    document.body.dispatchEvent(new DragEvent('drop', { dataTransfer: carried, bubbles: true, cancelable: true }));
+    return [told, document.querySelector('#bar .status').textContent];
+  }, text);
+  assert.deepEqual(words, ['starting\u2026', 'opening walk.bvh\u2026']);
+  await settled('walk.bvh');
+  assert.equal(await page.textContent('#bar .status'), '');
+});
+
+await step('a take that replaces another one while the module starts is the one that is shown', async () => {
+  await page.reload();
+  await until(() => document.getElementById('page').dataset.ready === 'waiting');
+  await drop(['walk.fbx']);
+  await drop(['gaps.c3d']);
+  await settled('gaps.c3d');
+  assert.equal(await page.evaluate(() => document.querySelectorAll('h1').length), 1);
+});
+
 for (const name of ['walk.bvh', 'gaps.c3d', 'walk.fbx']) {
   await step(`${name} is cleaned and saved with the bytes of the program`, async () => {
     const [file, mine] = await cleaned(name);
@@ -186,6 +212,7 @@ await step('nothing leaves the page', async () => {
   assert.deepEqual(asked.filter((url) => !/^(blob|data):/.test(url) && url !== pathToFileURL(app).href && !url.startsWith('https://example.com/')), []);
 });
 
+console.log(`longest stall of the page: ${Math.round(await page.evaluate(() => window.watched.longest()))} ms`);
 assert.deepEqual(problems, []);
 await browser.close();
 process.exit(failed === 0 ? 0 : 1);

@@ -80,3 +80,34 @@ export function faintTexts(page) {
     return faint;
   });
 }
+
+/**
+ * Runs in a page before all else: window.watched tells the longest time that the page's thread was busy at a stretch, ms, and when the page
+ * was ready, ms after it was opened, or after a file was last chosen.
+ */
+export function watchStalls() {
+  const watched = { ready: [], drawn: 0, last: performance.now(), most: 0, from: 0 };
+  const { port1, port2 } = new MessageChannel();
+  const beat = () => {
+    const now = performance.now();
+    watched.most = Math.max(watched.most, now - watched.last);
+    watched.last = now;
+    setTimeout(() => port2.postMessage(null), 2);
+  };
+  port1.onmessage = beat;
+  beat();
+  watched.longest = () => Math.max(watched.most, performance.now() - watched.last);
+  watched.quiet = () => watched.ended ?? 0;
+  watched.reset = () => Object.assign(watched, { ready: [], drawn: 0, most: 0, last: performance.now(), from: performance.now() });
+  addEventListener('change', (event) => { if (event.target.type === 'file') watched.from = performance.now(); }, true);
+  new MutationObserver((changes) => {
+    const page = document.getElementById('page');
+    if (changes.some(({ attributeName, target }) => attributeName === 'data-ready' && target === page)) {
+      const at = performance.now() - watched.from;
+      watched.ready.push([page.dataset.ready, at]);
+      if (page.dataset.ready === 'true') requestAnimationFrame(() => setTimeout(() => { watched.drawn = performance.now() - watched.from; }, 0));
+    }
+    if (document.querySelector('#bar .status')?.textContent === '') watched.ended ??= performance.now();
+  }).observe(document, { subtree: true, childList: true, attributes: true, attributeFilter: ['data-ready'], characterData: true });
+  window.watched = watched;
+}

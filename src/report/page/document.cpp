@@ -15,13 +15,9 @@ bool has_report_page() { return !page::script.empty(); }
 
 namespace page {
 
-void check_is_built() {
-  if (has_report_page()) return;
-  throw Error(ErrorKind::usage,
-              "this kinemend was built without its report page: a report can be "
-              "written as FILE.json");
-}
+namespace {
 
+// As they stand in a document.
 std::string elements_of(const Parts& parts) {
   std::string html;
   for (const auto& [name, bytes] : parts) {
@@ -30,6 +26,28 @@ std::string elements_of(const Parts& parts) {
     html += "</script>\n";
   }
   return html;
+}
+
+}  // namespace
+
+void check_is_built() {
+  if (has_report_page()) return;
+  throw Error(ErrorKind::usage,
+              "this kinemend was built without its report page: a report can be "
+              "written as FILE.json");
+}
+
+std::string joined(const Parts& parts) {
+  std::string result = "[";
+  std::size_t size = 0;
+  for (const auto& [name, bytes] : parts) {
+    result += fmt::format("{}[\"{}\",{}]", result.size() > 1 ? "," : "", name, bytes.size());
+    size += bytes.size();
+  }
+  result += "]\n";
+  result.reserve(result.size() + size);
+  for (const auto& part : parts) result += part.second;
+  return result;
 }
 
 std::string document(std::string_view title, std::string_view summary, const Parts& parts,

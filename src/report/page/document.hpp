@@ -17,8 +17,10 @@ using Parts = std::vector<std::pair<std::string_view, std::string>>;
 
 /// Errors: `ErrorKind::usage` for a build without the page.
 void check_is_built();
-/// The parts alone, as they stand in a document.
-std::string elements_of(const Parts& parts);
+/// The parts alone, for a page that is open already: a line of JSON with the name and the size in
+/// bytes of each, [["report",1234],...], then their bytes as they are. Whoever waits for them is on
+/// the same machine, so that packing them would only take time.
+std::string joined(const Parts& parts);
 /// `summary` is what a browser without scripts shows.
 /// `is_served`: the page may ask the server that it came from.
 std::string document(std::string_view title, std::string_view summary, const Parts& parts,

@@ -90,7 +90,7 @@ std::string report_page(const Report& report, const Take& before, const Take* af
   if (stride > 1) parts.emplace_back("second", page::second_part(channels.samples, stride));
   for (const auto& [part, json] : settings.parts) parts.emplace_back(part, json);
   check();
-  if (settings.is_served) return page::elements_of(parts);
+  if (settings.is_served) return page::joined(parts);
   return page::document(fmt::format("{}: kinemend {}", name, settings.command),
                         fmt::format("{}: {}", name, verdict_of(report)), parts);
 }

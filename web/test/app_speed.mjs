@@ -1,0 +1,66 @@
+// How fast kinemend.html is: until it shows itself and its module runs, from a drop to the drawn result, and the longest time that its own
+// thread is busy at a stretch. Prints medians; the takes are made in FOLDER.
+//
+//   node app_speed.mjs PROGRAM CHROMIUM APP FOLDER [TRIES]       (the working folder holds playwright-core)
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdirSync, statSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
+import { launchArgs, watchStalls } from './support.mjs';
+
+const { chromium } = createRequire(join(process.cwd(), 'package.json'))('playwright-core');
+const [program, executablePath, app, folder, tries = '5'] = process.argv.slice(2);
+mkdirSync(folder, { recursive: true });
+const kinemend = (...words) => execFileSync(program, words, { cwd: folder, stdio: 'ignore' });
+
+function take(name, seconds) {
+  if (existsSync(join(folder, name))) return;
+  kinemend('synth', 'walk', '-o', `clean_${name}`, '--duration-s', String(seconds), '--frame-rate-hz', '120', '--force');
+  kinemend('corrupt', `clean_${name}`, '-o', name, '--damage', 'gaussian:std_deg=1.5', '--damage', 'outliers:share=0.004,std_deg=25', '--force');
+}
+
+const median = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
+const browser = await chromium.launch({ executablePath, args: launchArgs });
+
+async function until(page, test, argument) {
+  for (const end = performance.now() + 600_000; !(await page.evaluate(test, argument));) {
+    if (performance.now() > end) throw new Error(`waited for ${test}`);
+    await new Promise((done) => { setTimeout(done, 20); });
+  }
+}
+
+/** Times of one opened page, ms: when it is shown, when the module runs, and those of each take that is dropped then, one after another. */
+async function measured(names) {
+  const page = await browser.newPage({ viewport: { width: 1280, height: 900 } });
+  await page.addInitScript(watchStalls);
+  await page.goto(pathToFileURL(app).href);
+  await until(page, () => window.watched.ready.some(([state]) => state === 'waiting'));
+  await until(page, () => document.querySelector('#bar .status')?.textContent === '');
+  const times = await page.evaluate(() => ({ shown: window.watched.ready[0][1], begun: window.watched.quiet(), stall: window.watched.longest() }));
+  times.takes = [];
+  for (const name of names) {
+    await page.evaluate(() => window.watched.reset());
+    await page.setInputFiles('#bar input[type=file]', join(folder, name));
+    await until(page, () => window.watched.drawn > 0 || window.watched.ready.some(([state]) => state === 'error'));
+    await page.evaluate(() => new Promise((done) => { setTimeout(done, 300); }));
+    times.takes.push(await page.evaluate(() => ({ told: document.querySelector('.view-controls .status')?.title, drawn: window.watched.drawn, stall: window.watched.longest() })));
+  }
+  await page.close();
+  return times;
+}
+
+take('ten_seconds.bvh', 10);
+const all = [];
+for (let i = 0; i < Number(tries); ++i) all.push(await measured(['ten_seconds.bvh', 'ten_seconds.bvh']));
+const of = (get) => Math.round(median(all.map(get)));
+console.log(`start: shown after ${of(({ shown }) => shown)} ms, module ready after ${of(({ begun }) => begun)} ms, longest stall ${of(({ stall }) => stall)} ms`);
+['first take', 'next take'].forEach((label, i) =>
+  console.log(`10 s, ${label}: drawn ${of(({ takes }) => takes[i].drawn)} ms after the drop, longest stall ${of(({ takes }) => takes[i].stall)} ms`));
+if (process.env.DETAILS) console.log(JSON.stringify(all, null, 1));
+
+take('ten_minutes.bvh', 600);
+const long = (await measured(['ten_minutes.bvh'])).takes[0];
+console.log(`${(statSync(join(folder, 'ten_minutes.bvh')).size / 1e6).toFixed(1)} MB: drawn ${(long.drawn / 1000).toFixed(1)} s after the drop, longest stall ${Math.round(long.stall)} ms`);
+console.log(long.told);
+await browser.close();
