@@ -145,7 +145,7 @@ LogParts log_parts(double x) {
     z *= 0.5;
     ++exponent;
   }
-  const int step = static_cast<int>(z * log_steps + 0.5);
+  const int step = static_cast<int>(z * log_steps + to_nearest);
   return {static_cast<double>(exponent), z,
           &log_table[static_cast<std::size_t>(step - first_log_step)]};
 }

@@ -54,7 +54,7 @@ DoubleDouble less(DoubleDouble a, DoubleDouble b) { return more(a, -b); }
 
 // arctan(y / x) for 0 <= y <= x, x > 0: arctan c + arctan((y - c x) / (x + c y)) with c near y / x.
 DoubleDouble arc_of(DoubleDouble y, DoubleDouble x) {
-  const int step = static_cast<int>(y.hi / x.hi * arc_steps + 0.5);
+  const int step = static_cast<int>(y.hi / x.hi * arc_steps + to_nearest);
   const double c = 1.0 * step / arc_steps;
   const DoubleDouble t =
       step == 0 ? quick_quotient(y, x) : quick_quotient(less(y, times(c, x)), more(x, times(c, y)));
