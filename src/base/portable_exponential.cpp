@@ -155,20 +155,20 @@ DoubleDouble log_of(double x) {
   const auto [exponent, z, entry] = log_parts(x);
   const double upper = bits_as<double>(bits_as<std::uint64_t>(z) & 0xFFFFFFFFF8000000U);
   const DoubleDouble r = exact_sum(upper * entry->inverse - 1, (z - upper) * entry->inverse);
-  const DoubleDouble near = log_near_one(r);
+  const DoubleDouble rest = log_near_one(r);
   const DoubleDouble whole = exact_sum(exponent * log_of_2_upper, entry->log.hi);
-  const DoubleDouble sum = exact_sum(whole.hi, near.hi);
+  const DoubleDouble sum = exact_sum(whole.hi, rest.hi);
   return quick_sum(sum.hi,
-                   sum.lo + (whole.lo + (near.lo + (exponent * log_of_2_lower + entry->log.lo))));
+                   sum.lo + (whole.lo + (rest.lo + (exponent * log_of_2_lower + entry->log.lo))));
 }
 
 // log(x) to an absolute error of about 2^-50, or a relative one near 1; for finite x > 0.
 double short_log(double x) {
   const auto [exponent, z, entry] = log_parts(x);
   const double r = z * entry->inverse - 1;
-  const double near =
+  const double rest =
       r - r * r * (1.0 / 2 - r * (1.0 / 3 - r * (1.0 / 4 - r * (1.0 / 5 - r * (1.0 / 6 - r / 7)))));
-  return exponent * log_of_2.hi + (entry->log.hi + near);
+  return exponent * log_of_2.hi + (entry->log.hi + rest);
 }
 
 // What a logarithm gives where it is no finite number; 0 where it is one.

@@ -10,9 +10,9 @@ namespace kinemend {
 
 namespace {
 
-// The longest padding of a take that is shorter than its padding: bounds memory where a file states
-// a rate that no camera has. At 6 Hz it settles at any rate up to 75 kHz.
-constexpr std::size_t most_repeated_frames = 65536;
+// The longest padding of a take that is shorter than its padding: the cost goes by the frames of a
+// take, whatever rate its file states. At 6 Hz it settles at any rate up to 1.1 kHz.
+constexpr std::size_t most_repeated_frames = 1024;
 
 // The steady state of a filter for the constant input `row`.
 void start_at_rest(std::span<const Biquad> sections, const double* row, std::size_t channels,
