@@ -101,7 +101,7 @@ wasm-test: build web-app npm-package ## the module in Node, the app and the pack
 	cd $(BUILD)/wasm/web && node $(CURDIR)/web/test/app_test.mjs $(CURDIR)/$(BUILD)/$(PRESET)/cli/kinemend $$(command -v chromium) ../wasm/kinemend.html screenshots \
 	  $(CURDIR)/examples/takes $(CURDIR)/$(BUILD)/wasm/takes
 	cd $(BUILD)/wasm/web && node $(CURDIR)/wasm/npm/package_test.mjs $(CURDIR)/$(BUILD)/$(PRESET)/cli/kinemend $$(command -v chromium) ../wasm/npm/kinemend-*.tgz $(CURDIR)/examples/takes
-	tools/compare_programs $(BUILD)/$(PRESET)/cli/kinemend tools/wasm_program
+	tools/compare_programs $(BUILD)/$(PRESET)/cli/kinemend tools/wasm_program --methods bilateral,nonlocal,gaussian,butterworth,median,kalman,wavelet,learned
 
 blender-addon: ## the Blender add-on: build/blender/kinemend_blender-0.1.0.zip
 	@tools/make_blender_addon
