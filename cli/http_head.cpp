@@ -1,10 +1,11 @@
 // Reads a head line by line and rejects what two readers could understand differently.
 #include "http_head.hpp"
-#include "kinemend/experimental/letter_case.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <optional>
+
+#include "kinemend/experimental/letter_case.hpp"
 
 namespace kinemend::cli {
 

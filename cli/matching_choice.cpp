@@ -1,8 +1,9 @@
 // Compares names exactly first and then without regard to case.
 #include "matching_choice.hpp"
-#include "kinemend/experimental/letter_case.hpp"
 
 #include <algorithm>
+
+#include "kinemend/experimental/letter_case.hpp"
 
 namespace kinemend::cli {
 

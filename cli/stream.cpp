@@ -201,6 +201,11 @@ Flag endpoint_flag(std::string name, std::string value, std::string group, std::
 }
 
 std::vector<Flag> stream_flags() {
+  const std::vector<Flag> live = live_flags();
+  const auto live_flag = [&](std::string_view name) {
+    return *std::find_if(live.begin(), live.end(),
+                         [&](const Flag& flag) { return flag.spec.name == name; });
+  };
   Flag on_stall = text_flag("on_stall", "", "Trouble", "what to do while no frames arrive",
                             "wait: write nothing. hold: repeat the last frame at the frame rate.");
   on_stall.spec.default_value = std::string("wait");

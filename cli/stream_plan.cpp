@@ -115,13 +115,6 @@ std::vector<Flag> live_flags() {
                       "The output then keeps its frame rate. A longer gap is a restart.")};
 }
 
-Flag live_flag(std::string_view name) {
-  std::vector<Flag> all = live_flags();
-  const auto found = std::find_if(all.begin(), all.end(),
-                                  [&](const Flag& flag) { return flag.spec.name == name; });
-  return std::move(*found);
-}
-
 std::vector<OptionGroup> live_groups() {
   std::vector<OptionGroup> groups = method_groups();
   std::erase_if(groups,

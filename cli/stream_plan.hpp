@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <string_view>
 #include <vector>
 
 #include "command.hpp"
@@ -16,9 +15,7 @@ namespace kinemend::cli {
 /// the others; those of a model.
 std::unique_ptr<Cleaner> live_cleaner(const Method& method, OptionValues values);
 
-/// A flag of a session by its name: "method", "format", "strength" and so on.
-Flag live_flag(std::string_view name);
-/// All of them.
+/// The flags of a session: "method", "format", "strength" and so on.
 std::vector<Flag> live_flags();
 /// Options of the methods that may run live.
 std::vector<OptionGroup> live_groups();

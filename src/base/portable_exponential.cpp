@@ -1,5 +1,4 @@
 // Exponentials, logarithms and powers from tables and short series (Tang 1989, 1990).
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -219,8 +218,8 @@ double expm1(double x) {
     return x + (half_square + half_square * series);
   }
   const Scaled scaled = scaled_exp(x, 0);
-  const double factor = std::ldexp(1.0, std::min(scaled.exponent, 1000));
   if (scaled.exponent >= 1000) return value_of(scaled);
+  const double factor = std::ldexp(1.0, scaled.exponent);
   const DoubleDouble sum = exact_sum(factor * scaled.value.hi, -1);
   return sum.hi + (sum.lo + factor * scaled.value.lo);
 }

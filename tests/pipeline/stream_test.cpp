@@ -135,15 +135,22 @@ TEST_P(LiveMethod, IsDelayedByTheSameNumberOfFramesFromTheFirstOn) {
   EXPECT_EQ(stream->latency_frames(), latency);
 }
 
-TEST_P(LiveMethod, TakesNoNoticeOfJointsThatWereNotSeen) {
-  Take a = take(120), b = a;
+// Two takes that differ only in the samples of joint 2 where it was not seen, from `begin` to
+// `end`.
+std::pair<Take, Take> unlike_where_unseen(Take a, std::size_t begin, std::size_t end) {
+  Take b = a;
   a.observed.assign(a.rotations.size(), 1);
-  for (std::size_t f = 60; f < 64; ++f) {
+  for (std::size_t f = begin; f < end; ++f) {
     a.observed[f * a.joint_count() + 2] = 0;
     a.rotation(f, 2) = {};
     b.rotation(f, 2) = exp({0.1, 3, 0});
   }
   b.observed = a.observed;
+  return {a, b};
+}
+
+TEST_P(LiveMethod, TakesNoNoticeOfJointsThatWereNotSeen) {
+  const auto [a, b] = unlike_where_unseen(take(120), 60, 64);
   const auto first = run(*make_stream(*cleaner_, a), a),
              second = run(*make_stream(*cleaner_, b), b);
   for (std::size_t f = 0; f < 120; ++f) {
@@ -154,14 +161,7 @@ TEST_P(LiveMethod, TakesNoNoticeOfJointsThatWereNotSeen) {
 }
 
 TEST_P(LiveMethod, BridgesAGapOfAJointThatIsLongerThanItsWindow) {
-  Take a = take(180), b = a;
-  a.observed.assign(a.rotations.size(), 1);
-  for (std::size_t f = 60; f < 120; ++f) {
-    a.observed[f * a.joint_count() + 2] = 0;
-    a.rotation(f, 2) = {};
-    b.rotation(f, 2) = exp({0.1, 3, 0});
-  }
-  b.observed = a.observed;
+  const auto [a, b] = unlike_where_unseen(take(180), 60, 120);
   const auto first = run(*make_stream(*cleaner_, a), a),
              second = run(*make_stream(*cleaner_, b), b);
   for (std::size_t f = 0; f < 180; ++f)
