@@ -3,7 +3,7 @@
 import type { FromWorker, ToWorker } from './worker_transport';
 
 export class Engine {
-  /** Becomes true when the module is compiled. Fails where it cannot be. */
+  /** Settles when the module is compiled; fails where it cannot be. */
   readonly ready: Promise<void>;
   private module: WebAssembly.Module | null = null;
   private first: Worker | null;
