@@ -115,6 +115,7 @@ struct CleanReport {
   /// result; `changed` and `root_changed` say what the step did before blending.
   std::optional<FeetReport> feet;
   std::vector<FallBack> fall_backs;  ///< of the method
+  std::vector<std::string> notes;    ///< `CleanTrace::notes`
   std::vector<std::string> warnings;
   double seconds = 0;  ///< time the cleaning took
 };

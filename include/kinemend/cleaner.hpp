@@ -78,6 +78,7 @@ struct CleanTrace {
   /// noise.
   std::vector<NoiseCharacter> characters;
   std::vector<FallBack> fall_backs;
+  std::vector<std::string> notes;  ///< what it left alone and why, or what it could not use
   std::vector<std::string> warnings;
 };
 

@@ -203,6 +203,10 @@ struct LearnedOptions {
   /// Frame by frame, 0.117 s behind (at most 14 frames): no rules of spikes, no noise that is
   /// measured first. A take is then cleaned as a stream of its frames would be.
   bool live = false;
+  /// Takes out all that the network expects to be wrong. Off: within half a second no more than
+  /// twice what the quieter quarter of the take shows, or what the measured noise asks for, so that
+  /// clean motion stays.
+  bool trust_model = false;
 };
 std::unique_ptr<Cleaner> make_learned(const LearnedOptions& options = {},
                                       std::shared_ptr<const Model> model = nullptr);

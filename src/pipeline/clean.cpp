@@ -225,6 +225,7 @@ void clean_whole(Take& motion, const Cleaner& cleaner, const Work& work, CleanRe
   InPlaceTrace trace = clean_in_place(cleaner, cleaned, work.selection, cleaning.shares());
   report.warnings.insert(report.warnings.end(), trace.warnings.begin(), trace.warnings.end());
   report.fall_backs = trace.fall_backs;
+  report.notes = trace.notes;
   report.noise = trace.characters;
   cleaning.finish();
   if (settings.fill) {
@@ -272,6 +273,7 @@ void clean_track_by_track(Take& motion, const Cleaner& cleaner, const Work& work
       stage.shares());
   report.warnings.insert(report.warnings.end(), trace.warnings.begin(), trace.warnings.end());
   report.fall_backs = trace.fall_backs;
+  report.notes = trace.notes;
   report.noise = trace.characters;
   finisher.finish_others();
   finisher.report(trace, report);

@@ -264,6 +264,7 @@ std::string details(const TakeFacts& take, const CleanOutcome& outcome, bool all
     text += fmt::format("  noise: {}\n",
                         noise_words(noise, report.kind, report.unit, report.frame_rate_hz));
   text += left_text(report);
+  for (const std::string& note : report.notes) text += fmt::format("  {}\n", note);
   text += fall_backs_text(report, all_rows) + swap_text(outcome, take.first_frame) +
           gaps_text(report, take.first_frame, all_rows) + leftovers_text(outcome);
   if (report.feet) text += feet_text(*report.feet, take.first_frame, all_rows);

@@ -185,6 +185,7 @@ void add_own(const TakeFacts& take, const CleanOutcome& outcome, Depth depth, Js
   json["noise"] = noise_json(outcome.report.noise, outcome.report.frame_rate_hz);
   if (depth == Depth::row) return;
   json["fall_backs"] = fall_backs_json(outcome.report);
+  json["notes"] = outcome.report.notes;
   json["leftovers"] = leftovers_json(outcome.leftovers);
 }
 void add_own(const TakeFacts& take, const CheckReport& report, Depth /*depth*/, Json& json) {

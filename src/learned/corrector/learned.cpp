@@ -1,15 +1,20 @@
 // The method `learned`: its options, its cleaner of whole takes, and its live form.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "base/progress.hpp"
+#include "base/quantiles.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/experimental/representation.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/options.hpp"
 #include "learned/core/model_reading.hpp"
@@ -21,6 +26,7 @@
 #include "learned/corrector/measured_smoothing.hpp"
 #include "learned/corrector/motion_channels.hpp"
 #include "learned/corrector/motion_filter.hpp"
+#include "learned/corrector/noise_floor.hpp"
 #include "methods/auto/auto_scale.hpp"
 #include "methods/core/live.hpp"
 #include "methods/core/pieces.hpp"
@@ -36,7 +42,9 @@ const OptionTable<LearnedOptions>& learned_table() {
                 "model file made by kinemend-train learned; empty: the model that ships")
           .text(&LearnedOptions::map, "map",
                 "file that maps names in the take to names in the model")
-          .flag(&LearnedOptions::live, "live", "live form: looks an eighth of a second ahead");
+          .flag(&LearnedOptions::live, "live", "live form: looks an eighth of a second ahead")
+          .flag(&LearnedOptions::trust_model, "trust_model",
+                "take out all that the network expects, also where the take shows no noise");
   return options;
 }
 
@@ -64,13 +72,20 @@ class Learned final : public Cleaner {
     progress.begin_part(0.3, 1);
     MotionTracks tracks = motion_tracks_of(view, changeable_tracks(view));
     if (tracks.numbers.empty()) return trace;
-    std::optional<KnownBody> body = known_body(model_->layout, names_, view, tracks);
+    BodyReading reading = read_body(model_->layout, network_, names_, view, tracks);
+    std::optional<KnownBody>& body = reading.body;
     if (body) show_body(*body, tracks.take);
     progress.step();
     progress.begin_part(1, 1);
     add_measured_smoothing(tracks.take);
     MotionResult result = filtered(network_, tracks.take);
     join_measured(tracks.take, result);
+    note_strange_poses(view, reading, trace);
+    if (!options_.trust_model) {
+      const std::vector<double> put_back =
+          keep_to_noise_floor(tracks.take, marks_of(body, tracks.numbers.size()), result);
+      note_slow_noise_kept(view, tracks, put_back, trace);
+    }
     if (view.joints != nullptr) smooth_places(view, tracks, result);
     std::vector<TrackError> errors;
     for (std::size_t n = 0; n < tracks.numbers.size(); ++n)
@@ -111,6 +126,52 @@ class Learned final : public Cleaner {
     return trace;
   }
 
+  // Joints that the model knows by name and whose poses are of another rig.
+  static void note_strange_poses(const TakeView& view, const BodyReading& reading,
+                                 CleanTrace& trace) {
+    if (reading.distance > most_pose_distance) {
+      trace.notes.push_back(fmt::format(
+          "the joints have known names, but poses of another rig ({:.1f} deviations from those "
+          "learned): each is cleaned by itself",
+          reading.distance));
+      return;
+    }
+    if (!reading.body || reading.strange.empty()) return;
+    std::vector<std::string> names;
+    for (const std::size_t number : reading.strange)
+      names.push_back(view.joints->skeleton.names[number]);
+    trace.notes.push_back(fmt::format("{} {} poses of another rig and {} cleaned by {}",
+                                      fmt::join(names, ", "), names.size() == 1 ? "has" : "have",
+                                      names.size() == 1 ? "is" : "are",
+                                      names.size() == 1 ? "itself" : "themselves"));
+  }
+
+  // Slow noise that the model expects and the take does not show, of the middle one of the tracks
+  // from which it would have been taken out.
+  static void note_slow_noise_kept(const TakeView& view, const MotionTracks& tracks,
+                                   const std::vector<double>& put_back, CleanTrace& trace) {
+    // Degrees that are worth a word. Chosen by hand.
+    constexpr double least_deg = 0.5;
+    for (const Space space : {Space::rotation, Space::position}) {
+      std::vector<double> sizes;
+      for (std::size_t n = 0; n < put_back.size(); ++n) {
+        // Positions of joints are smoothed by the measured noise alone.
+        if (view.tracks[tracks.numbers[n]].space != space) continue;
+        if (space == Space::position && view.joints != nullptr) continue;
+        if (put_back[n] > least_deg) sizes.push_back(put_back[n]);
+      }
+      if (sizes.empty()) continue;
+      const bool turns = space == Space::rotation;
+      const std::size_t count = sizes.size();
+      const double size = median_of(sizes) / degrees_per_unit(view, space);
+      trace.notes.push_back(fmt::format(
+          "left alone: changes of about {} on {} that the model proposes and the take does not "
+          "show to be noise; if it comes from video or a depth camera, --trust-model makes them",
+          turns ? fmt::format("{:.2g} deg", size) : fmt::format("{:.2g} file units", size),
+          counted(count, turns ? "joint" : "marker")));
+    }
+  }
+
   // What was taken out of each track, what is expected to be left, and noise that is mostly slow.
   static void say_what_was_wrong(const TakeView& view, const MotionTracks& tracks,
                                  const std::vector<TrackError>& errors, CleanTrace& trace) {
@@ -144,12 +205,8 @@ class Learned final : public Cleaner {
   void hand_over(const TakeView& view, const MotionTracks& tracks, std::optional<KnownBody>& body,
                  const MotionResult& result, const std::vector<TrackError>& errors,
                  const TrackSink& sink) const {
-    std::vector<std::uint8_t> is_body(tracks.numbers.size());
-    if (body) {
-      decode_known_body(*body, model_->layout, tracks.take, result.values);
-      for (const std::int32_t n : body->track_of)
-        if (n >= 0) is_body[static_cast<std::size_t>(n)] = 1;
-    }
+    const std::vector<std::uint8_t> is_body = marks_of(body, tracks.numbers.size());
+    if (body) decode_known_body(*body, model_->layout, tracks.take, result.values);
     const TakeView decoded = body ? view_of(body->clip) : TakeView{};
     for (std::size_t n = 0; n < tracks.numbers.size(); ++n) {
       CleanedTrack cleaned = cleaned_track(tracks, view, n, result.values);

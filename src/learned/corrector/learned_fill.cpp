@@ -29,20 +29,16 @@ LearnedFilling fill_by_network(const MotionNetwork& network, const BodyLayout& l
   filling.left_out.assign(clip.joint_count(), why_not_learned(view));
   if (!filling.left_out.front().empty()) return filling;
   MotionTracks tracks = motion_tracks_of(view, changeable_tracks(view));
-  std::optional<KnownBody> body = known_body(layout, names, view, tracks);
+  std::optional<KnownBody> body = read_body(layout, network, names, view, tracks).body;
   if (body) show_body(*body, tracks.take);
   add_measured_smoothing(tracks.take);
   const MotionResult result = filtered(network, tracks.take);
-  std::vector<std::uint8_t> is_known(clip.joint_count() + 1);
-  if (body) {
-    decode_known_body(*body, layout, tracks.take, result.values);
-    for (const std::int32_t n : body->track_of)
-      if (n >= 0) is_known[tracks.numbers[static_cast<std::size_t>(n)]] = 1;
-  }
+  const std::vector<std::uint8_t> is_known = marks_of(body, tracks.numbers.size());
+  if (body) decode_known_body(*body, layout, tracks.take, result.values);
   for (std::size_t n = 0; n < tracks.numbers.size(); ++n) {
     const std::size_t joint = tracks.numbers[n];
     if (view.tracks[joint].space != Space::rotation) continue;
-    const bool is_of_body = is_known[joint] != 0;
+    const bool is_of_body = is_known[n] != 0;
     const std::vector<Quat> own =
         is_of_body ? std::vector<Quat>{} : cleaned_track(tracks, view, n, result.values).rotations;
     for (std::size_t f = 0; f < clip.frame_count(); ++f)
