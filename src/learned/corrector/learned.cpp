@@ -271,7 +271,7 @@ class LiveLearned final : public Cleaner {
   }
   std::unique_ptr<LiveFilter> live(const TakeView& like) const override {
     if (!live_support(like.frame_rate_hz).runs()) return Cleaner::live(like);
-    return make_learned_live(network_, model_->layout, names_, like);
+    return make_learned_live(network_, model_->layout, names_, like, options_.trust_model);
   }
 
  private:

@@ -1,16 +1,21 @@
 // Turns the samples of a stream into channels of the network and the cleaned channels back.
 #include "learned/corrector/learned_live.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "base/portable.hpp"
 #include "body/rotation_channels.hpp"
 #include "kinemend/error.hpp"
+#include "learned/corrector/learned_body.hpp"
 #include "learned/corrector/live_motion_filter.hpp"
+#include "learned/corrector/live_noise_floor.hpp"
 #include "methods/auto/auto_scale.hpp"
 
 namespace kinemend {
@@ -55,10 +60,53 @@ std::optional<BodyMatch> match_of(const BodyLayout& layout, const NameMap& names
   }
 }
 
+// Watches whether the poses of joints that the model knows by name are of the kind that it has
+// learned: their mean over the last seconds, as `read_body` sees that of a take.
+class LivePoses {
+ public:
+  LivePoses(const MotionNetwork& network, std::vector<std::int32_t> slots, double frame_rate_hz)
+      : network_(network),
+        slots_(std::move(slots)),
+        means_(slots_.size()),
+        follow_(1 - portable::exp(-1 / (memory_s * frame_rate_hz))),
+        least_frames_(static_cast<std::size_t>(std::ceil(least_s * frame_rate_hz))) {}
+
+  void see(std::span<const float> values, std::span<const std::uint8_t> missing) {
+    // The mean of all frames until the memory is full.
+    const double follow = std::max(follow_, 1 / static_cast<double>(++frames_));
+    double sum = 0, count = 0;
+    for (std::size_t c = 0; c < slots_.size(); ++c) {
+      if (slots_[c] < 0) continue;
+      if (missing[c] == 0) means_[c] += follow * (static_cast<double>(values[c]) - means_[c]);
+      const auto slot = static_cast<std::size_t>(slots_[c]);
+      const double distance = (means_[c] - static_cast<double>(network_.mean[slot])) /
+                              static_cast<double>(network_.deviation[slot]);
+      sum += distance * distance;
+      count += 1;
+    }
+    fit_ = count > 0 && frames_ >= least_frames_ && sum <= most_distance * most_distance * count;
+  }
+  bool fit() const { return fit_; }
+
+ private:
+  // A few seconds of a known rig are farther from the learned mean than a whole take: single poses
+  // are one deviation away. The nearest other rig is 1.8 away.
+  static constexpr double most_distance = 1.5;
+  // Chosen by hand: a pose that is held for a second or two must not count for the whole body.
+  static constexpr double memory_s = 10, least_s = 0.25;
+
+  const MotionNetwork& network_;
+  std::vector<std::int32_t> slots_;
+  std::vector<double> means_;
+  double follow_;
+  std::size_t least_frames_, frames_ = 0;
+  bool fit_ = false;
+};
+
 class LearnedLive final : public LiveFilter {
  public:
   LearnedLive(const MotionNetwork& network, const BodyLayout& layout, const NameMap& names,
-              const TakeView& like)
+              const TakeView& like, bool trusts_model)
       : follow_(1 - portable::exp(-1 / (follow_s * like.frame_rate_hz))),
         degrees_per_unit_(degrees_per_unit(like, Space::position)) {
     const std::size_t rotations = like.joints != nullptr ? like.owners : 0;
@@ -93,6 +141,13 @@ class LearnedLive final : public LiveFilter {
     missing_.resize(slots.size());
     filter_ = std::make_unique<LiveMotionFilter>(network, like.frame_rate_hz, slots,
                                                  std::move(is_position));
+    std::vector<std::uint8_t> counts;
+    for (const StreamedTrack& track : tracks_) {
+      of_body_.push_back(track.known ? 1 : 0);
+      counts.push_back(track.turns || rotations == 0 ? 1 : 0);
+    }
+    if (!trusts_model) floor_.emplace(like.frame_rate_hz, std::move(counts));
+    poses_.emplace(network, std::move(slots), like.frame_rate_hz);
     waiting_.resize(filter_->ahead() + 1);
   }
 
@@ -112,6 +167,8 @@ class LearnedLive final : public LiveFilter {
       if (track.turns) waiting.frame.rotations[track.place] = track.held;
       waiting.charts[n] = track.chart;
     }
+    poses_->see(values_, missing_);
+    filter_->show_body(poses_->fit());
     if (!filter_->push(values_, missing_, result_)) return false;
     write(out);
     return true;
@@ -173,6 +230,7 @@ class LearnedLive final : public LiveFilter {
   }
 
   void write(Frame& out) {
+    if (floor_) floor_->bound(filter_->samples_given(), poses_->fit(), of_body_, result_);
     const Waiting& waiting = waiting_[given_++ % waiting_.size()];
     out = waiting.frame;
     for (std::size_t n = 0; n < tracks_.size(); ++n) {
@@ -199,6 +257,9 @@ class LearnedLive final : public LiveFilter {
   std::vector<float> values_, result_;
   std::vector<std::uint8_t> missing_;
   std::unique_ptr<LiveMotionFilter> filter_;
+  std::vector<std::uint8_t> of_body_;  // one a track
+  std::optional<LivePoses> poses_;
+  std::optional<LiveNoiseFloor> floor_;
   std::vector<Waiting> waiting_;  // a ring: as they came, gaps held
   std::size_t pushed_ = 0, given_ = 0;
 };
@@ -207,8 +268,8 @@ class LearnedLive final : public LiveFilter {
 
 std::unique_ptr<LiveFilter> make_learned_live(const MotionNetwork& network,
                                               const BodyLayout& layout, const NameMap& names,
-                                              const TakeView& like) {
-  return std::make_unique<LearnedLive>(network, layout, names, like);
+                                              const TakeView& like, bool trusts_model) {
+  return std::make_unique<LearnedLive>(network, layout, names, like, trusts_model);
 }
 
 }  // namespace kinemend

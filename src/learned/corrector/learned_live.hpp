@@ -10,11 +10,12 @@
 namespace kinemend {
 
 /// The method `learned` on streams of takes like this one. `network`, a `live_form`, and `layout`
-/// outlive the filter. A skeleton is matched by its rest pose; joints that the model does not know,
-/// and markers, are cleaned by what they do themselves. Errors: as of `match_body` for names that
-/// are mapped and do not fit.
+/// outlive the filter. A skeleton is matched by its names; joints that the model does not know, or
+/// whose poses are not of the kind that it has learned, and markers are cleaned by what they do
+/// themselves. `trusts_model`: as `LearnedOptions::trust_model`. Errors: as of `match_body` for
+/// names that are mapped and do not fit.
 std::unique_ptr<LiveFilter> make_learned_live(const MotionNetwork& network,
                                               const BodyLayout& layout, const NameMap& names,
-                                              const TakeView& like);
+                                              const TakeView& like, bool trusts_model);
 
 }  // namespace kinemend

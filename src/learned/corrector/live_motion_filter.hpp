@@ -24,6 +24,10 @@ class LiveMotionFilter {
   /// As of `LiveMotionSteps::push`. True when `out` (C) holds the next frame.
   bool push(std::span<const float> values, std::span<const std::uint8_t> missing,
             std::span<float> out);
+  /// As of `LiveMotionNetwork`.
+  void show_body(bool is_shown) { network_.show_body(is_shown); }
+  /// The samples (C) of the frame that came out last: of missing ones what bridges them.
+  std::span<const float> samples_given() const { return steps_.frame(given_ - 1); }
   /// After the last frame: gives the remaining frames one by one, then false.
   bool flush(std::span<float> out);
 

@@ -40,6 +40,7 @@ void run_taps(const nn::Convolution& layer, const float* before, const float* no
 LiveMotionNetwork::LiveMotionNetwork(const MotionNetwork& network, std::vector<std::int32_t> slots)
     : network_(network),
       slots_(std::move(slots)),
+      no_slots_(slots_.size(), -1),
       features_(network.encoder.dilation, channels() * motion_features),
       first_(network.second_encoder.dilation, channels() * network.encoded()),
       of_take_(channels() * network.encoded()),
@@ -100,8 +101,8 @@ void LiveMotionNetwork::encode(const MotionSteps& step, std::span<const std::uin
 }
 
 void LiveMotionNetwork::run_trunk(const MotionSteps& step, std::span<const std::uint8_t> is_alive) {
-  fill_body_input(network_, {slots_, is_alive}, step, 0, encoded_, body_);
-  fill_pooled(network_, {slots_, is_alive}, encoded_, 1, pooled_);
+  fill_body_input(network_, {slots(), is_alive}, step, 0, encoded_, body_);
+  fill_pooled(network_, {slots(), is_alive}, encoded_, 1, pooled_);
   run_rows(network_.body, body_.data(), 1, wide_.data());
   run_rows(network_.pool, pooled_.data(), 1, added_.data());
   for (std::size_t i = 0; i < wide_.size(); ++i) wide_[i] = std::max(0.0F, wide_[i] + added_[i]);
@@ -134,8 +135,8 @@ void LiveMotionNetwork::run_head(std::span<const std::uint8_t> is_alive) {
           sum += encoded_[other * width + i];
         to[width + i] = sum / std::max(1.0F, alive);
       }
-      if (slots_[c] < 0) continue;
-      const float* const of_slot = of_slots_.data() + static_cast<std::size_t>(slots_[c]) * units;
+      if (slots()[c] < 0) continue;
+      const float* const of_slot = of_slots_.data() + static_cast<std::size_t>(slots()[c]) * units;
       std::copy_n(of_slot, units, to + 2 * width);
     }
   }
@@ -144,8 +145,8 @@ void LiveMotionNetwork::run_head(std::span<const std::uint8_t> is_alive) {
     hidden_[i] = std::max(0.0F, hidden_[i] + shared_[i % head]);
   run_rows(network_.output, hidden_.data(), channels(), outputs_.data());
   for (std::size_t c = 0; c < channels(); ++c) {
-    if (slots_[c] < 0) continue;
-    const auto slot = static_cast<std::size_t>(slots_[c]);
+    if (slots()[c] < 0) continue;
+    const auto slot = static_cast<std::size_t>(slots()[c]);
     for (std::size_t i = 0; i < motion_body_corrections; ++i)
       outputs_[c * motion_outputs + motion_smoothers + first_body_correction + i] +=
           corrections_[slot * motion_body_corrections + i];

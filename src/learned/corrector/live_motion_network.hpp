@@ -20,6 +20,9 @@ class LiveMotionNetwork {
   /// `step`: one step with features of the take. C x `motion_outputs`, until the next call. Takes
   /// nothing from the heap.
   std::span<float> run(const MotionSteps& step, std::span<const std::uint8_t> is_alive);
+  /// Whether the channels are shown as those of the body from the next step on, as they are at
+  /// first, or each by itself.
+  void show_body(bool is_shown) { is_body_shown_ = is_shown; }
   void reset();
 
  private:
@@ -40,9 +43,11 @@ class LiveMotionNetwork {
   void run_trunk(const MotionSteps& step, std::span<const std::uint8_t> is_alive);
   void run_head(std::span<const std::uint8_t> is_alive);
   std::size_t channels() const { return slots_.size(); }
+  const std::vector<std::int32_t>& slots() const { return is_body_shown_ ? slots_ : no_slots_; }
 
   const MotionNetwork& network_;
-  std::vector<std::int32_t> slots_;
+  std::vector<std::int32_t> slots_, no_slots_;
+  bool is_body_shown_ = true;
   History features_, first_;
   std::vector<History> trunk_;
   std::vector<float> of_take_, encoded_, scratch_, body_, pooled_, wide_, added_, taps_;

@@ -6,6 +6,7 @@
 
 #include "base/parallel.hpp"
 #include "base/quantiles.hpp"
+#include "learned/corrector/learned_errors.hpp"
 
 namespace kinemend {
 
@@ -52,8 +53,8 @@ class Bursts {
   Bursts(const MotionTake& take, const std::vector<float>& values, std::size_t track,
          std::size_t reach)
       : take_(take), reach_(reach) {
-    const auto lag =
-        std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(take.frame_rate_hz / 60)));
+    const auto lag = std::max<std::size_t>(
+        1, static_cast<std::size_t>(std::lround(burst_lag_s * take.frame_rate_hz)));
     for (std::size_t f = lag; f < take.frames; ++f) {
       if (take.is_missing(f, 3 * track) || take.is_missing(f - lag, 3 * track)) continue;
       double square = 0;
@@ -121,41 +122,64 @@ bool moves(const MotionTake& take, std::size_t track) {
   return false;
 }
 
-// One a track, 1 where the measurement finds noise that is no fast motion.
-std::vector<std::uint8_t> noisy_tracks(const MotionTake& take,
-                                       std::span<const std::uint8_t> is_known) {
-  std::vector<std::uint8_t> noisy(take.channels / 3);
-  if (take.measured.empty()) return noisy;
-  double turning = 0, turning_noisy = 0;
-  for (std::size_t n = 0; n < noisy.size(); ++n) {
-    noisy[n] = differs(take, take.measured, n) ? 1 : 0;
-    if (take.is_position[3 * n] != 0 || !moves(take, n)) continue;
-    turning += 1;
-    turning_noisy += noisy[n];
-  }
-  if (is_long(take) || take.frame_rate_hz >= lowest_burst_rate_hz ||
-      turning_noisy >= least_noisy_share * turning)
-    return noisy;
-  for (std::size_t n = 0; n < noisy.size(); ++n)
-    if (take.is_position[3 * n] == 0 && is_known[n] == 0) noisy[n] = 0;
-  return noisy;
+std::size_t window_reach(const MotionTake& take) {
+  return std::max<std::size_t>(
+      1, static_cast<std::size_t>(std::lround(0.5 * floor_window_s * take.frame_rate_hz)));
+}
+
+std::vector<double> of_measured_frames(const MotionTake& take, const std::vector<double>& all,
+                                       std::size_t track) {
+  std::vector<double> measured;
+  measured.reserve(all.size());
+  for (std::size_t f = 0; f < take.frames; ++f)
+    if (!take.is_missing(f, 3 * track)) measured.push_back(all[f]);
+  return measured;
+}
+
+bool has_floor(const MotionTake& take, const MotionResult& result, std::size_t track) {
+  if (!is_worth_a_change(track_error(take, result, track))) return false;
+  std::vector<double> lost = of_measured_frames(
+      take, windowed(take, removals_of(take, result.values, track), track, window_reach(take)),
+      track);
+  double square = 0;
+  for (const double one : lost) square += one * one / static_cast<double>(lost.size());
+  return quantile_of(lost, floor_share) > least_floor_share * std::sqrt(square);
+}
+
+bool is_noisy_take(const MotionTake& take, const MotionResult& result) {
+  const std::size_t tracks = take.channels / 3;
+  // Positions of joints are not the network's to clean: in takes of joints those that turn count.
+  const bool has_joints =
+      std::find(take.is_position.begin(), take.is_position.end(), 0) != take.is_position.end();
+  std::vector<std::uint8_t> counts(tracks), noisy(tracks);
+  for_each_parallel(tracks, take.values.size(), [&](std::size_t n) {
+    if ((has_joints && take.is_position[3 * n] != 0) || !moves(take, n)) return;
+    counts[n] = 1;
+    noisy[n] = has_floor(take, result, n) ? 1 : 0;
+  });
+  const auto all = static_cast<double>(std::count(counts.begin(), counts.end(), 1)),
+             with_floor = static_cast<double>(std::count(noisy.begin(), noisy.end(), 1));
+  return all >= static_cast<double>(fewest_noisy_tracks) && with_floor >= least_noisy_share * all;
+}
+
+// Whether the measurement finds noise of a track that is no fast move.
+bool is_measured(const MotionTake& take, bool is_known, std::size_t track) {
+  if (take.measured.empty() || !differs(take, take.measured, track)) return false;
+  return is_known || is_long(take) || take.frame_rate_hz >= lowest_burst_rate_hz ||
+         take.is_position[3 * track] != 0;
 }
 
 // Returns the root mean square per axis of what the track gets back.
-double bound_track(const MotionTake& take, bool is_known, bool is_noisy, std::size_t track,
-                   MotionResult& result) {
-  const std::size_t frames = take.frames;
-  const auto reach = std::max<std::size_t>(
-      1, static_cast<std::size_t>(std::lround(0.5 * floor_window_s * take.frame_rate_hz)));
+double bound_track(const MotionTake& take, bool is_known, std::size_t track, MotionResult& result) {
+  const std::size_t frames = take.frames, reach = window_reach(take);
+  const bool is_noisy = is_measured(take, is_known, track);
   const std::vector<double> squares = removals_of(take, result.values, track);
   const std::vector<double> lost = windowed(take, squares, track, reach);
   std::vector<double> asked(frames);
   if (is_noisy) asked = windowed(take, removals_of(take, take.measured, track), track, reach);
   double floor = 0;
   if (is_known || is_noisy || is_long(take)) {
-    std::vector<double> all;
-    for (std::size_t f = 0; f < frames; ++f)
-      if (!take.is_missing(f, 3 * track)) all.push_back(lost[f]);
+    std::vector<double> all = of_measured_frames(take, lost, track);
     floor = most_floors * quantile_of(all, floor_share);
   }
   Bursts bursts(take, result.values, track, reach);
@@ -180,9 +204,9 @@ std::vector<double> keep_to_noise_floor(const MotionTake& take,
                                         std::span<const std::uint8_t> is_known,
                                         MotionResult& result) {
   std::vector<double> put_back(take.channels / 3);
-  const std::vector<std::uint8_t> is_noisy = noisy_tracks(take, is_known);
+  if (is_noisy_take(take, result)) return put_back;
   for_each_parallel(put_back.size(), take.values.size(), [&](std::size_t track) {
-    put_back[track] = bound_track(take, is_known[track] != 0, is_noisy[track] != 0, track, result);
+    put_back[track] = bound_track(take, is_known[track] != 0, track, result);
   });
   return put_back;
 }

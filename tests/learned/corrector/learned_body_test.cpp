@@ -31,7 +31,7 @@ TEST(KnownBody, SeesABridgeOverAGapAndNotTheSampleBeforeIt) {
   mark_gaps(clip, {&gap, 1});
   const TakeView view = view_of(clip);
   const MotionTracks tracks = motion_tracks_of(view, changeable_tracks(view));
-  const auto body = known_body(layout, {}, view, tracks);
+  const auto body = read_body(layout, network, {}, view, tracks).body;
   ASSERT_TRUE(body.has_value());
   std::size_t part = 0;
   while (body->match.tracks[part] != static_cast<std::int32_t>(knee)) ++part;
