@@ -83,7 +83,8 @@ class Learned final : public Cleaner {
     note_strange_poses(view, reading, trace);
     if (!options_.trust_model) {
       const std::vector<double> put_back =
-          keep_to_noise_floor(tracks.take, marks_of(body, tracks.numbers.size()), result);
+          keep_to_noise_floor(tracks.take, marks_of(body, tracks.numbers.size()),
+                              stepped_tracks(view, tracks.numbers), result);
       note_slow_noise_kept(view, tracks, put_back, trace);
     }
     if (view.joints != nullptr) smooth_places(view, tracks, result);

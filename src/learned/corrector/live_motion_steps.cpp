@@ -9,7 +9,7 @@ namespace kinemend {
 
 namespace {
 
-// How far the live form looks ahead: 14 frames at 120 Hz, and no more at any rate; see
+// How far the live form looks ahead: 14 frames at 120 Hz, and no more up to 390 Hz; see
 // docs/methods/learned.md.
 constexpr double ahead_s = 0.117;
 constexpr std::size_t most_ahead = 14;
@@ -24,7 +24,8 @@ std::size_t frames_to_next_step(double frame_rate_hz) {
 
 std::size_t live_motion_ahead(double frame_rate_hz) {
   const auto wanted = static_cast<std::size_t>(std::lround(ahead_s * frame_rate_hz));
-  return std::min(std::max(wanted, frames_to_next_step(frame_rate_hz) + 1), most_ahead);
+  // A frame is mixed from the steps before and behind it.
+  return std::max(std::min(wanted, most_ahead), frames_to_next_step(frame_rate_hz) + 1);
 }
 
 LiveMotionSteps::LiveMotionSteps(double frame_rate_hz, std::vector<std::uint8_t> is_position)

@@ -16,7 +16,7 @@ namespace {
 constexpr double levels_hz = 8;
 constexpr std::size_t kept_levels = 128;
 // Before that the levels of a stream say too little. Chosen by hand.
-constexpr double shortest_noisy_s = 2;
+constexpr double shortest_noisy_s = 3;
 constexpr double quartile = 0.25;  // by definition
 
 std::size_t frames_of(double seconds, double frame_rate_hz) {

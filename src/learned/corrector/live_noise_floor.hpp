@@ -11,7 +11,7 @@
 namespace kinemend {
 
 /// `keep_to_noise_floor` with what a stream can see: windows end at the frame, floors are those of
-/// the last 16 seconds, and no noise is measured. A stream is noisy after two seconds at the
+/// the last 16 seconds, and no noise is measured. A stream is noisy after three seconds at the
 /// soonest, and a track that the model does not know has no floor before `shortest_floor_s` have
 /// passed.
 class LiveNoiseFloor {

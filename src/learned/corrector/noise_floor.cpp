@@ -136,8 +136,15 @@ std::vector<double> of_measured_frames(const MotionTake& take, const std::vector
   return measured;
 }
 
-bool has_floor(const MotionTake& take, const MotionResult& result, std::size_t track) {
+// Whether the measurement finds anything in a track.
+bool is_measured(const MotionTake& take, std::size_t track) {
+  return !take.measured.empty() && differs(take, take.measured, track);
+}
+
+bool has_floor(const MotionTake& take, const MotionResult& result, bool is_stepped,
+               std::size_t track) {
   if (!is_worth_a_change(track_error(take, result, track))) return false;
+  if (is_stepped && !is_measured(take, track)) return false;
   std::vector<double> lost = of_measured_frames(
       take, windowed(take, removals_of(take, result.values, track), track, window_reach(take)),
       track);
@@ -146,7 +153,8 @@ bool has_floor(const MotionTake& take, const MotionResult& result, std::size_t t
   return quantile_of(lost, floor_share) > least_floor_share * std::sqrt(square);
 }
 
-bool is_noisy_take(const MotionTake& take, const MotionResult& result) {
+bool is_noisy_take(const MotionTake& take, std::span<const std::uint8_t> is_stepped,
+                   const MotionResult& result) {
   const std::size_t tracks = take.channels / 3;
   // Positions of joints are not the network's to clean: in takes of joints those that turn count.
   const bool has_joints =
@@ -155,35 +163,37 @@ bool is_noisy_take(const MotionTake& take, const MotionResult& result) {
   for_each_parallel(tracks, take.values.size(), [&](std::size_t n) {
     if ((has_joints && take.is_position[3 * n] != 0) || !moves(take, n)) return;
     counts[n] = 1;
-    noisy[n] = has_floor(take, result, n) ? 1 : 0;
+    noisy[n] = has_floor(take, result, is_stepped[n] != 0, n) ? 1 : 0;
   });
   const auto all = static_cast<double>(std::count(counts.begin(), counts.end(), 1)),
              with_floor = static_cast<double>(std::count(noisy.begin(), noisy.end(), 1));
   return all >= static_cast<double>(fewest_noisy_tracks) && with_floor >= least_noisy_share * all;
 }
 
-// Whether the measurement finds noise of a track that is no fast move.
-bool is_measured(const MotionTake& take, bool is_known, std::size_t track) {
-  if (take.measured.empty() || !differs(take, take.measured, track)) return false;
+// Whether it finds noise that is no fast move.
+bool has_measured_noise(const MotionTake& take, bool is_known, std::size_t track) {
+  if (!is_measured(take, track)) return false;
   return is_known || is_long(take) || take.frame_rate_hz >= lowest_burst_rate_hz ||
          take.is_position[3 * track] != 0;
 }
 
 // Returns the root mean square per axis of what the track gets back.
-double bound_track(const MotionTake& take, bool is_known, std::size_t track, MotionResult& result) {
+double bound_track(const MotionTake& take, bool is_known, bool is_stepped, std::size_t track,
+                   MotionResult& result) {
   const std::size_t frames = take.frames, reach = window_reach(take);
-  const bool is_noisy = is_measured(take, is_known, track);
+  const bool is_noisy = has_measured_noise(take, is_known, track);
   const std::vector<double> squares = removals_of(take, result.values, track);
   const std::vector<double> lost = windowed(take, squares, track, reach);
   std::vector<double> asked(frames);
   if (is_noisy) asked = windowed(take, removals_of(take, take.measured, track), track, reach);
   double floor = 0;
-  if (is_known || is_noisy || is_long(take)) {
+  if (!is_stepped && (is_known || is_noisy || is_long(take))) {
     std::vector<double> all = of_measured_frames(take, lost, track);
     floor = most_floors * quantile_of(all, floor_share);
   }
   Bursts bursts(take, result.values, track, reach);
-  const bool may_burst = take.frame_rate_hz >= lowest_burst_rate_hz;
+  // Steps are as quick as noise.
+  const bool may_burst = take.frame_rate_hz >= lowest_burst_rate_hz && !is_stepped;
   double put_back = 0;
   for (std::size_t f = 0; f < frames; ++f) {
     const double most = std::max(floor, asked[f]);
@@ -202,13 +212,33 @@ double bound_track(const MotionTake& take, bool is_known, std::size_t track, Mot
 
 std::vector<double> keep_to_noise_floor(const MotionTake& take,
                                         std::span<const std::uint8_t> is_known,
+                                        std::span<const std::uint8_t> is_stepped,
                                         MotionResult& result) {
   std::vector<double> put_back(take.channels / 3);
-  if (is_noisy_take(take, result)) return put_back;
+  if (is_noisy_take(take, is_stepped, result)) return put_back;
   for_each_parallel(put_back.size(), take.values.size(), [&](std::size_t track) {
-    put_back[track] = bound_track(take, is_known[track] != 0, track, result);
+    put_back[track] =
+        bound_track(take, is_known[track] != 0, is_stepped[track] != 0, track, result);
   });
   return put_back;
+}
+
+std::vector<std::uint8_t> stepped_tracks(const TakeView& take,
+                                         std::span<const std::size_t> numbers) {
+  std::vector<std::uint8_t> stepped;
+  for (const std::size_t number : numbers) {
+    const Track& track = take.tracks[number];
+    std::size_t repeated = 0;
+    for (std::size_t f = 1; f < take.frames; ++f) {
+      const bool is_same = track.space == Space::rotation
+                               ? track.rotation(f) == track.rotation(f - 1)
+                               : track.position(f) == track.position(f - 1);
+      if (is_same) ++repeated;
+    }
+    const double share = static_cast<double>(repeated) / static_cast<double>(take.frames);
+    stepped.push_back(share >= least_stepped_share ? 1 : 0);
+  }
+  return stepped;
 }
 
 }  // namespace kinemend

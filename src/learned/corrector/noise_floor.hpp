@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "kinemend/take_view.hpp"
 #include "learned/corrector/motion_filter.hpp"
 
 namespace kinemend {
@@ -38,6 +39,10 @@ inline constexpr double lowest_burst_rate_hz = 50;
 inline constexpr double least_noisy_share = 0.7;
 /// A track has a floor when that is this share of the root mean square of what it loses.
 inline constexpr double least_floor_share = 0.1;
+/// A track is stepped when at least this share of its samples repeat the one before, to the last
+/// bit: its keys are held on purpose, or it comes from a lower rate. Smoothing steps is no cleaning
+/// unless the take is noisy. Chosen by hand: keys on every second frame have 0.5.
+inline constexpr double least_stepped_share = 0.25;
 /// Fewer moving tracks say nothing of the take: one arm that waves is all of it.
 inline constexpr std::size_t fewest_noisy_tracks = 6;
 
@@ -52,10 +57,17 @@ inline constexpr std::size_t fewest_noisy_tracks = 6;
 ///   noise;
 /// - everything, where it is a burst of white noise.
 ///
-/// `is_known`: one a track, 1 where the model knows its joint. Deviations stay. Returns for each
+/// `is_known`, `is_stepped`: one a track, 1 where the model knows its joint and where it is stepped.
+/// A stepped track has neither floor nor bursts, and makes no take noisy unless noise is measured in
+/// it. Deviations stay. Returns for each
 /// track the root mean square of what was put back, per axis, degrees.
 std::vector<double> keep_to_noise_floor(const MotionTake& take,
                                         std::span<const std::uint8_t> is_known,
+                                        std::span<const std::uint8_t> is_stepped,
                                         MotionResult& result);
+
+/// One a track of `numbers`: 1 where it is stepped.
+std::vector<std::uint8_t> stepped_tracks(const TakeView& take,
+                                         std::span<const std::size_t> numbers);
 
 }  // namespace kinemend

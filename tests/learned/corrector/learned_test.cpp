@@ -32,8 +32,9 @@ Take with_damage(Take clip, const std::string& damage, const OptionValues& optio
   return clip;
 }
 
-std::unique_ptr<Cleaner> cleaner_of(Model model) {
-  return make_learned({}, std::make_shared<const Model>(std::move(model)));
+std::unique_ptr<Cleaner> cleaner_of(Model model, bool trust_model = false) {
+  return make_learned({.trust_model = trust_model},
+                      std::make_shared<const Model>(std::move(model)));
 }
 
 // Asks for one smoother, whatever it sees.
@@ -158,13 +159,26 @@ TEST(LearnedCleaner, LeavesTracksAloneWhoseChangeIsSmallBesideWhatMayBeWrongAnyw
   EXPECT_NE(sure.take.rotation(100, knee), clip.rotation(100, knee));
 }
 
+// A network that takes the peaks of fast moves for errors: the take shows no noise.
+TEST(LearnedCleaner, KeepsAFastMoveThatItsNetworkWouldSmoothUnlessTheModelIsTrusted) {
+  const Take punch = synthesize({.motion = "punch", .duration_s = 6, .frame_rate_hz = 60});
+  const Model smoothing = one_smoother_model(gaussian_of_50_ms);
+  const CleanResult kept = clean_take(punch, *cleaner_of(smoothing)),
+                    trusted = clean_take(punch, *cleaner_of(smoothing, true));
+  EXPECT_GT(rms_deg(punch, trusted.take), 0.5);
+  EXPECT_LT(rms_deg(punch, kept.take), 0.2 * rms_deg(punch, trusted.take));
+  ASSERT_EQ(kept.report.notes.size(), 1U);
+  EXPECT_THAT(kept.report.notes[0], testing::HasSubstr("--trust-model"));
+  EXPECT_TRUE(trusted.report.notes.empty());
+}
+
 // What shows from frame to frame is measurable, however large it is; and small errors are nothing
 // to speak of.
 TEST(LearnedCleaner, NamesNoiseThatIsLargeAndSlowOnly) {
   const Take clip = walk_for_networks(120);
   const auto characters = [&](const Take& take, double expected_deg) {
     const std::unique_ptr<Cleaner> cleaner =
-        cleaner_of(expecting(one_smoother_model(gaussian_of_50_ms), expected_deg));
+        cleaner_of(expecting(one_smoother_model(gaussian_of_50_ms), expected_deg), true);
     std::vector<NoiseCharacter> noise = clean_take(take, *cleaner).report.noise;
     std::erase_if(noise, [](const NoiseCharacter& one) {
       return one.space != Space::rotation || !one.is_expected;

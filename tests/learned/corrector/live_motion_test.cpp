@@ -80,11 +80,13 @@ MotionTake cut_take(const MotionTake& take, std::size_t last, std::size_t still)
   return cut;
 }
 
-TEST(LiveMotion, LooksAnEighthOfASecondAheadAndAtMost14Frames) {
+TEST(LiveMotion, LooksAnEighthOfASecondAheadAndAtMost14FramesOrToTheNextStep) {
   EXPECT_EQ(live_motion_ahead(25), 3u);
   EXPECT_EQ(live_motion_ahead(60), 7u);
   EXPECT_EQ(live_motion_ahead(120), 14u);
   EXPECT_EQ(live_motion_ahead(240), 14u);
+  EXPECT_EQ(live_motion_ahead(480), 17u);
+  EXPECT_EQ(live_motion_ahead(1000), 34u);
 }
 
 TEST(LiveMotion, ReadsEachStepAsOfATakeThatEndsWhereItLooksAheadTo) {

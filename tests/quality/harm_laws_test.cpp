@@ -1,0 +1,140 @@
+// The law of harm: the default method gives clean takes back, whatever their rig, rate, length,
+// style and way of making, by takes that the project makes. docs/methods/learned.md has the figures
+// of takes of other studios.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "kinemend/clean.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "kinemend/experimental/random.hpp"
+#include "kinemend/experimental/synth.hpp"
+#include "kinemend/methods.hpp"
+
+namespace kinemend::quality {
+namespace {
+
+Take renamed(Take take) {
+  for (std::size_t j = 0; j < take.joint_count(); ++j)
+    take.skeleton.names[j] = "Q" + std::to_string(j);
+  return take;
+}
+
+// The same motion under the same names, with other bone axes and another rest pose.
+Take on_another_rig(Take take) {
+  Random random(11);
+  std::vector<Quat> axes{Quat{}};
+  for (std::size_t j = 1; j < take.joint_count(); ++j)
+    axes.push_back(exp(Vec3{random.normal(), random.normal(), random.normal()}));
+  const Skeleton& skeleton = take.skeleton;
+  const auto parent_axes = [&](std::size_t j) {
+    return skeleton.parents[j] < 0 ? Quat{} : axes[static_cast<std::size_t>(skeleton.parents[j])];
+  };
+  for (std::size_t j = 0; j < take.joint_count(); ++j) {
+    const Quat back = conjugate(parent_axes(j));
+    take.skeleton.offsets[j] = rotate(back, skeleton.offsets[j]);
+    for (std::size_t f = 0; f < take.frame_count(); ++f)
+      take.rotation(f, j) = normalized(back * take.rotation(f, j) * axes[j]);
+  }
+  return take;
+}
+
+Take played_faster(Take take, double factor) {
+  take.frame_rate_hz *= factor;
+  return take;
+}
+
+// Keys at a lower rate; between them straight turns, or the last key until the next.
+Take keyframed(const Take& take, double keys_hz, bool is_held) {
+  const auto step =
+      std::max<std::size_t>(2, static_cast<std::size_t>(std::lround(take.frame_rate_hz / keys_hz)));
+  Take keyed = take;
+  const std::size_t last = take.frame_count() - 1;
+  for (std::size_t f = 0; f <= last; ++f) {
+    const std::size_t before = f - f % step, after = std::min(before + step, last);
+    const double share = is_held || after == before ? 0
+                                                    : static_cast<double>(f - before) /
+                                                          static_cast<double>(after - before);
+    for (std::size_t j = 0; j < take.joint_count(); ++j)
+      keyed.rotation(f, j) = slerp(take.rotation(before, j), take.rotation(after, j), share);
+  }
+  return keyed;
+}
+
+struct Style {
+  std::string name;
+  std::function<Take(const Take&)> of;
+  bool is_live = true;  // streams come from systems, and those hold samples of a lower rate
+};
+const std::vector<Style> styles{
+    {"as it is made", [](const Take& take) { return take; }},
+    {"renamed", renamed},
+    {"on another rig", on_another_rig},
+    {"renamed, on another rig", [](const Take& take) { return renamed(on_another_rig(take)); }},
+    {"played faster", [](const Take& take) { return played_faster(take, 1.5); }},
+    {"keyed at 12 Hz", [](const Take& take) { return keyframed(take, 12, false); }},
+    {"stepped at 15 Hz", [](const Take& take) { return keyframed(take, 15, true); }, false},
+    {"as markers", [](const Take& take) { return joint_markers(take); }},
+};
+
+struct Harm {
+  double rms = 0;        // over all tracks: degrees, or file units (centimetres) of markers
+  double peak_loss = 0;  // of tracks that are faster than 100 degrees or 50 cm a second
+};
+
+Harm harm_of(const Take& take, const Cleaner& cleaner) {
+  const CleanReport report = clean_take(take, cleaner).report;
+  const double fast = take.has_joints() ? 100 : 50;
+  Harm harm;
+  for (const TrackSummary& track : report.tracks) {
+    harm.rms += track.rms_change * track.rms_change / static_cast<double>(report.tracks.size());
+    if (track.peak_speed_before > fast)
+      harm.peak_loss =
+          std::max(harm.peak_loss, 1 - track.peak_speed_after / track.peak_speed_before);
+  }
+  harm.rms = std::sqrt(harm.rms);
+  return harm;
+}
+
+void expect_no_harm(const Take& take, const Cleaner& cleaner, const Harm& most,
+                    const std::string& what) {
+  constexpr double rounding = 1e-6;
+  const Harm harm = harm_of(take, cleaner);
+  if (harm.rms <= most.rms && harm.peak_loss <= most.peak_loss) return;
+  // What `auto` measures to be noise may go.
+  const Harm measured = harm_of(take, *make_auto());
+  EXPECT_LE(harm.rms, std::max(most.rms, measured.rms + rounding)) << what;
+  EXPECT_LE(harm.peak_loss, std::max(most.peak_loss, measured.peak_loss + rounding)) << what;
+}
+
+void expect_no_harm_at(double frame_rate_hz) {
+  const std::unique_ptr<Cleaner> learned = make_learned(), live = make_learned({.live = true});
+  for (const std::string_view motion : synth_motions()) {
+    for (const double duration_s : {0.8, 5.0}) {
+      const Take made = synthesize({.motion = std::string(motion),
+                                    .duration_s = duration_s,
+                                    .frame_rate_hz = frame_rate_hz});
+      for (const Style& style : styles) {
+        const std::string what =
+            std::string(motion) + (duration_s < 1 ? ", short, " : ", long, ") + style.name;
+        const Take take = style.of(made);
+        expect_no_harm(take, *learned, {0.1, 0.03}, what);
+        // A stream of a run is fast from its first frame on, and no noise is measured.
+        if (style.is_live) expect_no_harm(take, *live, {1.0, 0.05}, what + ", live");
+      }
+    }
+  }
+}
+
+TEST(HarmLaw, ACleanTakeOf24HzComesBack) { expect_no_harm_at(24); }
+TEST(HarmLaw, ACleanTakeOf30HzComesBack) { expect_no_harm_at(30); }
+TEST(HarmLaw, ACleanTakeOf60HzComesBack) { expect_no_harm_at(60); }
+TEST(HarmLaw, ACleanTakeOf120HzComesBack) { expect_no_harm_at(120); }
+TEST(HarmLaw, ACleanTakeOf240HzComesBack) { expect_no_harm_at(240); }
+
+}  // namespace
+}  // namespace kinemend::quality
