@@ -39,6 +39,12 @@ Facts facts_of(const ModelFile& file) {
                  {"figures", card.figures},
                  {"size", size_text(file.bytes)},
                  {"checksum", file.checksum}};
+  if (model.method == "learned") {
+    facts.insert(facts.begin() + 2,
+                 {"rigs",
+                  "those whose mean pose is near the learned one; joints of other rigs and "
+                  "markers are cleaned one by one"});
+  }
   std::erase_if(facts, [](const auto& fact) { return fact.second.empty(); });
   return facts;
 }

@@ -104,8 +104,8 @@ struct NonlocalOptions {
 };
 std::unique_ptr<Cleaner> make_nonlocal(const NonlocalOptions& options = {});
 
-/// The default: measures the noise of each joint or marker, repairs spikes, smooths by the measured
-/// noise, and leaves clean takes unchanged.
+/// Measures the noise of each joint or marker, repairs spikes, smooths by the measured noise, and
+/// leaves clean takes unchanged. The default of the program is `learned`.
 struct AutoOptions {
   double sensitivity = 1;  ///< factor on the estimated noise: above 1 smooths more, below 1 less
   bool despike = true;

@@ -740,6 +740,8 @@ class Report:
         clean.
     fall_backs : list[FallBack] or None
         Clean: what another method did in place of the one that was asked for.
+    notes : list[str] or None
+        Clean: what the method left alone and why, or could not use, one a line.
     leftovers : list[Leftover] or None
         Clean: what cleaning does not mend.
     feet : Feet or None
@@ -786,6 +788,7 @@ class Report:
     options: dict[str, bool | float | str] | None = None
     noise: list[Noise] | None = None
     fall_backs: list[FallBack] | None = None
+    notes: list[str] | None = None
     leftovers: list[Leftover] | None = None
     feet: Feet | None = None
     subjects: list[Subject] | None = None

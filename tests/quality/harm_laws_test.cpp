@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/quantiles.hpp"
 #include "kinemend/clean.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/random.hpp"
@@ -100,19 +101,21 @@ Harm harm_of(const Take& take, const Cleaner& cleaner) {
   return harm;
 }
 
-void expect_no_harm(const Take& take, const Cleaner& cleaner, const Harm& most,
-                    const std::string& what) {
-  constexpr double rounding = 1e-6;
-  const Harm harm = harm_of(take, cleaner);
-  if (harm.rms <= most.rms && harm.peak_loss <= most.peak_loss) return;
-  // What `auto` measures to be noise may go.
+// Of takes of one rate. What `auto` measures to be noise, as in runs with few keys, may go, and
+// half as much again.
+void expect_little_harm(const Take& take, const Harm& harm, double most_rms,
+                        const std::string& what) {
+  constexpr double most_peak_loss = 0.1, more_than_measured = 1.5;
+  if (harm.rms <= most_rms && harm.peak_loss <= most_peak_loss) return;
   const Harm measured = harm_of(take, *make_auto());
-  EXPECT_LE(harm.rms, std::max(most.rms, measured.rms + rounding)) << what;
-  EXPECT_LE(harm.peak_loss, std::max(most.peak_loss, measured.peak_loss + rounding)) << what;
+  EXPECT_LE(harm.rms, std::max(most_rms, more_than_measured * measured.rms)) << what;
+  EXPECT_LE(harm.peak_loss, std::max(most_peak_loss, more_than_measured * measured.peak_loss))
+      << what;
 }
 
-void expect_no_harm_at(double frame_rate_hz) {
+void expect_law_at(double frame_rate_hz) {
   const std::unique_ptr<Cleaner> learned = make_learned(), live = make_learned({.live = true});
+  std::vector<double> changes;
   for (const std::string_view motion : synth_motions()) {
     for (const double duration_s : {0.8, 5.0}) {
       const Take made = synthesize({.motion = std::string(motion),
@@ -122,19 +125,23 @@ void expect_no_harm_at(double frame_rate_hz) {
         const std::string what =
             std::string(motion) + (duration_s < 1 ? ", short, " : ", long, ") + style.name;
         const Take take = style.of(made);
-        expect_no_harm(take, *learned, {0.1, 0.03}, what);
+        const Harm harm = harm_of(take, *learned);
+        changes.push_back(harm.rms);
+        expect_little_harm(take, harm, 1.0, what);
         // A stream of a run is fast from its first frame on, and no noise is measured.
-        if (style.is_live) expect_no_harm(take, *live, {1.0, 0.05}, what + ", live");
+        if (style.is_live) expect_little_harm(take, harm_of(take, *live), 1.0, what + ", live");
       }
     }
   }
+  EXPECT_EQ(quantile_of(changes, 0.5), 0);
+  EXPECT_LE(quantile_of(changes, 0.9), 0.1);
 }
 
-TEST(HarmLaw, ACleanTakeOf24HzComesBack) { expect_no_harm_at(24); }
-TEST(HarmLaw, ACleanTakeOf30HzComesBack) { expect_no_harm_at(30); }
-TEST(HarmLaw, ACleanTakeOf60HzComesBack) { expect_no_harm_at(60); }
-TEST(HarmLaw, ACleanTakeOf120HzComesBack) { expect_no_harm_at(120); }
-TEST(HarmLaw, ACleanTakeOf240HzComesBack) { expect_no_harm_at(240); }
+TEST(HarmLaw, ACleanTakeOf24HzComesBack) { expect_law_at(24); }
+TEST(HarmLaw, ACleanTakeOf30HzComesBack) { expect_law_at(30); }
+TEST(HarmLaw, ACleanTakeOf60HzComesBack) { expect_law_at(60); }
+TEST(HarmLaw, ACleanTakeOf120HzComesBack) { expect_law_at(120); }
+TEST(HarmLaw, ACleanTakeOf240HzComesBack) { expect_law_at(240); }
 
 }  // namespace
 }  // namespace kinemend::quality

@@ -52,6 +52,6 @@ export function addFacts(holder: HTMLElement, take: Take, document: ReportDocume
     ...(entry.fall_backs ?? []).map((one) => `cleaned by ${one.method} instead, because ${one.reason}: ${one.tracks.map((track) => track.name).join(', ')}`),
   ];
   if (warnings.length > 0) holder.append(box('Warnings', lines(warnings)));
-  const left = entry.leftovers ?? [];
-  if (left.length > 0) holder.append(box('Not changed', lines(left.map((one) => `${one.what}: ${one.mend}`))));
+  const left = [...(entry.leftovers ?? []).map((one) => `${one.what}: ${one.mend}`), ...(entry.notes ?? [])];
+  if (left.length > 0) holder.append(box('Not changed', lines(left)));
 }

@@ -33,6 +33,7 @@ export interface TakeEntry {
   reference?: string;
   options?: Record<string, unknown>;
   fall_backs?: { method: string; reason: string; tracks: { name: string; share: number }[] }[];
+  notes?: string[];
   leftovers?: { what: string; mend: string }[];
   figures: Record<string, number | null>;
   findings: Finding[];

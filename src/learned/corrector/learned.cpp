@@ -131,10 +131,11 @@ class Learned final : public Cleaner {
   static void note_strange_poses(const TakeView& view, const BodyReading& reading,
                                  CleanTrace& trace) {
     if (reading.distance > most_pose_distance) {
-      trace.notes.push_back(fmt::format(
-          "the joints have known names, but poses of another rig ({:.1f} deviations from those "
-          "learned): each is cleaned by itself",
-          reading.distance));
+      trace.notes.push_back(
+          fmt::format("joint names are known, but the poses are those of another rig ({:.1f} "
+                      "deviations from the "
+                      "learned ones): each joint is cleaned by itself",
+                      reading.distance));
       return;
     }
     if (!reading.body || reading.strange.empty()) return;

@@ -1,0 +1,123 @@
+// Figures of docs/methods/learned.md: what becomes of clean takes of other worlds: studios, rigs,
+// rates and styles from which no model that ships has learned.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "base/quantiles.hpp"
+#include "compared.hpp"
+#include "kinemend/experimental/convert.hpp"
+#include "page.hpp"
+
+namespace kinemend::papers {
+namespace {
+
+struct Harm {
+  double rms = 0;        ///< over all tracks: degrees, or millimetres of markers
+  double peak_loss = 0;  ///< of the track that loses most, of those faster than 100 degrees/s or
+                         ///< 500 mm/s
+};
+
+Harm harm_of(const Take& take, const Compared& method) {
+  const CleanReport report = clean_take(take, *make_cleaner(method.method, method.options)).report;
+  const double metres = metres_per_unit(take.unit);
+  const double unit = take.has_joints() ? 1 : 1000 * (metres > 0 ? metres : 0.001);
+  const double fast = take.has_joints() ? 100 : 500;
+  Harm harm;
+  for (const TrackSummary& track : report.tracks) {
+    const double change = unit * track.rms_change;
+    harm.rms += change * change / static_cast<double>(report.tracks.size());
+    if (unit * track.peak_speed_before > fast)
+      harm.peak_loss =
+          std::max(harm.peak_loss, 1 - track.peak_speed_after / track.peak_speed_before);
+  }
+  harm.rms = std::sqrt(harm.rms);
+  return harm;
+}
+
+// By world and unit, each take of it.
+using Worlds = std::map<std::pair<std::string, std::string>, std::vector<Take>>;
+
+void add(Worlds& worlds, const std::string& world, Take take) {
+  const std::string unit = take.has_joints() ? "deg" : "mm";
+  worlds[{world, unit}].push_back(std::move(take));
+}
+
+Worlds recorded_worlds(const std::filesystem::path& folder) {
+  Worlds worlds;
+  std::vector<std::filesystem::path> files;
+  if (!std::filesystem::is_directory(folder)) return worlds;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.is_regular_file() && entry.path().extension() != ".md") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  for (const std::filesystem::path& file : files) {
+    try {
+      add(worlds, file.parent_path().filename().string(), read_take(file).take);
+    } catch (const Error& error) {
+      fmt::print("left out: {}\n", error.what());
+    }
+  }
+  return worlds;
+}
+
+Worlds made_worlds() {
+  Worlds worlds;
+  for (const std::string motion : {"walk", "run", "punch"}) {
+    for (const double frame_rate_hz : {30.0, 120.0}) {
+      const Take take =
+          synthesize({.motion = motion, .duration_s = 3, .frame_rate_hz = frame_rate_hz});
+      add(worlds, "made", joint_markers(take));
+      add(worlds, "made", take);
+    }
+  }
+  return worlds;
+}
+
+void experiment(const Arguments& arguments) {
+  Worlds worlds;
+  if (!arguments.quick && !arguments.data.empty())
+    worlds = recorded_worlds(arguments.data / "worlds");
+  if (worlds.empty()) worlds = made_worlds();
+  std::vector<Compared> methods = auto_and_learned;
+  methods.push_back({"learned, model trusted", "learned", {{"trust_model", true}}});
+  Table table(arguments, "any_worlds.csv",
+              "world,unit,method,takes,changed,median,ninety_five,most,peak_loss");
+  std::map<std::pair<std::string, std::string>, std::vector<Harm>> all;
+  const auto write = [&](const std::string& world, const std::string& unit,
+                         const std::string& method, const std::vector<Harm>& harms) {
+    std::vector<double> changes;
+    double changed = 0, loss = 0;
+    for (const Harm& harm : harms) {
+      changes.push_back(harm.rms);
+      changed += harm.rms > 0 ? 1 : 0;
+      loss = std::max(loss, harm.peak_loss);
+    }
+    const double most = *std::max_element(changes.begin(), changes.end());
+    const std::vector<std::string> figures{
+        figure(changed / static_cast<double>(harms.size())), figure(upper_median_of(changes)),
+        figure(quantile_of(changes, 0.95)), figure(most), figure(loss)};
+    table.add({world, unit, quoted(method), fmt::format("{}", harms.size()), figures[0], figures[1],
+               figures[2], figures[3], figures[4]});
+    fmt::print("{:24} {:3} {:22} {:4}  changed {}, median {}, 95 % {}, most {}, peak loss {}\n",
+               world, unit, method, harms.size(), figures[0], figures[1], figures[2], figures[3],
+               figures[4]);
+  };
+  for (const auto& [name, takes] : worlds) {
+    for (const Compared& method : methods) {
+      std::vector<Harm> harms;
+      for (const Take& take : takes) harms.push_back(harm_of(take, method));
+      write(name.first, name.second, method.label, harms);
+      std::vector<Harm>& together = all[{name.second, method.label}];
+      together.insert(together.end(), harms.begin(), harms.end());
+    }
+  }
+  for (const auto& [name, harms] : all) write("all", name.first, name.second, harms);
+  table.close();
+}
+
+const Registration registration("page_any_worlds", experiment);
+
+}  // namespace
+}  // namespace kinemend::papers
