@@ -65,7 +65,8 @@ endfunction()
 function(kinemend_precompiled target)
   list(JOIN ARGN "_" key)
   if(NOT TARGET kinemend_headers_${key})
-    file(WRITE ${PROJECT_BINARY_DIR}/headers_${key}.cpp "// Compiled for its precompiled headers.\n")
+    # Written only where it differs, so that CMake may run again and nothing is compiled again.
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/headers_${key}.cpp CONTENT "// Compiled for its precompiled headers.\n")
     add_library(kinemend_headers_${key} STATIC EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/headers_${key}.cpp)
     target_link_libraries(kinemend_headers_${key} PRIVATE kinemend_settings fmt::fmt ${ARGN})
     target_precompile_headers(kinemend_headers_${key} PRIVATE <fmt/format.h> <algorithm> <array> <cmath> <cstdint> <filesystem>
