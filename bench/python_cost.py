@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Measures what a call from Python costs over the call of C++ that it makes.
 
-  PYTHONPATH=build/ci/python bench/python_cost.py [TAKE]
+  PYTHONPATH=build/release/python bench/python_cost.py [TAKE]
 
 `kinemend.clean` says how long the call of C++ took (`report.figures.seconds`), without the copy of the take that `clean_take(const
 Take&)` makes first. The rest of the wall clock, less the time of such a copy, is the cost. The least of many repetitions is printed,

@@ -1,5 +1,5 @@
 # Bundles web/src into FOLDER/page.js and FOLDER/page.css, with the licences of the packages in front, as they ask for.
-#   cmake -DESBUILD=esbuild -DSOURCE=web -DPACKAGES=node_modules -DFOLDER=build/dev/web -P bundle_page.cmake
+#   cmake -DESBUILD=esbuild -DSOURCE=web -DPACKAGES=node_modules -DFOLDER=build/release/web -P bundle_page.cmake
 execute_process(COMMAND ${CMAKE_COMMAND} -E env NODE_PATH=${PACKAGES}
   ${ESBUILD} ${SOURCE}/src/page.ts --bundle --minify --format=iife --target=es2021 --charset=ascii --legal-comments=inline
     --log-level=warning --outfile=${FOLDER}/page.js

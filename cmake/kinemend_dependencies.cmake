@@ -76,7 +76,7 @@ if(EMSCRIPTEN)
   set_target_properties(kinemend_zlib PROPERTIES UNITY_BUILD OFF)
   target_include_directories(kinemend_zlib SYSTEM PUBLIC ${KINEMEND_ZLIB})
   add_library(ZLIB::ZLIB ALIAS kinemend_zlib)
-elseif(KINEMEND_DEVELOPER)
+elseif(kinemend_with_tests)
   # Tests need GoogleTest compiled for the same standard library.
   find_package(Threads REQUIRED)
   find_package(ZLIB REQUIRED)

@@ -9,23 +9,22 @@ add_library(kinemend_settings INTERFACE)
 target_compile_options(kinemend_settings INTERFACE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>)
 # Eigen orders the sums of a product by the registers and the cache of the processor, which it asks for; these are the same everywhere.
 target_compile_definitions(kinemend_settings INTERFACE EIGEN_NO_CPUID EIGEN_ARCH_DEFAULT_NUMBER_OF_REGISTERS=16)
-if(KINEMEND_DEVELOPER)
-  target_compile_options(kinemend_settings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
-    -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
-  # Of files compiled as one, the names of each are hidden by those of another; the preset `dev` and static analysis look at each alone.
-  if(CMAKE_UNITY_BUILD)
-    target_compile_options(kinemend_settings INTERFACE -Wno-shadow)
-  endif()
+set(kinemend_warnings -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual)
+# In files that are compiled as one, a name of one file often shadows a name of another. Static analysis looks at each file alone.
+if(CMAKE_UNITY_BUILD)
+  list(APPEND kinemend_warnings -Wno-shadow)
 endif()
-# GCC 12 raises false alarms about the strings of its own library (its bug 105651).
-target_compile_options(kinemend_settings INTERFACE
-  "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-stringop-overflow>")
+# A user's compiler may know warnings that ours does not, so only continuous integration treats them as errors.
+if(KINEMEND_WARNINGS_AS_ERRORS)
+  list(APPEND kinemend_warnings -Werror)
+endif()
+target_compile_options(kinemend_settings INTERFACE "$<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:${kinemend_warnings}>")
+# GCC 12 raises false alarms where it inlines `"text" + string` and `string = "text"` (its bug 105651). The library and the program avoid
+# such code where GCC does so; tests and experiments do not.
+set(kinemend_false_alarms "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-array-bounds>")
 # What does little work is compiled in half the time.
 add_library(kinemend_light INTERFACE)
 target_compile_options(kinemend_light INTERFACE $<$<NOT:$<CONFIG:Debug>>:${KINEMEND_LIGHT_LEVEL}>)
-# At -O1 there are more of those false alarms.
-set(kinemend_false_alarms_of_light "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overread>")
-target_compile_options(kinemend_light INTERFACE "${kinemend_false_alarms_of_light}")
 add_library(kinemend_sanitizer INTERFACE)
 if(KINEMEND_SANITIZE)
   # The checks switched off cost a fifth of the time; AddressSanitizer finds what these would.
@@ -66,7 +65,8 @@ endfunction()
 function(kinemend_precompiled target)
   list(JOIN ARGN "_" key)
   if(NOT TARGET kinemend_headers_${key})
-    file(WRITE ${PROJECT_BINARY_DIR}/headers_${key}.cpp "// Compiled for its precompiled headers.\n")
+    # Written only where it differs, so that CMake may run again and nothing is compiled again.
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/headers_${key}.cpp CONTENT "// Compiled for its precompiled headers.\n")
     add_library(kinemend_headers_${key} STATIC EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/headers_${key}.cpp)
     target_link_libraries(kinemend_headers_${key} PRIVATE kinemend_settings fmt::fmt ${ARGN})
     target_precompile_headers(kinemend_headers_${key} PRIVATE <fmt/format.h> <algorithm> <array> <cmath> <cstdint> <filesystem>
@@ -160,8 +160,10 @@ function(kinemend_library)
   endif()
   target_include_directories(kinemend_installed INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(kinemend_installed INTERFACE cxx_std_20)
-  set_target_properties(kinemend_installed PROPERTIES LINKER_LANGUAGE CXX OUTPUT_NAME kinemend EXPORT_NAME kinemend
-    EXCLUDE_FROM_ALL ${KINEMEND_DEVELOPER})
+  set_target_properties(kinemend_installed PROPERTIES LINKER_LANGUAGE CXX OUTPUT_NAME kinemend EXPORT_NAME kinemend)
+  if(KINEMEND_SANITIZE)
+    set_target_properties(kinemend_installed PROPERTIES EXCLUDE_FROM_ALL ON)
+  endif()
   kinemend_install_library("${packages}")
 endfunction()
 

@@ -1,11 +1,12 @@
-# The report page: web/ bundled by esbuild, from npm packages that its lock file names. The bundle is kept in web/dist, so that a build
-# needs neither; with KINEMEND_WEB=ON it is made anew (`make page` copies it to web/dist).
+# The report page. The program embeds the bundle in web/dist, so that no build of it needs Node or esbuild. `make page` makes this bundle
+# anew from web/src: esbuild bundles it with the npm packages that the lock file names. Tests compare the two, and run the page in a
+# browser.
 
 # Installs the packages into the build folder, once for each state of the lock file, and sets ${problem} where that is not possible.
 function(kinemend_web_packages folder problem)
   set(arguments ci --ignore-scripts --prefer-offline)
   # TypeScript and what drives a browser are for tests.
-  if(NOT KINEMEND_DEVELOPER OR KINEMEND_SANITIZE)
+  if(NOT kinemend_with_tests)
     list(APPEND arguments --omit=dev)
   endif()
   set(state "${arguments}")
@@ -33,13 +34,13 @@ function(kinemend_web_packages folder problem)
   endif()
 endfunction()
 
-# The bundle becomes part of a room; where there is none, the program says so when a page is asked for.
-function(kinemend_embed_page room)
+# Bundles the page in the build folder, for tests, `make page` and the app. What the program embeds does not depend on it.
+function(kinemend_bundle_page)
   set(web ${PROJECT_SOURCE_DIR}/web)
-  set(folder ${web}/dist)
-  set(problem "")
+  set(folder ${PROJECT_BINARY_DIR}/web)
   set(made OFF)
-  if(KINEMEND_WEB)
+  if(KINEMEND_WEB STREQUAL "ON" OR (KINEMEND_WEB STREQUAL "AUTO" AND kinemend_with_tests AND kinemend_takes_all_parts))
+    set(problem "")
     find_program(KINEMEND_ESBUILD esbuild)
     find_program(KINEMEND_NPM npm)
     if(NOT KINEMEND_ESBUILD)
@@ -47,12 +48,11 @@ function(kinemend_embed_page room)
     elseif(NOT KINEMEND_NPM)
       set(problem "there is no npm")
     else()
-      kinemend_web_packages(${PROJECT_BINARY_DIR}/web problem)
+      kinemend_web_packages(${folder} problem)
     endif()
     if(problem)
-      kinemend_left_out("bundling of the report page, the one in web/dist is used: ${problem}")
+      kinemend_left_out("bundling of the report page: ${problem}")
     else()
-      set(folder ${PROJECT_BINARY_DIR}/web)
       set(made ON)
     endif()
   endif()
@@ -63,7 +63,14 @@ function(kinemend_embed_page room)
     add_custom_command(OUTPUT ${folder}/page.js ${folder}/page.css
       COMMAND ${CMAKE_COMMAND} -DESBUILD=${KINEMEND_ESBUILD} -DSOURCE=${web} -DPACKAGES=${folder}/node_modules -DFOLDER=${folder} -P ${bundle}
       DEPENDS ${bundle} ${sources} ${folder}/installed.txt COMMENT "Report page" VERBATIM)
+    add_custom_target(kinemend_page ALL DEPENDS ${folder}/page.js ${folder}/page.css)
   endif()
+  set(KINEMEND_WEB_MADE "${made}" CACHE INTERNAL "Whether the page is bundled here, and its packages are installed")
+endfunction()
+
+# The bundle in web/dist becomes part of a room.
+function(kinemend_embed_page room)
+  set(folder ${PROJECT_SOURCE_DIR}/web/dist)
   set(output ${PROJECT_BINARY_DIR}/embedded_page.cpp)
   set(script ${PROJECT_SOURCE_DIR}/cmake/embed_page.cmake)
   # The module for JavaScript is used by pages; it writes none.
@@ -76,5 +83,4 @@ function(kinemend_embed_page room)
     DEPENDS ${script} ${PROJECT_SOURCE_DIR}/cmake/bytes_literal.cmake ${folder}/page.js ${folder}/page.css VERBATIM)
   target_sources(kinemend_${room} PRIVATE ${output})
   set_source_files_properties(${output} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  set(KINEMEND_WEB_MADE "${made}" CACHE INTERNAL "Whether the page is bundled here, and its packages are installed")
 endfunction()

@@ -1,8 +1,8 @@
 // A small network of the method learned by LibTorch: writes tests/fixtures/nn/motion.safetensors,
 // which tests/learned/corrector/motion_network_test.cpp compares with. Built where LibTorch is
 // found:
-//   cmake --build build/dev --target reference_motion_network
-//   build/dev/train/reference_motion_network FILE
+//   cmake --build build/release --target reference_motion_network
+//   build/release/train/reference_motion_network FILE
 #include <fstream>
 #include <iostream>
 

@@ -40,7 +40,7 @@ def _built():
         return pathlib.Path(os.environ["KINEMEND_BUILD"]).resolve() / "python" / "kinemend"
     build = ROOT / "build" / "wheel"
     subprocess.run(["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",
-                    "-DKINEMEND_PYTHON=ON", f"-DPython_EXECUTABLE={sys.executable}"], check=True)
+                    "-DKINEMEND_PYTHON=ON", "-DKINEMEND_TESTS=OFF", "-DKINEMEND_BENCH=OFF", "-DKINEMEND_TRAIN=OFF", f"-DPython_EXECUTABLE={sys.executable}"], check=True)
     subprocess.run(["cmake", "--build", build, "--target", "kinemend_python"], check=True)
     return build / "python" / "kinemend"
 

@@ -14,6 +14,7 @@
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/corrupt.hpp"
 #include "kinemend/experimental/synth.hpp"
+#include "kinemend/experimental/threads.hpp"
 #include "kinemend/experimental/train.hpp"
 #include "kinemend/feet.hpp"
 #include "kinemend/fill.hpp"
@@ -68,6 +69,8 @@ Cost cost_of(const std::function<void()>& action) {
 // `run` does something with takes of so many frames and this rate.
 void expect_cost_by_frames(const std::function<void(std::size_t, double)>& run,
                            const std::vector<std::size_t>& sizes = {few_frames, more_frames}) {
+  // How many threads hold their memory at a time is up to the system.
+  const ThreadLimit one_thread(1);
   for (const std::size_t frames : sizes) {
     run(frames, 120);  // what is made once and kept
 #if !defined(KINEMEND_SANITIZED)

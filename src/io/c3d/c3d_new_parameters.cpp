@@ -118,7 +118,9 @@ class ParameterMaker {
     const double x = std::fabs(v.x), y = std::fabs(v.y), z = std::fabs(v.z);
     const char letter = x >= y && x >= z ? 'X' : y >= z ? 'Y' : 'Z';
     const bool is_negative = (letter == 'X' ? v.x : letter == 'Y' ? v.y : v.z) < 0;
-    return (is_negative ? "-" : has_sign || negative ? "+" : "") + std::string(1, letter);
+    std::string turned = is_negative ? "-" : has_sign || negative ? "+" : "";
+    turned += letter;
+    return turned;
   }
 
   // Which way is up on a screen. Only a source knows; a person is higher than wide.

@@ -206,7 +206,8 @@ class FbxCurvePatcher {
     std::string content;
     for (std::size_t k = 0; k < values.size(); ++k) {
       if (tree_.is_text) {
-        content += (k == 0 ? "" : ",") + float_text(values[k]);
+        if (k > 0) content += ',';
+        content += float_text(values[k]);
       } else {
         append_fbx_float(content, values[k], array.type, tree_.is_big_endian);
       }

@@ -183,7 +183,7 @@ std::string fbx_object_name(const FbxTree& tree, const FbxProperty& property) {
   std::string name(text);
   constexpr std::string_view escaped = "&quot;";
   for (std::size_t at = name.find(escaped); at != name.npos; at = name.find(escaped, at + 1))
-    name.replace(at, escaped.size(), "\"");
+    name.replace(at, escaped.size(), 1, '"');
   return name;
 }
 

@@ -115,8 +115,12 @@ void GltfAdditions::append(std::optional<ByteSpan> array, const Additions& addit
                                               document_.file.name));
   }
   std::string text;
-  for (const std::string& item : additions.items) text += (text.empty() ? "" : ",") + item;
-  if (additions.before > 0) text.insert(0, ",");
+  bool follows_another = additions.before > 0;
+  for (const std::string& item : additions.items) {
+    if (follows_another) text += ',';
+    text += item;
+    follows_another = true;
+  }
   changes_.edits.push_back({{array->begin + array->size - 1, 0}, std::move(text)});
 }
 

@@ -38,7 +38,7 @@ class GltfMarkerDecoder {
     for (const std::size_t node : markers_) names.push_back(model_.nodes[node].name);
     motion_.take =
         make_marker_take(std::move(names), motion_.grid.times.count, motion_.grid.times.rate_hz);
-    motion_.take.unit = "m";
+    motion_.take.unit = std::string("m");
     for (std::size_t m = 0; m < markers_.size(); ++m) {
       add_places(m);
       add_presence(m);

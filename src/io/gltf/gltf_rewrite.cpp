@@ -396,8 +396,10 @@ class GltfRewriter {
       is_same = stated[c].is_number() && stated[c].get<float>() == static_cast<float>(values[c]);
     if (is_same) return;
     std::string array;
-    for (const double value : values)
-      array += (array.empty() ? "[" : ",") + json_of_float(static_cast<float>(value));
+    for (const double value : values) {
+      array += array.empty() ? '[' : ',';
+      array += json_of_float(static_cast<float>(value));
+    }
     changes_.edits.push_back({*place, array + "]"});
   }
 

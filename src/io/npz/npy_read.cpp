@@ -78,7 +78,7 @@ class NpyHead {
       type = quoted().value_or("");
       return !type.empty();
     }
-    type = "?";
+    type = '?';
     for (int depth = 0; at_ < text_.size();) {
       const char c = text_[at_++];
       depth += c == '[' ? 1 : c == ']' ? -1 : 0;

@@ -270,7 +270,10 @@ TEST(GltfRewrite, AChangedTextKeepsItsLayout) {
 class GltfBeside : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder = fs::path(::testing::TempDir()) / "gltf_beside";
+    // Two of these tests may run at a time, in two processes.
+    folder = fs::path(::testing::TempDir()) /
+             (std::string("gltf_beside_") +
+              ::testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::remove_all(folder);
     fs::create_directories(folder / "source");
     fs::create_directories(folder / "output");
