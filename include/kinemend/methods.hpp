@@ -200,8 +200,8 @@ std::unique_ptr<Cleaner> make_recurrent(const RecurrentOptions& options = {},
 struct LearnedOptions {
   std::string model{};  ///< a file made by `kinemend-train learned`; empty: what ships
   std::string map{};    ///< file that maps names in the take to names in the model
-  /// Frame by frame, 0.117 s behind (at most 14 frames): no rules of spikes, no noise that is
-  /// measured first. A take is then cleaned as a stream of its frames would be.
+  /// Frame by frame, 0.117 s behind (at most 14 frames up to 390 Hz): no rules of spikes, no noise
+  /// that is measured first. A take is then cleaned as a stream of its frames would be.
   bool live = false;
   /// Takes out all that the network expects to be wrong. Off: within half a second no more than
   /// twice what the quieter quarter of the take shows, or what the measured noise asks for, so that

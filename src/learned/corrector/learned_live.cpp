@@ -68,8 +68,7 @@ class LivePoses {
       : network_(network),
         slots_(std::move(slots)),
         means_(slots_.size()),
-        follow_(1 - portable::exp(-1 / (memory_s * frame_rate_hz))),
-        least_frames_(static_cast<std::size_t>(std::ceil(least_s * frame_rate_hz))) {}
+        follow_(1 - portable::exp(-1 / (memory_s * frame_rate_hz))) {}
 
   void see(std::span<const float> values, std::span<const std::uint8_t> missing) {
     // The mean of all frames until the memory is full.
@@ -84,7 +83,7 @@ class LivePoses {
       sum += distance * distance;
       count += 1;
     }
-    fit_ = count > 0 && frames_ >= least_frames_ && sum <= most_distance * most_distance * count;
+    fit_ = count > 0 && sum <= most_distance * most_distance * count;
   }
   bool fit() const { return fit_; }
 
@@ -93,13 +92,13 @@ class LivePoses {
   // are one deviation away. The nearest other rig is 1.8 away.
   static constexpr double most_distance = 1.5;
   // Chosen by hand: a pose that is held for a second or two must not count for the whole body.
-  static constexpr double memory_s = 10, least_s = 0.25;
+  static constexpr double memory_s = 10;
 
   const MotionNetwork& network_;
   std::vector<std::int32_t> slots_;
   std::vector<double> means_;
   double follow_;
-  std::size_t least_frames_, frames_ = 0;
+  std::size_t frames_ = 0;
   bool fit_ = false;
 };
 

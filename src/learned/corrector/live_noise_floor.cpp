@@ -17,6 +17,8 @@ constexpr double levels_hz = 8;
 constexpr std::size_t kept_levels = 128;
 // Before that the levels of a stream say too little. Chosen by hand.
 constexpr double shortest_noisy_s = 3;
+// Half of this is the longest spike. Chosen by hand: two frames of 120 Hz.
+constexpr double longest_spike_s = 0.04;
 constexpr double quartile = 0.25;  // by definition
 
 std::size_t frames_of(double seconds, double frame_rate_hz) {
@@ -34,6 +36,8 @@ LiveNoiseFloor::LiveNoiseFloor(double frame_rate_hz, std::vector<std::uint8_t> c
       window_(frames_of(floor_window_s, frame_rate_hz)),
       lag_(frames_of(burst_lag_s, frame_rate_hz)),
       hop_(frames_of(1 / levels_hz, frame_rate_hz)),
+      spike_(std::max<std::size_t>(3, frames_of(longest_spike_s, frame_rate_hz))),
+      last_(spike_ * tracks_),
       removals_(window_ * tracks_ * 3),
       squares_(window_ * tracks_),
       changes_(window_ * tracks_),
@@ -43,6 +47,14 @@ LiveNoiseFloor::LiveNoiseFloor(double frame_rate_hz, std::vector<std::uint8_t> c
       floors_(tracks_),
       quartiles_(tracks_) {
   sorted_.reserve(std::max(window_, kept_levels));
+}
+
+// The median of the last squares: a spike, which the network takes out, is no part of a level.
+double LiveNoiseFloor::middle_of_last(std::size_t track) {
+  sorted_.clear();
+  for (std::size_t i = 0; i < std::min(frames_, spike_); ++i)
+    sorted_.push_back(last_[i * tracks_ + track]);
+  return median_of(sorted_);
 }
 
 // The floor of a track by the levels that are there.
@@ -103,6 +115,8 @@ void LiveNoiseFloor::bound(std::span<const float> samples, bool is_known,
       change += 0.5 * step * step;
       if (samples[c] != first_[c]) moves_[n] = 1;
     }
+    last_[(frames_ - 1) % spike_ * tracks_ + n] = square;
+    square = middle_of_last(n);
     sums_[n] += square - squares_[now * tracks_ + n];
     squares_[now * tracks_ + n] = square;
     changes_[now * tracks_ + n] = change;
@@ -111,9 +125,13 @@ void LiveNoiseFloor::bound(std::span<const float> samples, bool is_known,
   }
   if (is_hop) look_back(is_known, may_be_known);
   if (is_noisy_) return;
+  // Before the first floor a body that the model knows is trusted.
+  const bool has_floors = frames_ >= hop_;
   for (std::size_t n = 0; n < tracks_; ++n) {
-    if (lost_[n] <= floors_[n] || quartiles_[n] > least_burst_share * lost_[n] * lost_[n]) continue;
-    const auto left = static_cast<float>(floors_[n] / lost_[n]);
+    if (!has_floors && is_known && may_be_known[n] != 0) continue;
+    if (floors_[n] > 0 && lost_[n] <= floors_[n]) continue;
+    if (quartiles_[n] > least_burst_share * lost_[n] * lost_[n]) continue;
+    const auto left = floors_[n] > 0 ? static_cast<float>(floors_[n] / lost_[n]) : 0.0F;
     for (std::size_t c = 3 * n; c < 3 * n + 3; ++c)
       cleaned[c] = samples[c] + left * (cleaned[c] - samples[c]);
   }

@@ -28,15 +28,17 @@ class LiveNoiseFloor {
  private:
   void look_back(bool is_known, std::span<const std::uint8_t> may_be_known);
   bool has_floor(std::size_t track, double& floor);
+  double middle_of_last(std::size_t track);
 
   double frame_rate_hz_;
   std::vector<std::uint8_t> counts_, moves_;
   bool is_noisy_ = false;
   std::vector<float> first_;  // tracks x 3: the first samples
-  std::size_t tracks_, window_, lag_, hop_;
+  std::size_t tracks_, window_, lag_, hop_, spike_;
+  std::vector<double> last_;  // spike_ x tracks: squared lengths of removals
   std::size_t frames_ = 0;
   std::vector<float> removals_;    // window x tracks x 3, a ring
-  std::vector<double> squares_;    // window x tracks: of their lengths
+  std::vector<double> squares_;    // window x tracks: medians of those
   std::vector<double> changes_;    // window x tracks: half their squared changes
   std::vector<double> sums_;       // tracks: of `squares_`
   std::vector<double> lost_;       // tracks: root mean squares of the window

@@ -57,10 +57,10 @@ inline constexpr std::size_t fewest_noisy_tracks = 6;
 ///   noise;
 /// - everything, where it is a burst of white noise.
 ///
-/// `is_known`, `is_stepped`: one a track, 1 where the model knows its joint and where it is stepped.
-/// A stepped track has neither floor nor bursts, and makes no take noisy unless noise is measured in
-/// it. Deviations stay. Returns for each
-/// track the root mean square of what was put back, per axis, degrees.
+/// `is_known`, `is_stepped`: one a track, 1 where the model knows its joint and where it is
+/// stepped. A stepped track has neither floor nor bursts, and makes no take noisy unless noise is
+/// measured in it. Deviations stay. Returns for each track the root mean square of what was put
+/// back, per axis, degrees.
 std::vector<double> keep_to_noise_floor(const MotionTake& take,
                                         std::span<const std::uint8_t> is_known,
                                         std::span<const std::uint8_t> is_stepped,
