@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/parallel.hpp"
 #include "base/quantiles.hpp"
@@ -136,7 +137,7 @@ std::vector<double> of_measured_frames(const MotionTake& take, const std::vector
   return measured;
 }
 
-// Whether the measurement finds anything in a track.
+// Whether the smoothing by the measured noise changes a track.
 bool is_measured(const MotionTake& take, std::size_t track) {
   return !take.measured.empty() && differs(take, take.measured, track);
 }
@@ -170,7 +171,7 @@ bool is_noisy_take(const MotionTake& take, std::span<const std::uint8_t> is_step
   return all >= static_cast<double>(fewest_noisy_tracks) && with_floor >= least_noisy_share * all;
 }
 
-// Whether it finds noise that is no fast move.
+// Whether the measurement finds noise that is no fast move.
 bool has_measured_noise(const MotionTake& take, bool is_known, std::size_t track) {
   if (!is_measured(take, track)) return false;
   return is_known || is_long(take) || take.frame_rate_hz >= lowest_burst_rate_hz ||
@@ -191,13 +192,14 @@ double bound_track(const MotionTake& take, bool is_known, bool is_stepped, std::
     std::vector<double> all = of_measured_frames(take, lost, track);
     floor = most_floors * quantile_of(all, floor_share);
   }
-  Bursts bursts(take, result.values, track, reach);
+  std::optional<Bursts> bursts;
   // Steps are as quick as noise.
-  const bool may_burst = take.frame_rate_hz >= lowest_burst_rate_hz && !is_stepped;
+  if (take.frame_rate_hz >= lowest_burst_rate_hz && !is_stepped)
+    bursts.emplace(take, result.values, track, reach);
   double put_back = 0;
   for (std::size_t f = 0; f < frames; ++f) {
     const double most = std::max(floor, asked[f]);
-    if (lost[f] <= most || (may_burst && bursts.is_within(f, lost[f]))) continue;
+    if (lost[f] <= most || (bursts && bursts->is_within(f, lost[f]))) continue;
     const double left = most / lost[f];
     put_back += (1 - left) * (1 - left) * squares[f];
     const std::size_t first = f * take.channels + 3 * track;
