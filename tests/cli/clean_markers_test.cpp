@@ -23,7 +23,7 @@ TEST_F(CleanMarkers, WritesTheTakeInItsOwnFormatAndTellsInItsUnit) {
   EXPECT_THAT(ran.out, StartsWith("plate.trc: noisy: "));
   EXPECT_THAT(
       ran.out,
-      HasSubstr(" mm jitter on 4 markers, 1 spike, 1 gap left; written to plate.clean.trc"));
+      HasSubstr(" mm jitter on 3 markers, 1 spike, 1 gap left; written to plate.clean.trc"));
   EXPECT_THAT(ran.out, HasSubstr("change rms mm"));
   EXPECT_THAT(contents(folder / "plate.clean.trc"), StartsWith("PathFileType\t4\t(X/Y/Z)"));
 }

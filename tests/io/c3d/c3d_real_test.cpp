@@ -71,6 +71,7 @@ TEST(RealC3d, OnlyTheKnownFilesAreRepaired) {
       {"kinematics_racing_probing_radial_styloid_R.c3d", "value_not_finite"},
       {"kinematics_racing_propulsion.c3d", "value_not_finite"},
       {"kinematics_racing_static.c3d", "value_not_finite"},
+      {"Optotrak.c3d", "frames_missing"},
   };
   for (const fs::path& path : real_files()) {
     if (path.filename() == "Empty.c3d") continue;
@@ -212,9 +213,6 @@ TEST(RealC3d, ChangedTakesReadBack) {
     SCOPED_TRACE(path);
     Take clip = read_real(path);
     const C3dLayout layout = document_of(clip).layout;
-    const bool in_range = std::all_of(clip.positions.begin(), clip.positions.end(), [&](Vec3 p) {
-      return norm(p) < 32000 * layout.scale || layout.is_float;
-    });
     for (std::size_t i = 0; i < clip.positions.size(); ++i) {
       if (clip.observed[i] != 0) {
         clip.positions[i] = clip.positions[i] + Vec3{0.5, -0.25, 0.125};
@@ -224,6 +222,11 @@ TEST(RealC3d, ChangedTakesReadBack) {
         clip.residuals[i] = 0;
       }
     }
+    const auto is_whole = [&](Vec3 p) {
+      constexpr double most_steps = 32767;
+      return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= most_steps * layout.scale;
+    };
+    const bool in_range = std::all_of(clip.positions.begin(), clip.positions.end(), is_whole);
     const Take again = read_c3d_bytes(write_take(clip, "c3d")).clip;
     EXPECT_EQ(document_of(again).layout.is_float, layout.is_float || !in_range);
     expect_same_samples(clip, again, layout.is_float ? 1e-2 : 0.9 * layout.scale);
