@@ -1,6 +1,9 @@
 # Decides which parts are built besides the program and the library. None of them changes how the program and the library are
 # compiled, so a package that is installed later costs only the compile of its own part.
 
+# LibTorch's package looks for glog under two names; without this CMake warns whoever configures.
+set(FPHSA_NAME_MISMATCHED ON)
+
 # kinemend_optional(<variable> <option> <part> <arguments of find_package>...)
 # Sets the variable to ON where the option asks for the part: ON requires the package, AUTO takes the part if the package is found.
 # A macro, so that the variables of the package reach the caller.

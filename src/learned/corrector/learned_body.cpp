@@ -29,8 +29,8 @@ bool is_tame(const BodyChannels& body, std::size_t part) {
   return true;
 }
 
-// Of each part: the mean over its axes of the squared distance, in deviations, of its mean pose
-// from the one that the network has learned.
+// Gives for each part the mean over its axes of the squared distance, in deviations, of its mean
+// pose from the one that the network has learned.
 std::vector<double> squared_distances(const KnownBody& body, const BodyLayout& layout,
                                       const MotionNetwork& network) {
   const PoseMatrix& poses = body.channels.poses;

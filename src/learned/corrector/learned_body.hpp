@@ -37,7 +37,7 @@ struct KnownBody {
   std::vector<std::int32_t> track_of;  ///< N and the place: the track among those cleaned, or -1
 };
 
-/// What the model makes of the joints of a take.
+/// The joints of a take as the model sees them.
 struct BodyReading {
   std::optional<KnownBody> body;  ///< nothing where the model knows too little of the take
   double distance = 0;            ///< of its poses, where joints were found by name; see above

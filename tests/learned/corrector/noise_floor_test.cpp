@@ -1,4 +1,4 @@
-// What the bound by the noise floor leaves of removals, offline and live.
+// Tests of the bound by the noise floor, offline and live.
 #include "learned/corrector/noise_floor.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace kinemend {
 namespace {
 
-// Of a frame and a track, taken out of each axis, degrees.
+// Degrees that are taken out of each axis, by frame and track.
 using Removal = std::function<double(std::size_t frame, std::size_t track)>;
 
 struct Case {
