@@ -101,8 +101,7 @@ Harm harm_of(const Take& take, const Cleaner& cleaner) {
   return harm;
 }
 
-// Of takes of one rate. What `auto` measures to be noise, as in runs with few keys, may go, and
-// half as much again.
+// Whatever `auto` measures to be noise, as in runs with few keys, may go, and half as much again.
 void expect_little_harm(const Take& take, const Harm& harm, double most_rms,
                         const std::string& what) {
   constexpr double most_peak_loss = 0.1, more_than_measured = 1.5;

@@ -21,7 +21,8 @@ inline constexpr double floor_window_s = 0.5;
 /// The share of the windows of a track that are quieter than its floor. A tenth keeps less of what
 /// video systems make and protects no take more; a half lets gestures lose 1.7 degrees.
 inline constexpr double floor_share = 0.25;
-/// The most that a moment may lose, in floors of its track. Three lets fast markers lose half as much again.
+/// The most that a moment may lose, in floors of its track. Three lets fast markers lose half as
+/// much again.
 inline constexpr double most_floors = 2;
 /// The shortest take, of those that are not noisy as a whole, in which slow noise shows a floor on
 /// tracks that neither the model knows nor the measurement finds noisy, seconds: a dash of three
