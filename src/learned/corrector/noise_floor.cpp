@@ -53,7 +53,7 @@ class Bursts {
  public:
   Bursts(const MotionTake& take, const std::vector<float>& values, std::size_t track,
          std::size_t reach)
-      : take_(take), reach_(reach) {
+      : reach_(reach) {
     const auto lag = std::max<std::size_t>(
         1, static_cast<std::size_t>(std::lround(burst_lag_s * take.frame_rate_hz)));
     for (std::size_t f = lag; f < take.frames; ++f) {
@@ -93,7 +93,6 @@ class Bursts {
     return quantile_of(window_, quartile);
   }
 
-  const MotionTake& take_;
   std::size_t reach_;
   std::vector<std::size_t> frames_;
   std::vector<double> changes_, window_;
