@@ -60,6 +60,12 @@ torch::Tensor slope_of(const torch::Tensor& x) {
   return (behind - before) / 8;
 }
 
+// How a sequence changes from one step to the next.
+torch::Tensor step_changes(const torch::Tensor& x) {
+  const std::int64_t n = x.size(2);
+  return x.narrow(2, 1, n - 1) - x.narrow(2, 0, n - 1);
+}
+
 }  // namespace
 
 struct MotionDescent::Body {
@@ -84,8 +90,11 @@ struct MotionDescent::Body {
     const torch::Tensor of_track = (h.view({b, c / 3, 3, n, encoded}).sum(2, true) / per_track)
                                        .expand({b, c / 3, 3, n, encoded})
                                        .reshape({b, c, n, encoded});
-    const torch::Tensor pose = ((in.levels.select(3, 3) - mean) / deviation) * known.squeeze(3);
-    const torch::Tensor pace = (in.changes.select(3, 4) / speed).clamp(-6, 6) * known.squeeze(3);
+    const torch::Tensor pose =
+        ((in.levels.select(3, 3) - mean) / deviation).clamp(-most_pose, most_pose) *
+        known.squeeze(3);
+    const torch::Tensor pace =
+        (in.changes.select(3, 4) / speed).clamp(-most_pace, most_pace) * known.squeeze(3);
     const torch::Tensor body =
         torch::cat({call.drop((h * known).transpose(1, 2).reshape({b, n, c * encoded})),
                     pose.transpose(1, 2), pace.transpose(1, 2)},
@@ -199,10 +208,13 @@ double MotionDescent::step(const MotionBatch& batch, const MotionLoss& loss, dou
     const auto size = [&](const torch::Tensor& x) { return Body::size_of(x, in).mean(1); };
     const torch::Tensor damage = size(in.levels.select(3, 0) - in.truth);
     const torch::Tensor change_damage = size(in.changes.select(3, 0) - in.truth_changes);
-    const torch::Tensor error = values - in.truth;
+    const torch::Tensor error = values - in.truth, change_error = changes - in.truth_changes;
+    const torch::Tensor bend_damage =
+        size(step_changes(in.changes.select(3, 0) - in.truth_changes));
     const torch::Tensor share =
         (size(error) / (damage + loss.floor_deg) +
-         loss.velocity * size(changes - in.truth_changes) / (change_damage + loss.floor_change_deg))
+         loss.velocity * size(change_error) / (change_damage + loss.floor_change_deg) +
+         loss.acceleration * size(step_changes(change_error)) / (bend_damage + loss.floor_bend_deg))
             .sum() /
         whole(batch.samples);
     const torch::Tensor log_variance = outputs.select(3, whole(motion_outputs) - 1).clamp(-12, 8);
@@ -240,7 +252,30 @@ double MotionDescent::share_left(const MotionBatch& batch, const MotionLoss& los
 }
 
 Weights MotionDescent::averages() const { return body_->descent.averages(); }
-void MotionDescent::begin_with(const Weights& tensors) { body_->descent.begin_with(tensors); }
+void MotionDescent::begin_with(const Weights& tensors) {
+  Weights fitting = tensors;
+  for (const auto& [name, own] : body_->descent.weights) {
+    const auto found = fitting.find(name);
+    if (found == fitting.end() && name.starts_with("block")) {
+      Tensor fresh = tensor_of(own);
+      if (name.find(".dense.") != std::string::npos)
+        std::fill(fresh.values.begin(), fresh.values.end(), 0.0);
+      fitting.emplace(name, std::move(fresh));
+      continue;
+    }
+    if (found == fitting.end() || own.dim() != 2 || found->second.shape.size() != 2) continue;
+    const auto inputs = static_cast<std::size_t>(own.size(1)), had = found->second.shape[1];
+    if (had >= inputs) continue;
+    Tensor widened{found->second.stored, {found->second.shape[0], inputs}, {}};
+    for (std::size_t row = 0; row < widened.shape[0]; ++row) {
+      const auto from = found->second.values.begin() + static_cast<std::ptrdiff_t>(row * had);
+      widened.values.insert(widened.values.end(), from, from + static_cast<std::ptrdiff_t>(had));
+      widened.values.insert(widened.values.end(), inputs - had, 0.0);
+    }
+    found->second = std::move(widened);
+  }
+  body_->descent.begin_with(fitting);
+}
 TensorFile MotionDescent::state() const { return body_->descent.state(); }
 void MotionDescent::set_state(const TensorFile& state) { body_->descent.set_state(state); }
 

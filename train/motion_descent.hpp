@@ -15,7 +15,7 @@ namespace kinemend::train {
 struct MotionShape {
   std::size_t slots = 0;  ///< D, channels of the body
   std::size_t encoded = 24, slot_units = 16, hidden = 192, head = 64;
-  std::vector<std::size_t> dilations{1, 2, 4, 8, 1, 2};
+  std::vector<std::size_t> dilations{1, 2, 4, 8, 1, 2, 16};
   std::size_t second_dilation = 2;  ///< of the encoder's second layer
   bool has_trunk = true;            ///< without one no channel sees another
 };
@@ -32,10 +32,12 @@ struct MotionBatch {
 
 /// How errors count.
 struct MotionLoss {
-  double velocity = 1;                               ///< of changes, beside that of values
-  double likelihood = 0.02;                          ///< of the expected variance
-  double floor_deg = 0.15, floor_change_deg = 0.02;  ///< added to the damage that errors are
-                                                     ///< measured by
+  double velocity = 1;         ///< of changes, beside that of values
+  double acceleration = 0.25;  ///< of changes of changes
+  double likelihood = 0.02;    ///< of the expected variance
+  /// Added to the damage that errors are measured by: of values, of changes in 1/120 s, and of how
+  /// these change from step to step.
+  double floor_deg = 0.15, floor_change_deg = 0.02, floor_bend_deg = 0.02;
 };
 
 class MotionDescent {
@@ -53,7 +55,7 @@ class MotionDescent {
   /// Of values alone, share of the damage, by the running means.
   double share_left(const MotionBatch& batch, const MotionLoss& loss) const;
   Weights averages() const;
-  /// As of `Descent`.
+  /// As of `MotionTrainer`.
   void begin_with(const Weights& tensors);
   TensorFile state() const;
   void set_state(const TensorFile& state);

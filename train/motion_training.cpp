@@ -50,7 +50,7 @@ ReadSample read_whole(const MotionTake& take, std::size_t steps) {
 }
 
 ReadSample read_live(const MotionTake& take, std::size_t steps) {
-  LiveMotionSteps live(take.frame_rate_hz, take.is_position);
+  LiveMotionSteps live(take.frame_rate_hz, take.is_position, take.expects_slow_noise);
   ReadSample read;
   read.steps.resize(take.channels, steps);
   read.steps.take_features.resize(take.channels * steps * motion_take_features);
@@ -119,10 +119,12 @@ MotionBatch batch_of(const std::vector<MotionSample>& samples, std::size_t steps
 }
 
 MotionTrainer::MotionTrainer(const TrainingSequences& sequences, std::vector<MotionPair> pairs,
-                             std::vector<MarkerMotion> markers, const MotionTraining& settings)
+                             std::vector<MarkerMotion> markers, std::vector<RigMotion> rigs,
+                             const MotionTraining& settings)
     : sequences_(sequences),
       pairs_(std::move(pairs)),
       markers_(std::move(markers)),
+      rigs_(std::move(rigs)),
       settings_(settings),
       statistics_(motion_statistics(sequences)),
       mirror_(mirror_of(sequences.layout)),
@@ -135,7 +137,7 @@ MotionBatch MotionTrainer::drawn(std::size_t batch) const {
   std::vector<MotionSample> samples;
   const Random random = Random(settings_.seed).fork(batch);
   for (std::size_t i = 0; i < settings_.batch; ++i)
-    samples.push_back(random_motion_sample({sequences_, mirror_, pairs_, markers_},
+    samples.push_back(random_motion_sample({sequences_, mirror_, pairs_, markers_, rigs_},
                                            settings_.sampling, random.fork(i)));
   return batch_of(samples, settings_.sampling.steps);
 }

@@ -33,7 +33,8 @@ MotionBatch batch_of(const std::vector<MotionSample>& samples, std::size_t steps
 class MotionTrainer {
  public:
   MotionTrainer(const TrainingSequences& sequences, std::vector<MotionPair> pairs,
-                std::vector<MarkerMotion> markers, const MotionTraining& settings);
+                std::vector<MarkerMotion> markers, std::vector<RigMotion> rigs,
+                const MotionTraining& settings);
   ~MotionTrainer();
 
   std::size_t batch() const noexcept { return batch_; }
@@ -47,8 +48,8 @@ class MotionTrainer {
   std::vector<float> outputs(const MotionBatch& batch) const { return descent_.outputs(batch); }
   /// The model as it is now. Card, takes and seconds are the caller's.
   Model model() const;
-  /// Begins with the weights of a model of the same shape. Errors: `ErrorKind::unreadable_input`
-  /// where it has another.
+  /// Begins with the weights of a model; inputs that it lacks count for nothing, and blocks that it
+  /// lacks add nothing. Errors: `ErrorKind::unreadable_input` where its shape is another otherwise.
   void begin_with(const Model& model) { descent_.begin_with(model.tensors); }
   std::string checkpoint() const;
   void resume(std::string_view bytes, std::string_view name);
@@ -59,6 +60,7 @@ class MotionTrainer {
   const TrainingSequences& sequences_;
   std::vector<MotionPair> pairs_;
   std::vector<MarkerMotion> markers_;
+  std::vector<RigMotion> rigs_;
   MotionTraining settings_;
   MotionStatistics statistics_;
   BodyMirror mirror_;

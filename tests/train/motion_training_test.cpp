@@ -31,9 +31,9 @@ MotionTraining tiny_motion_training() {
 }
 
 TEST(MotionTraining, GoesOnFromACheckpointToTheSameResult) {
-  MotionTrainer whole(walks_to_clean(), {}, {}, tiny_motion_training()),
-      first(walks_to_clean(), {}, {}, tiny_motion_training()),
-      second(walks_to_clean(), {}, {}, tiny_motion_training());
+  MotionTrainer whole(walks_to_clean(), {}, {}, {}, tiny_motion_training()),
+      first(walks_to_clean(), {}, {}, {}, tiny_motion_training()),
+      second(walks_to_clean(), {}, {}, {}, tiny_motion_training());
   for (int i = 0; i < 8; ++i) whole.step();
   for (int i = 0; i < 5; ++i) first.step();
   second.resume(first.checkpoint(), "checkpoint");
@@ -46,8 +46,8 @@ TEST(MotionTraining, GoesOnFromACheckpointToTheSameResult) {
 TEST(MotionTraining, DependsOnItsSeed) {
   MotionTraining other = tiny_motion_training();
   other.seed = 2;
-  MotionTrainer a(walks_to_clean(), {}, {}, tiny_motion_training()),
-      b(walks_to_clean(), {}, {}, other);
+  MotionTrainer a(walks_to_clean(), {}, {}, {}, tiny_motion_training()),
+      b(walks_to_clean(), {}, {}, {}, other);
   a.step(), b.step();
   EXPECT_NE(write_model(a.model()), write_model(b.model()));
   EXPECT_THROW(b.resume(a.checkpoint(), "checkpoint"), Error);
@@ -55,23 +55,23 @@ TEST(MotionTraining, DependsOnItsSeed) {
 }
 
 TEST(MotionTraining, BeginsWithAModel) {
-  MotionTrainer trained(walks_to_clean(), {}, {}, tiny_motion_training());
+  MotionTrainer trained(walks_to_clean(), {}, {}, {}, tiny_motion_training());
   for (int i = 0; i < 3; ++i) trained.step();
   MotionTraining other = tiny_motion_training();
   other.seed = 2;
-  MotionTrainer next(walks_to_clean(), {}, {}, other);
+  MotionTrainer next(walks_to_clean(), {}, {}, {}, other);
   next.begin_with(trained.model());
   EXPECT_EQ(write_model(next.model()), write_model(trained.model()));
   MotionTraining wider = other;
   wider.shape.hidden = 16;
-  EXPECT_THROW(MotionTrainer(walks_to_clean(), {}, {}, wider).begin_with(trained.model()), Error);
+  EXPECT_THROW(MotionTrainer(walks_to_clean(), {}, {}, {}, wider).begin_with(trained.model()), Error);
 }
 
 TEST(MotionTraining, LearnsToTakeNoiseOut) {
   MotionTraining training = tiny_motion_training();
   training.batches = 80;
   training.rate = 5e-3;
-  MotionTrainer trainer(walks_to_clean(), {}, {}, training);
+  MotionTrainer trainer(walks_to_clean(), {}, {}, {}, training);
   MotionSampling sampling = training.sampling;
   sampling.clean_share = 0;
   const double before = trainer.share_left({walks_to_clean(), trainer.mirror()}, sampling, 8, 5);
@@ -81,7 +81,7 @@ TEST(MotionTraining, LearnsToTakeNoiseOut) {
 }
 
 TEST(MotionTraining, MakesAModelThatTheLibraryReads) {
-  MotionTrainer trainer(walks_to_clean(), {}, {}, tiny_motion_training());
+  MotionTrainer trainer(walks_to_clean(), {}, {}, {}, tiny_motion_training());
   trainer.step();
   const Model model = parse_model(write_model(trainer.model()), "model");
   const MotionNetwork network = motion_network_of(model);

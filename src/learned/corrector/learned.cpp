@@ -72,15 +72,14 @@ class Learned final : public Cleaner {
     progress.begin_part(0.3, 1);
     MotionTracks tracks = motion_tracks_of(view, changeable_tracks(view));
     if (tracks.numbers.empty()) return trace;
-    BodyReading reading = read_body(model_->layout, network_, names_, view, tracks);
-    std::optional<KnownBody>& body = reading.body;
+    tracks.take.expects_slow_noise = options_.trust_model;
+    std::optional<KnownBody> body = read_body(model_->layout, names_, view, tracks);
     if (body) show_body(*body, tracks.take);
     progress.step();
     progress.begin_part(1, 1);
     add_measured_smoothing(tracks.take);
     MotionResult result = filtered(network_, tracks.take);
     join_measured(tracks.take, result);
-    note_strange_poses(view, reading, trace);
     if (!options_.trust_model) {
       const std::vector<double> put_back =
           keep_to_noise_floor(tracks.take, marks_of(body, tracks.numbers.size()),
@@ -125,27 +124,6 @@ class Learned final : public Cleaner {
     }
     if (!fall_back.tracks.empty()) trace.fall_backs.push_back(std::move(fall_back));
     return trace;
-  }
-
-  // Joints that the model knows by name and whose poses are of another rig.
-  static void note_strange_poses(const TakeView& view, const BodyReading& reading,
-                                 CleanTrace& trace) {
-    if (reading.distance > most_pose_distance) {
-      trace.notes.push_back(
-          fmt::format("joint names are known, but the poses are those of another rig ({:.1f} "
-                      "deviations from the "
-                      "learned ones): each joint is cleaned by itself",
-                      reading.distance));
-      return;
-    }
-    if (!reading.body || reading.strange.empty()) return;
-    std::vector<std::string> names;
-    for (const std::size_t number : reading.strange)
-      names.push_back(view.joints->skeleton.names[number]);
-    trace.notes.push_back(fmt::format("{} {} poses of another rig and {} cleaned by {}",
-                                      fmt::join(names, ", "), names.size() == 1 ? "has" : "have",
-                                      names.size() == 1 ? "is" : "are",
-                                      names.size() == 1 ? "itself" : "themselves"));
   }
 
   // Slow noise that the model expects and the take does not show, of the middle one of the tracks

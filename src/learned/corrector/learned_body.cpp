@@ -29,25 +29,6 @@ bool is_tame(const BodyChannels& body, std::size_t part) {
   return true;
 }
 
-// Gives for each part the mean over its axes of the squared distance, in deviations, of its mean
-// pose from the one that the network has learned.
-std::vector<double> squared_distances(const KnownBody& body, const BodyLayout& layout,
-                                      const MotionNetwork& network) {
-  const PoseMatrix& poses = body.channels.poses;
-  std::vector<double> squares(layout.track_count());
-  for (std::size_t part = 0; part < squares.size(); ++part) {
-    for (std::size_t c = 3 * part; c < 3 * part + 3; ++c) {
-      double mean = 0;
-      for (std::size_t f = 0; f < poses.frames; ++f) mean += poses(f, c);
-      mean /= static_cast<double>(poses.frames);
-      const double distance =
-          (mean - static_cast<double>(network.mean[c])) / static_cast<double>(network.deviation[c]);
-      squares[part] += distance * distance / 3;
-    }
-  }
-  return squares;
-}
-
 void see_everywhere(const MotionTracks& tracks, Take& clip) {
   const std::size_t joints = clip.joint_count(), positions = 1 + clip.translated_joints.size();
   for (const std::size_t number : tracks.numbers) {
@@ -71,16 +52,15 @@ std::string why_not_learned(const TakeView& view) {
   return {};
 }
 
-BodyReading read_body(const BodyLayout& layout, const MotionNetwork& network, const NameMap& names,
-                      const TakeView& view, const MotionTracks& tracks) {
-  BodyReading reading;
-  if (view.joints == nullptr || layout.kind != BodyKind::joints) return reading;
+std::optional<KnownBody> read_body(const BodyLayout& layout, const NameMap& names,
+                                   const TakeView& view, const MotionTracks& tracks) {
+  if (view.joints == nullptr || layout.kind != BodyKind::joints) return std::nullopt;
   KnownBody body;
   try {
     body.match = match_body(layout, *view.joints, names);
   } catch (const Error&) {
     if (!names.empty()) throw;
-    return reading;
+    return std::nullopt;
   }
   body.clip = *view.joints;
   for (std::size_t n = 0; n < tracks.numbers.size(); ++n) {
@@ -95,34 +75,25 @@ BodyReading read_body(const BodyLayout& layout, const MotionNetwork& network, co
   // has learned from bridges.
   see_everywhere(tracks, body.clip);
   body.channels = encode_body(body.clip, layout, body.match);
+  body.calibration = calibration_of(body.channels.poses, layout);
+  body.channels.poses =
+      calibrated(body.channels.poses, body.channels.frame_rate_hz, layout, body.calibration);
   body.track_of.assign(body.channels.poses.channels / 3, -1);
-  // Joints that stand still count too: they say which rig it is.
-  const std::vector<double> squares = squared_distances(body, layout, network);
-  double sum = 0, count = 0;
   // The place stays what any position is: in the body's frame it would depend on how that turns.
   std::size_t wild = 0, tame = 0;
   for (std::size_t part = 0; part < layout.track_count(); ++part) {
     if (body.match.tracks[part] < 0) continue;
-    sum += squares[part];
-    count += 1;
     const auto number = static_cast<std::size_t>(body.match.tracks[part]);
     const auto found = std::find(tracks.numbers.begin(), tracks.numbers.end(), number);
     if (found == tracks.numbers.end()) continue;
     const bool fits = is_tame(body.channels, part);
     ++(fits ? tame : wild);
-    if (!fits) continue;
-    if (squares[part] > most_joint_distance * most_joint_distance) {
-      reading.strange.push_back(number);
-      continue;
-    }
-    body.track_of[part] = static_cast<std::int32_t>(found - tracks.numbers.begin());
+    if (fits) body.track_of[part] = static_cast<std::int32_t>(found - tracks.numbers.begin());
   }
-  reading.distance = std::sqrt(sum / std::max(1.0, count));
   // Half of a body misleads the network more than none. Chosen by hand, not swept.
   constexpr double most_wild = 0.2;
-  const bool is_wild = static_cast<double>(wild) > most_wild * static_cast<double>(wild + tame);
-  if (!is_wild && reading.distance <= most_pose_distance) reading.body = std::move(body);
-  return reading;
+  if (static_cast<double>(wild) > most_wild * static_cast<double>(wild + tame)) return std::nullopt;
+  return body;
 }
 
 std::vector<std::uint8_t> marks_of(const std::optional<KnownBody>& body, std::size_t tracks) {
@@ -159,6 +130,8 @@ void decode_known_body(KnownBody& body, const BodyLayout& layout, const MotionTa
             static_cast<double>(values[f * take.channels + 3 * static_cast<std::size_t>(n) + axis]);
     }
   }
+  body.channels.poses =
+      uncalibrated(body.channels.poses, body.channels.frame_rate_hz, layout, body.calibration);
   decode_body(body.channels, layout, body.match, body.clip, chosen);
 }
 

@@ -139,7 +139,7 @@ class LearnedLive final : public LiveFilter {
     result_.resize(slots.size());
     missing_.resize(slots.size());
     filter_ = std::make_unique<LiveMotionFilter>(network, like.frame_rate_hz, slots,
-                                                 std::move(is_position));
+                                                 std::move(is_position), trusts_model);
     std::vector<std::uint8_t> counts;
     for (const StreamedTrack& track : tracks_) {
       of_body_.push_back(track.known ? 1 : 0);

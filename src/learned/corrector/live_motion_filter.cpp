@@ -8,9 +8,9 @@ namespace kinemend {
 
 LiveMotionFilter::LiveMotionFilter(const MotionNetwork& network, double frame_rate_hz,
                                    const std::vector<std::int32_t>& slots,
-                                   std::vector<std::uint8_t> is_position)
+                                   std::vector<std::uint8_t> is_position, bool expects_slow_noise)
     : frame_rate_hz_(frame_rate_hz),
-      steps_(frame_rate_hz, std::move(is_position)),
+      steps_(frame_rate_hz, std::move(is_position), expects_slow_noise),
       network_(network, slots),
       levels_(bank_levels * slots.size()) {}
 

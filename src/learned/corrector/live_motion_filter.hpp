@@ -18,7 +18,8 @@ class LiveMotionFilter {
  public:
   /// `network`: a `live_form`, which outlives this.
   LiveMotionFilter(const MotionNetwork& network, double frame_rate_hz,
-                   const std::vector<std::int32_t>& slots, std::vector<std::uint8_t> is_position);
+                   const std::vector<std::int32_t>& slots, std::vector<std::uint8_t> is_position,
+                   bool expects_slow_noise);
 
   std::size_t ahead() const noexcept { return steps_.ahead(); }
   /// As of `LiveMotionSteps::push`. True when `out` (C) holds the next frame.

@@ -28,9 +28,11 @@ std::size_t live_motion_ahead(double frame_rate_hz) {
   return std::max(std::min(wanted, most_ahead), frames_to_next_step(frame_rate_hz) + 1);
 }
 
-LiveMotionSteps::LiveMotionSteps(double frame_rate_hz, std::vector<std::uint8_t> is_position)
+LiveMotionSteps::LiveMotionSteps(double frame_rate_hz, std::vector<std::uint8_t> is_position,
+                                 bool expects_slow_noise)
     : frame_rate_hz_(frame_rate_hz),
       is_position_(std::move(is_position)),
+      expects_slow_noise_(expects_slow_noise),
       bank_(frame_rate_hz),
       hats_(frame_rate_hz),
       ahead_(live_motion_ahead(frame_rate_hz)),
@@ -154,7 +156,7 @@ void LiveMotionSteps::keep_strengths(std::ptrdiff_t row) {
   for (std::size_t c = 0; c < channels(); ++c)
     slowest[c] = block_.level_at(bank_levels - 1, row, c) - origins_[c];
   sums_.add(own, slowest, 1);
-  sums_.strengths(is_position_, strengths_);
+  sums_.strengths(is_position_, expects_slow_noise_, strengths_);
 }
 
 bool LiveMotionSteps::next_step(MotionSteps& step) {

@@ -22,7 +22,9 @@ std::size_t live_motion_ahead(double frame_rate_hz);
 /// between the two as far as it has not come out.
 class LiveMotionSteps {
  public:
-  LiveMotionSteps(double frame_rate_hz, std::vector<std::uint8_t> is_position);
+  /// `expects_slow_noise`: as of `MotionTake`.
+  LiveMotionSteps(double frame_rate_hz, std::vector<std::uint8_t> is_position,
+                  bool expects_slow_noise);
 
   std::size_t channels() const noexcept { return is_position_.size(); }
   std::size_t ahead() const noexcept { return ahead_; }
@@ -55,6 +57,7 @@ class LiveMotionSteps {
 
   double frame_rate_hz_;
   std::vector<std::uint8_t> is_position_;
+  bool expects_slow_noise_;
   SmootherBank bank_;
   BandHats hats_;
   std::size_t ahead_, step_ahead_;

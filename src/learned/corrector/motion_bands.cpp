@@ -88,7 +88,7 @@ void StrengthSums::add(std::span<const float> step_squares, std::span<const floa
   }
 }
 
-void StrengthSums::strengths(std::span<const std::uint8_t> is_position,
+void StrengthSums::strengths(std::span<const std::uint8_t> is_position, bool expects_slow_noise,
                              MotionStrengths& result) const {
   const std::size_t channels = sum.size();
   result.bands.resize(channels * motion_bands);
@@ -110,6 +110,7 @@ void StrengthSums::strengths(std::span<const std::uint8_t> is_position,
     result.spread[c] = std::sqrt(spread);
     features[motion_bands] = log_feature(spread);
     features[motion_bands + 1] = is_position[c] != 0 ? 1.0F : 0.0F;
+    features[motion_bands + 2] = expects_slow_noise ? 1.0F : 0.0F;
     result.is_alive[c] = all + variance > 1e-8 ? 1 : 0;
   }
 }

@@ -47,8 +47,9 @@ struct StrengthSums {
   /// `squares`: C x motion_bands of one step; `slowest`: C, its slowest level, about any origin
   /// that stays. `weight` -1 takes a step out again.
   void add(std::span<const float> squares, std::span<const float> slowest, double weight);
-  /// At least one step was added.
-  void strengths(std::span<const std::uint8_t> is_position, MotionStrengths& result) const;
+  /// At least one step was added. `expects_slow_noise`: as of `MotionTake`.
+  void strengths(std::span<const std::uint8_t> is_position, bool expects_slow_noise,
+                 MotionStrengths& result) const;
 };
 
 /// The smoothing by the measured noise at a step of a channel.

@@ -93,62 +93,19 @@ void add_jumps(PoseMatrix& positions, Random& random) {
   }
 }
 
-// F x markers: what is seen. Bridged by straight lines.
-std::vector<std::uint8_t> lose_marker_samples(PoseMatrix& positions, double rate_hz,
-                                              Random& random) {
-  const std::size_t count = positions.channels / 3;
-  std::vector<std::uint8_t> observed(positions.frames * count, 1);
-  const double start = log_uniform(random, 0.001, 0.01), mean_s = log_uniform(random, 0.02, 1.5);
-  const double end = std::min(1.0, 1 / (mean_s * rate_hz));
-  for (std::size_t n = 0; n < count; ++n) {
-    bool is_lost = false;
-    for (std::size_t f = 0; f < positions.frames; ++f) {
-      is_lost = random.chance(is_lost ? 1 - end : start);
-      if (is_lost) observed[f * count + n] = 0;
-    }
-  }
-  bridge_lost(positions, observed);
-  return observed;
-}
-
-std::vector<std::uint8_t> damage_markers(PoseMatrix& positions, double rate_hz,
-                                         const MotionSampling& sampling, Random& random) {
-  add_random_noise(positions, rate_hz, marker_noise(positions, random), sampling.has_slow_noise,
-                   random);
-  std::vector<std::uint8_t> observed;
+SampleDamage damage_markers(PoseMatrix& positions, double rate_hz, const MotionSampling& sampling,
+                            std::vector<std::uint8_t>& observed, Random& random) {
+  bool is_slow = add_random_noise(positions, rate_hz, marker_noise(positions, random),
+                                  sampling.has_slow_noise, random);
   if (random.chance(0.2)) add_jumps(positions, random);
-  if (random.chance(0.15)) observed = lose_marker_samples(positions, rate_hz, random);
+  if (random.chance(0.15)) observed = lose_samples_at_random(positions, rate_hz, random);
   if (rate_hz >= 100 && random.chance(0.15)) lower_marker_rate(positions, random);
   if (sampling.has_slow_noise && random.chance(0.3)) {
     const double cutoff_hz = random.uniform(3, 12);
     low_pass(positions, 1 + static_cast<int>(random.below(3)), cutoff_hz, rate_hz);
+    is_slow = true;
   }
-  return observed;
-}
-
-// F x `channels`, the first of them those of `positions`, from where the origin is.
-std::vector<float> widened(const PoseMatrix& positions, std::span<const double> origin,
-                           std::size_t channels) {
-  std::vector<float> values(positions.frames * channels);
-  const std::size_t shown = std::min(channels, positions.channels);
-  for (std::size_t f = 0; f < positions.frames; ++f) {
-    for (std::size_t c = 0; c < shown; ++c)
-      values[f * channels + c] = static_cast<float>(positions(f, c) - origin[c]);
-  }
-  return values;
-}
-
-// Of F x markers that are observed, F x `channels` that are missing.
-std::vector<std::uint8_t> missing_of(const std::vector<std::uint8_t>& observed, std::size_t frames,
-                                     std::size_t channels) {
-  if (observed.empty()) return {};
-  const std::size_t count = observed.size() / frames;
-  std::vector<std::uint8_t> missing(frames * channels);
-  for (std::size_t f = 0; f < frames; ++f) {
-    for (std::size_t c = 0; c < std::min(channels, 3 * count); ++c)
-      missing[f * channels + c] = observed[f * count + c / 3] == 0 ? 1 : 0;
-  }
-  return missing;
+  return is_slow ? SampleDamage::slow : SampleDamage::quick;
 }
 
 }  // namespace
@@ -164,20 +121,18 @@ MotionSample random_marker_sample(std::span<const MarkerMotion> markers, std::si
   MotionSample sample;
   PoseMatrix seen = positions;
   std::vector<std::uint8_t> observed;
+  SampleDamage damage = SampleDamage::none;
   if (!random.chance(sampling.clean_share)) {
-    observed = damage_markers(seen, rate_hz, sampling, random);
+    damage = damage_markers(seen, rate_hz, sampling, observed, random);
   } else if (random.chance(0.4)) {
-    observed = lose_marker_samples(seen, rate_hz, random);
+    observed = lose_samples_at_random(seen, rate_hz, random);
   }
+  put_values(sample, seen, positions, positions.row(0), observed, channels);
   MotionTake& take = sample.take;
-  take.frames = seen.frames;
-  take.channels = channels;
   take.frame_rate_hz = rate_hz;
+  take.expects_slow_noise = is_said_to_be_slow(damage, random);
   take.slots.assign(channels, -1);
   take.is_position.assign(channels, 1);
-  sample.truth = widened(positions, positions.row(0), channels);
-  take.values = widened(seen, positions.row(0), channels);
-  take.missing = missing_of(observed, take.frames, channels);
   if (random.chance(0.6)) lose_whole_tracks(sample, random.uniform(0.1, 0.9), random);
   return sample;
 }

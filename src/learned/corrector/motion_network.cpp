@@ -12,10 +12,8 @@ namespace kinemend {
 
 namespace {
 
-// Sizes that a model file may ask for; and the pace, in typical speeds of its channel, that the
-// network is shown at most. Chosen by hand; the network has learned with the pace.
+// Sizes that a model file may ask for. Chosen by hand.
 constexpr std::size_t most_motion_blocks = 64, most_motion_dilation = 4096;
-constexpr float most_pace = 6;
 
 using nn::MatrixViewF;
 using nn::MutableMatrixViewF;
@@ -244,7 +242,8 @@ void fill_body_input(const MotionNetwork& network, const MotionChannels& channel
     const float* const levels = steps.levels.data() + at * motion_levels;
     const float* const changes = steps.changes.data() + at * motion_levels;
     const std::size_t poses = network.slots * width, paces = poses + network.slots;
-    result[poses + slot] = (levels[3] - network.mean[slot]) / network.deviation[slot];
+    result[poses + slot] = std::clamp((levels[3] - network.mean[slot]) / network.deviation[slot],
+                                      -most_pose, most_pose);
     result[paces + slot] = std::clamp(changes[4] / network.speed[slot], -most_pace, most_pace);
   }
 }

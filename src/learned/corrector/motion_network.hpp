@@ -24,6 +24,11 @@ inline constexpr std::size_t motion_outputs = motion_smoothers + motion_scales +
 inline constexpr std::size_t motion_body_corrections = 3;
 inline constexpr std::size_t first_body_correction = motion_scales - motion_body_corrections;
 
+/// Poses of the body beyond so many deviations, and paces beyond so many typical speeds, are shown
+/// as these: what is stranger than all that was learned from must not lead the network further
+/// astray. Chosen by hand; the network has learned with them.
+inline constexpr float most_pose = 4, most_pace = 6;
+
 /// An encoder and a head that all channels share, and a trunk over the body between them: it sees
 /// the encoded channels and the pose of those that it knows, and the mean of all that there are.
 struct MotionNetwork {

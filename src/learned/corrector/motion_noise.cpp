@@ -17,12 +17,19 @@ namespace kinemend {
 namespace {
 
 // Noise of deviation 1 in every channel: white, of the first order, or low-passed.
-PoseMatrix unit_noise(std::size_t frames, std::size_t channels, double rate_hz, bool has_slow,
-                      Random& random) {
+struct UnitNoise {
+  PoseMatrix values;
+  bool is_slow = false;
+};
+
+UnitNoise unit_noise(std::size_t frames, std::size_t channels, double rate_hz, bool has_slow,
+                     Random& random) {
+  // What changes this slowly hardly shows from frame to frame. Chosen by hand, not swept.
+  constexpr double slow_time_s = 0.1, slow_cutoff_hz = 6;
   PoseMatrix noise(frames, channels);
   for (double& value : noise.values) value = random.normal();
   const double kind = random.uniform();
-  if (kind < 0.4) return noise;
+  if (kind < 0.4) return {std::move(noise), false};
   if (kind < 0.65 || !has_slow) {
     const double correlation = random.uniform(0.2, 0.98),
                  fresh = std::sqrt(1 - correlation * correlation);
@@ -30,7 +37,8 @@ PoseMatrix unit_noise(std::size_t frames, std::size_t channels, double rate_hz, 
       for (std::size_t c = 0; c < channels; ++c)
         noise(f, c) = correlation * noise(f - 1, c) + fresh * noise(f, c);
     }
-    return noise;
+    const bool is_slow = -1 / (portable::log(correlation) * rate_hz) > slow_time_s;
+    return {std::move(noise), is_slow};
   }
   // Two draws among the arguments of one call would come in another order from another compiler.
   const double cutoff_hz = log_uniform(random, 0.7, 12);
@@ -39,7 +47,7 @@ PoseMatrix unit_noise(std::size_t frames, std::size_t channels, double rate_hz, 
   for (const double value : noise.values) square += value * value;
   const double unit = std::sqrt(static_cast<double>(noise.values.size()) / std::max(square, 1e-12));
   for (double& value : noise.values) value *= unit;
-  return noise;
+  return {std::move(noise), cutoff_hz < slow_cutoff_hz};
 }
 
 // Noise comes and goes: a factor of each frame.
@@ -75,21 +83,57 @@ void low_pass(PoseMatrix& poses, int order, double cutoff_hz, double rate_hz) {
                     butterworth_lowpass(order, std::min(cutoff_hz, 0.45 * rate_hz), rate_hz));
 }
 
-void add_random_noise(PoseMatrix& poses, double rate_hz, std::vector<double> strengths,
+bool add_random_noise(PoseMatrix& poses, double rate_hz, std::vector<double> strengths,
                       bool has_slow, Random& random) {
   if (random.chance(0.3)) {
     for (double& strength : strengths) strength *= portable::exp(0.5 * random.normal());
   }
-  const PoseMatrix noise = unit_noise(poses.frames, poses.channels, rate_hz, has_slow, random);
+  const UnitNoise noise = unit_noise(poses.frames, poses.channels, rate_hz, has_slow, random);
   const std::vector<double> factors = random.chance(0.15) ? bursts(poses.frames, rate_hz, random)
                                                           : std::vector<double>(poses.frames, 1.0);
   for (std::size_t f = 0; f < poses.frames; ++f) {
     for (std::size_t c = 0; c < poses.channels; ++c)
-      poses(f, c) += factors[f] * strengths[c] * noise(f, c);
+      poses(f, c) += factors[f] * strengths[c] * noise.values(f, c);
+  }
+  return noise.is_slow;
+}
+
+// Leaves poses at keys and draws curves through them as animators do: straight, eased, or held.
+void keyframe(PoseMatrix& poses, double rate_hz, Random& random) {
+  const double apart_s = log_uniform(random, 0.08, 0.5);
+  const double kind = random.uniform();
+  std::vector<std::size_t> keys{0};
+  while (keys.back() + 1 < poses.frames) {
+    const auto on = static_cast<std::size_t>(apart_s * rate_hz * random.uniform(0.4, 1.6)) + 1;
+    keys.push_back(std::min(poses.frames - 1, keys.back() + on));
+  }
+  const PoseMatrix keyed = poses;
+  for (std::size_t k = 0; k + 1 < keys.size(); ++k) {
+    const std::size_t from = keys[k], to = keys[k + 1];
+    for (std::size_t f = from + 1; f < to; ++f) {
+      const double t = static_cast<double>(f - from) / static_cast<double>(to - from);
+      const double share = kind < 0.3 ? t : kind < 0.85 ? t * t * (3 - 2 * t) : 0;
+      for (std::size_t c = 0; c < poses.channels; ++c)
+        poses(f, c) = keyed(from, c) + share * (keyed(to, c) - keyed(from, c));
+    }
+  }
+}
+
+// Moves each channel further from its mean, or less.
+void exaggerate(PoseMatrix& poses, Random& random) {
+  const double factor = log_uniform(random, 0.5, 2);
+  for (std::size_t c = 0; c < poses.channels; ++c) {
+    double mean = 0;
+    for (std::size_t f = 0; f < poses.frames; ++f) mean += poses(f, c);
+    mean /= static_cast<double>(poses.frames);
+    for (std::size_t f = 0; f < poses.frames; ++f)
+      poses(f, c) = mean + factor * (poses(f, c) - mean);
   }
 }
 
 void vary_motion(PoseMatrix& poses, double rate_hz, const Shaking& shaking, Random& random) {
+  if (random.chance(0.1)) exaggerate(poses, random);
+  if (random.chance(0.08)) keyframe(poses, rate_hz, random);
   if (random.chance(0.2)) {
     const double cutoff_hz = log_uniform(random, 4, 20);
     low_pass(poses, 1 + static_cast<int>(random.below(3)), cutoff_hz, rate_hz);
@@ -113,6 +157,13 @@ void vary_motion(PoseMatrix& poses, double rate_hz, const Shaking& shaking, Rand
   }
 }
 
+bool is_said_to_be_slow(SampleDamage damage, Random& random) {
+  // Video can be clean, and is not all that errs slowly. Chosen by hand, not swept.
+  return random.chance(damage == SampleDamage::none    ? 0.1
+                       : damage == SampleDamage::quick ? 0.25
+                                                       : 0.6);
+}
+
 Quat random_turn(Random& random) {
   return normalized(Quat{random.normal(), random.normal(), random.normal(), random.normal()});
 }
@@ -126,14 +177,14 @@ std::size_t drawn_index(std::span<const double> weights, Random& random) {
 
 double random_rate_hz(Random& random) {
   // Common rates; most takes keep the 120 Hz of the recordings. Chosen by hand, not swept.
-  static constexpr std::array<double, 6> rates{25, 30, 50, 60, 100, 120};
-  return random.chance(0.3) ? rates[random.below(rates.size())] : 120;
+  static constexpr std::array<double, 10> rates{20, 24, 25, 30, 30, 50, 60, 60, 100, 240};
+  return random.chance(0.4) ? rates[random.below(rates.size())] : 120;
 }
 
 double random_pace(Random& random) {
   // Shares of the speed of the recorded motion. Chosen by hand, not swept.
-  constexpr double least = 0.7, fastest = 1.4;
-  return random.uniform(least, fastest);
+  constexpr double least = 0.7, fastest = 1.4, slowed = 0.5, hurried = 3;
+  return random.chance(0.2) ? log_uniform(random, slowed, hurried) : random.uniform(least, fastest);
 }
 
 }  // namespace kinemend

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -19,9 +20,14 @@ void low_pass(PoseMatrix& poses, int order, double cutoff_hz, double rate_hz);
 
 /// Adds noise of one kind to all channels: white, of the first order or, with `has_slow`,
 /// low-passed; by `strengths` (degrees, one a channel), which are spread further in some samples,
-/// in bursts in some.
-void add_random_noise(PoseMatrix& poses, double rate_hz, std::vector<double> strengths,
+/// in bursts in some. Returns whether the noise is slow: mostly below a few hertz.
+bool add_random_noise(PoseMatrix& poses, double rate_hz, std::vector<double> strengths,
                       bool has_slow, Random& random);
+
+/// What was done to a sample.
+enum class SampleDamage : std::uint8_t { none, quick, slow };
+/// Whether a person says of a sample that its system errs slowly: mostly of those that do.
+bool is_said_to_be_slow(SampleDamage damage, Random& random);
 
 /// What a body does that is regular and fast: a tremor, a drum roll, a hand that shakes, breathing.
 struct Shaking {
@@ -29,7 +35,8 @@ struct Shaking {
   double largest_deg = 20;  ///< at 2 Hz and less
 };
 
-/// Clean takes are not all alike: optical ones come low-passed too, and bodies shake.
+/// Clean takes are not all alike: optical ones come low-passed too, some are keyed by hand, some
+/// exaggerated, and bodies shake.
 void vary_motion(PoseMatrix& poses, double rate_hz, const Shaking& shaking, Random& random);
 
 /// Of axes, drawn evenly.
@@ -38,7 +45,7 @@ Quat random_turn(Random& random);
 /// The index of a weight, drawn in proportion to them.
 std::size_t drawn_index(std::span<const double> weights, Random& random);
 
-/// 120 mostly, else 25 to 120.
+/// 120 mostly, else 20 to 240.
 double random_rate_hz(Random& random);
 /// At which a motion is shown.
 double random_pace(Random& random);

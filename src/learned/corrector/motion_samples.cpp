@@ -10,6 +10,7 @@
 #include "kinemend/rotation.hpp"
 #include "learned/core/sequence_damage.hpp"
 #include "learned/core/warped_sequence.hpp"
+#include "learned/corrector/body_calibration.hpp"
 #include "learned/corrector/measured_smoothing.hpp"
 #include "learned/corrector/motion_noise.hpp"
 
@@ -29,14 +30,14 @@ struct DamagedStretch {
     damage_sequence(layout, rate_hz, poses, observed, name, values, own);
   }
 
-  void add_noise(bool has_slow, Random& random) {
+  bool add_noise(bool has_slow, Random& random) {
     std::vector<double> strengths(poses.channels, log_uniform(random, 0.15, 6));
     if (random.chance(0.55)) {
       const double share = log_uniform(random, 0.08, 1);
       strengths = deviations_of(poses);
       for (double& strength : strengths) strength *= share;
     }
-    add_random_noise(poses, rate_hz, std::move(strengths), has_slow, random);
+    return add_random_noise(poses, rate_hz, std::move(strengths), has_slow, random);
   }
 
   void lower_rate(Random& random) {
@@ -60,11 +61,17 @@ struct DamagedStretch {
           random);
   }
 
-  void damage(const MotionSampling& sampling, Random& random) {
+  SampleDamage damage(const MotionSampling& sampling, std::span<const MotionPair> pairs,
+                      Random& random) {
+    bool is_slow = false;
     const double kind = random.uniform();
-    if (kind < 0.88) {
-      add_noise(sampling.has_slow_noise, random);
+    if (sampling.has_slow_noise && !pairs.empty() && random.chance(sampling.residual_share)) {
+      add_residuals(poses, rate_hz, pairs, random);
+      is_slow = true;
+    } else if (kind < 0.88) {
+      is_slow = add_noise(sampling.has_slow_noise, random);
     } else {
+      is_slow = true;
       static constexpr std::array<const char*, 5> systems{"video", "triangulated", "depth",
                                                           "inertial", "optical"};
       apply("system",
@@ -78,9 +85,25 @@ struct DamagedStretch {
     if (sampling.has_slow_noise && random.chance(0.3)) {
       const double cutoff_hz = random.uniform(3, 12);
       low_pass(poses, 1 + static_cast<int>(random.below(3)), cutoff_hz, rate_hz);
+      is_slow = true;
     }
+    return is_slow ? SampleDamage::slow : SampleDamage::quick;
   }
 };
+
+// The frames of joints as the method calibrates them, by the mean pose of the stretch or one near
+// it, which a longer take has.
+PoseMatrix calibrated_at_random(const PoseMatrix& poses, double rate_hz, const BodyLayout& layout,
+                                Random& random) {
+  BodyCalibration calibration = calibration_of(poses, layout);
+  if (random.chance(0.5)) {
+    const double size_rad = log_uniform(random, 0.03, 0.3);
+    for (Quat& turn : calibration.turns)
+      turn = turn * exp({size_rad * random.normal(), size_rad * random.normal(),
+                         size_rad * random.normal()});
+  }
+  return calibrated(poses, rate_hz, layout, calibration);
+}
 
 void turn_axes(PoseMatrix& poses, Random& random) {
   for (std::size_t track = 0; track < poses.channels / 3; ++track) {
@@ -118,15 +141,18 @@ PoseMatrix random_stretch(const TrainingSequences& sequences, double pace, std::
   return warped(sequence_at(sequences, index, first, first + taken).poses, pace * slower, frames);
 }
 
-MotionSample random_damage(const TrainingSequences& sequences, const BodyMirror& mirror,
-                           const MotionSampling& sampling, Random random) {
+MotionSample random_damage(const MotionSources& sources, const MotionSampling& sampling,
+                           bool is_live, Random random) {
+  const TrainingSequences& sequences = sources.sequences;
   const double rate_hz = random_rate_hz(random);
   const double pace = random_pace(random) * sequences.rate_hz / rate_hz;
   PoseMatrix poses = random_stretch(sequences, pace, sample_frames(sampling, rate_hz), random);
   const std::size_t channels = poses.channels;
+  // A stream is not calibrated: its mean pose is not known yet.
+  if (!is_live) poses = calibrated_at_random(poses, rate_hz, sequences.layout, random);
   const MotionForm form{random.chance(0.5), random.chance(0.5)};
   const std::vector<float> shown =
-      in_form(std::vector<float>(poses.values.begin(), poses.values.end()), form, mirror);
+      in_form(std::vector<float>(poses.values.begin(), poses.values.end()), form, sources.mirror);
   poses.values.assign(shown.begin(), shown.end());
   vary_motion(poses, rate_hz, {}, random);
   const bool is_known = random.chance(0.7);
@@ -135,8 +161,9 @@ MotionSample random_damage(const TrainingSequences& sequences, const BodyMirror&
   MotionSample sample;
   sample.truth.assign(poses.values.begin(), poses.values.end());
   DamagedStretch damaged{sequences.layout, rate_hz, std::move(poses), {}};
+  SampleDamage damage = SampleDamage::none;
   if (!random.chance(sampling.clean_share)) {
-    damaged.damage(sampling, random);
+    damage = damaged.damage(sampling, sources.pairs, random);
   } else if (random.chance(0.4)) {
     // What is clean has gaps, too.
     damaged.open_gaps(random);
@@ -146,6 +173,7 @@ MotionSample random_damage(const TrainingSequences& sequences, const BodyMirror&
   take.frames = damaged.poses.frames;
   take.channels = channels;
   take.frame_rate_hz = rate_hz;
+  take.expects_slow_noise = is_said_to_be_slow(damage, random);
   take.values.assign(damaged.poses.values.begin(), damaged.poses.values.end());
   if (!damaged.observed.empty()) {
     take.missing.resize(take.values.size());
@@ -192,6 +220,8 @@ MotionSample random_pair(const MotionPair& pair, std::size_t channels,
   take.frames = frames;
   take.channels = channels;
   take.frame_rate_hz = whole.frame_rate_hz;
+  take.expects_slow_noise =
+      is_said_to_be_slow(is_clean ? SampleDamage::none : SampleDamage::slow, random);
   take.values.assign(frames * channels, 0.0F);
   take.slots.assign(channels, -1);
   take.is_position.assign(channels, 0);
@@ -268,11 +298,14 @@ MotionSample random_motion_sample(const MotionSources& sources, const MotionSamp
   const bool is_live = random.chance(sampling.live_share);
   const bool is_of_markers =
       !is_pair && !sources.markers.empty() && random.chance(sampling.marker_share);
+  const bool is_of_rig =
+      !is_pair && !is_of_markers && !sources.rigs.empty() && random.chance(sampling.rig_share);
   const Random own = random.fork(1);
   MotionSample sample =
       is_pair         ? random_pair(drawn_pair(sources.pairs, random), channels, sampling, own)
       : is_of_markers ? random_marker_sample(sources.markers, channels, sampling, own)
-                      : random_damage(sources.sequences, sources.mirror, sampling, own);
+      : is_of_rig     ? random_rig_sample(sources, channels, sampling, own)
+                      : random_damage(sources, sampling, is_live, own);
   sample.is_live = is_live;
   if (!is_live) add_measured_smoothing(sample.take);
   return sample;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -43,19 +44,32 @@ struct MarkerMotion {
   PoseMatrix positions;  ///< F x 3 markers
 };
 
+/// A clean take of any rig: channels in the charts of `MotionTracks`, those of joints that the
+/// model knows as of its body.
+struct RigMotion {
+  double rate_hz = 120;
+  PoseMatrix values;                      ///< F x C degrees
+  std::vector<std::int32_t> slots;        ///< C, as of `MotionTake`
+  std::vector<std::uint8_t> is_position;  ///< C
+};
+
 /// What is learned from.
 struct MotionSources {
   const TrainingSequences& sequences;
   const BodyMirror& mirror;
   std::span<const MotionPair> pairs{};
   std::span<const MarkerMotion> markers{};
+  std::span<const RigMotion> rigs{};
 };
 
 struct MotionSampling {
   std::size_t steps = 128;     ///< of a sample
   double pair_share = 0.25;    ///< of samples that are pairs, where there are some
   double marker_share = 0.33;  ///< of the others that are of markers, where there are some
-  double clean_share = 0.2;    ///< of them that are clean
+  double rig_share = 0.12;     ///< of the rest that are of other rigs, where there are some
+  double clean_share = 0.33;   ///< of them that are clean
+  double residual_share =
+      0.2;                     ///< of damaged joints that get errors of pairs, where there are some
   double live_share = 0.2;     ///< of samples that are read live
   bool has_slow_noise = true;  ///< low-passed noise, and takes filtered after they were damaged
 };
@@ -69,6 +83,26 @@ void stand_still(MotionSample& sample, std::size_t channel);
 
 /// Each track but one with this chance.
 void lose_whole_tracks(MotionSample& sample, double share, Random& random);
+
+/// The errors of one system about a stretch of one take, turned over, scaled and played at another
+/// pace, on all tracks at the same moments.
+void add_residuals(PoseMatrix& poses, double rate_hz, std::span<const MotionPair> pairs,
+                   Random& random);
+
+/// F x tracks: what is seen of samples that are lost at random. Bridged by straight lines.
+std::vector<std::uint8_t> lose_samples_at_random(PoseMatrix& values, double rate_hz,
+                                                 Random& random);
+
+/// The values, the truth and what is missing, as the first of so many channels, the others 0.
+/// `observed`: F x tracks, or empty. Both are told from `origin` on, one a channel.
+void put_values(MotionSample& sample, const PoseMatrix& seen, const PoseMatrix& truth,
+                std::span<const double> origin, const std::vector<std::uint8_t>& observed,
+                std::size_t channels);
+
+/// A stretch of another rig's take, at its own rate or another, to and fro where it is short, with
+/// some of its tracks; damaged in half of the samples. The same `random` gives the same sample.
+MotionSample random_rig_sample(const MotionSources& sources, std::size_t channels,
+                               const MotionSampling& sampling, Random random);
 
 /// Of a sample at this rate.
 std::size_t sample_frames(const MotionSampling& sampling, double rate_hz);

@@ -54,7 +54,7 @@ MotionReader::MotionReader(const MotionTake& take)
       sums.add(std::span(block.squares).subspan(s * size, size), slowest, 1);
     }
   }
-  sums.strengths(take.is_position, strengths_);
+  sums.strengths(take.is_position, take.expects_slow_noise, strengths_);
 }
 
 std::vector<std::ptrdiff_t> MotionReader::frames_of(std::size_t first, std::size_t count) const {

@@ -34,6 +34,8 @@ struct MotionTake {
   /// -1 where it is none of them, or the body is not known.
   std::vector<std::int32_t> slots;
   std::vector<std::uint8_t> is_position;  ///< C
+  /// Whether the take comes from a system whose errors are slow (video, depth cameras, suits).
+  bool expects_slow_noise = false;
 
   std::size_t steps() const { return motion_step_count(frames, frame_rate_hz); }
   /// The frame that a step looks at.
@@ -58,9 +60,9 @@ inline constexpr std::size_t first_signed_band = 4;
 inline constexpr std::size_t missing_feature =
     2 * motion_bands + (motion_bands - first_signed_band);
 inline constexpr std::size_t motion_features = missing_feature + 4;
-/// Strengths of bands over the take, spread of its slowest level, whether it is a position. By
-/// definition.
-inline constexpr std::size_t motion_take_features = motion_bands + 2;
+/// Strengths of bands over the take, spread of its slowest level, whether it is a position, whether
+/// slow noise is expected. By definition.
+inline constexpr std::size_t motion_take_features = motion_bands + 3;
 /// What corrections of a channel are measured by: the strengths of four bands about the step, and
 /// where samples are missing the spread of the channel. Chosen by hand; the network has learned
 /// with them.

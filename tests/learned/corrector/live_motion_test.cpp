@@ -44,7 +44,7 @@ std::span<const std::uint8_t> frame_marks(const MotionTake& take, std::size_t fr
 }
 
 std::vector<MotionSteps> live_steps(const MotionTake& take) {
-  LiveMotionSteps live(take.frame_rate_hz, take.is_position);
+  LiveMotionSteps live(take.frame_rate_hz, take.is_position, take.expects_slow_noise);
   std::vector<MotionSteps> steps;
   MotionSteps step;
   for (std::size_t f = 0; f < take.frames; ++f) {
@@ -57,7 +57,8 @@ std::vector<MotionSteps> live_steps(const MotionTake& take) {
 }
 
 std::vector<float> live_filtered(const MotionNetwork& network, const MotionTake& take) {
-  LiveMotionFilter filter(network, take.frame_rate_hz, take.slots, take.is_position);
+  LiveMotionFilter filter(network, take.frame_rate_hz, take.slots, take.is_position,
+                          take.expects_slow_noise);
   std::vector<float> result, row(take.channels);
   for (std::size_t f = 0; f < take.frames; ++f) {
     const bool came = filter.push(frame_values(take, f), frame_marks(take, f), row);
