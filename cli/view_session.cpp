@@ -37,9 +37,9 @@ Settings preset_settings(const Preset& preset) {
 
 /// Flags that the page may set: none that reads or writes a file.
 constexpr std::array cleaning_flags = {
-    "method",   "strength",      "max_change_deg", "max_change",      "fill",
-    "fill_all", "feet",          "fix_swaps",      "peak_loss_limit", "joints",
-    "exclude",  "root_position", "range",          "preset"};
+    "method", "source",   "strength", "max_change_deg", "max_change",
+    "fill",   "fill_all", "feet",     "fix_swaps",      "peak_loss_limit",
+    "joints", "exclude",  "range",    "root_position",  "preset"};
 constexpr std::array filling_flags = {"method", "names",       "range",
                                       "donor",  "longest_gap", "fill_all"};
 

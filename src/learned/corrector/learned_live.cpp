@@ -105,7 +105,7 @@ class LivePoses {
 class LearnedLive final : public LiveFilter {
  public:
   LearnedLive(const MotionNetwork& network, const BodyLayout& layout, const NameMap& names,
-              const TakeView& like, bool trusts_model)
+              const TakeView& like)
       : follow_(1 - portable::exp(-1 / (follow_s * like.frame_rate_hz))),
         degrees_per_unit_(degrees_per_unit(like, Space::position)) {
     const std::size_t rotations = like.joints != nullptr ? like.owners : 0;
@@ -145,7 +145,7 @@ class LearnedLive final : public LiveFilter {
       of_body_.push_back(track.known ? 1 : 0);
       counts.push_back(track.turns || rotations == 0 ? 1 : 0);
     }
-    if (!trusts_model) floor_.emplace(like.frame_rate_hz, std::move(counts));
+    if (!expects_slow_noise(like.source)) floor_.emplace(like.frame_rate_hz, std::move(counts));
     poses_.emplace(network, std::move(slots), like.frame_rate_hz);
     waiting_.resize(filter_->ahead() + 1);
   }
@@ -267,8 +267,8 @@ class LearnedLive final : public LiveFilter {
 
 std::unique_ptr<LiveFilter> make_learned_live(const MotionNetwork& network,
                                               const BodyLayout& layout, const NameMap& names,
-                                              const TakeView& like, bool trusts_model) {
-  return std::make_unique<LearnedLive>(network, layout, names, like, trusts_model);
+                                              const TakeView& like) {
+  return std::make_unique<LearnedLive>(network, layout, names, like);
 }
 
 }  // namespace kinemend
