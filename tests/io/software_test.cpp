@@ -6,17 +6,12 @@
 
 #include "io/c3d/c3d_support.hpp"
 #include "io/fbx/fbx_support.hpp"
+#include "io/table/support.hpp"
 #include "kinemend/experimental/synth.hpp"
 #include "kinemend/source.hpp"
 
 namespace kinemend::test {
 namespace {
-
-std::string with(std::string bytes, const std::string& from, const std::string& to) {
-  const std::size_t at = bytes.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return bytes.replace(at, from.size(), to);
-}
 
 TEST(Software, OfAC3dFileIsItsManufacturer) {
   // Of the same length, since a parameter states it.
