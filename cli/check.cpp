@@ -42,6 +42,7 @@ CheckSettings check_settings(const Arguments& arguments) {
   if (arguments.given("metres_per_unit"))
     settings.metres_per_unit = arguments.number("metres_per_unit");
   settings.names = names_of_map(arguments.text("map"));
+  settings.source = parse_source(arguments.text("source"));
   if (wants_robot(arguments)) settings.robot = robot_settings(arguments.text("limits"));
   return settings;
 }
@@ -118,6 +119,12 @@ Flag without_default(Flag flag) {
   return flag;
 }
 
+Flag of_checks(Flag flag) {
+  flag.group = "Checks";
+  flag.details = "Noise and spikes are found that clean would take out with this --source.";
+  return flag;
+}
+
 std::vector<Flag> robot_flags() {
   Flag limits = text_flag("limits", "FILE", "Checks", "limits of joints for --robot, in TOML",
                           "speed_deg_s and acceleration_deg_s2 for all joints, and tables such as "
@@ -150,6 +157,7 @@ std::vector<Flag> check_flags() {
                                   "length of a file unit, if the take does not state it")),
   };
   append(list, robot_flags());
+  list.push_back(of_checks(source_flag()));
   list.push_back(map_flag());
   append(list, reading_flags("a repair becomes an error"));
   for (const FigureRule& entry : check_figures()) {

@@ -159,6 +159,7 @@ std::vector<Flag> cleaning_flags() {
        configurable(number_flag("max_change", "", 0, 0, 1e12, "Cleaning",
                                 "largest change of a marker, in file units; 0: no limit",
                                 "Typical: 5 to 20 mm against jitter alone; spikes need more.")),
+       configurable(source_flag()),
        noise_flag(),
        fill_flag(),
        configurable(

@@ -146,7 +146,9 @@ std::vector<Leftover> reasons_unchanged(const Take& take, const CleanReport& rep
                                         const CleanPlan& plan, const std::string& input) {
   std::vector<Leftover> reasons;
   if (report.frames == 0 || report.tracks.empty()) return reasons;
-  const CheckReport check = check_take(take);
+  CheckSettings settings;
+  settings.source = report.source.source;
+  const CheckReport check = check_take(take, settings);
   const Leftover reason = reason_of_method(report, plan);
   if (!reason.what.empty()) reasons.push_back(reason);
   const std::string listing = fmt::format("kinemend check {} lists them", printable(input));

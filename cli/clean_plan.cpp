@@ -146,6 +146,7 @@ CleanSettings clean_settings(const Settings& settings) {
     return std::get<double>(settings.values.find(name)->second);
   };
   CleanSettings result;
+  result.source = parse_source(std::get<std::string>(settings.values.find("source")->second));
   result.strength = number("strength");
   result.max_change_deg = number("max_change_deg");
   if (const double most = number("max_change"); most > 0) result.max_change = most;

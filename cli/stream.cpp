@@ -138,6 +138,7 @@ VmcPlan vmc_plan_of(const Arguments& arguments) {
   plan.options.bones = arguments.list("bones");
   plan.options.strength = arguments.number("strength");
   plan.options.feet = arguments.flag("feet");
+  plan.options.source = parse_source(arguments.text("source"));
   if (arguments.given("fps")) plan.options.frame_rate_hz = arguments.number("fps");
   plan.stall_s = static_cast<double>(arguments.whole("stall_ms")) / 1000;
   plan.quiet = arguments.flag("quiet");
@@ -253,6 +254,7 @@ std::vector<Flag> stream_flags() {
       live_flag("body_height"),
       switch_flag("once", "Input", "exit when the first sender disconnects"),
       live_flag("method"),
+      live_flag("source"),
       live_flag("strength"),
       live_flag("feet"),
       bones,

@@ -9,6 +9,7 @@
 
 #include "kinemend/io.hpp"
 #include "method_options.hpp"
+#include "takes.hpp"
 
 namespace kinemend::cli {
 
@@ -54,6 +55,14 @@ Flag live_method_flag() {
   method.has_default = true;
   method.letter = 'm';
   return method;
+}
+
+Flag live_source_flag() {
+  Flag flag = source_flag();
+  flag.details =
+      "video, depth and suit: slow noise is taken out, too. keyframed: only gaps are held. Frames "
+      "of Axis Neuron come from a suit. For learned.";
+  return flag;
 }
 
 Flag live_format_flag() {
@@ -104,6 +113,7 @@ std::vector<Flag> live_flags() {
                       "markers: height of the person, in the units of the stream",
                       "Methods with settings in length scale them by it."),
           live_method_flag(),
+          live_source_flag(),
           number_flag("strength", "", 1, 0, 1, "Cleaning",
                       "blend between the input (0) and the cleaned motion (1)"),
           switch_flag(
@@ -130,6 +140,7 @@ LiveOptions live_options(const Arguments& arguments, const Method& method) {
   if (method.name == "hampel" && options.strength > 0) options.strength = 1;
   options.frame_rate_hz = arguments.given("fps") ? arguments.number("fps") : 0;
   options.feet = arguments.flag("feet");
+  options.source = parse_source(arguments.text("source"));
   options.numbered = arguments.flag("numbered");
   options.skipped_words = static_cast<std::size_t>(arguments.whole("skip_words"));
   options.body_height = arguments.number("body_height");

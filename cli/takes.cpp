@@ -17,6 +17,7 @@
 #include "kinemend/experimental/letter_case.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/report.hpp"
+#include "kinemend/source.hpp"
 #include "run_files.hpp"
 #include "terminal.hpp"
 
@@ -295,6 +296,18 @@ Flag map_flag() {
 
 KnownNames names_of_map(const std::string& path) {
   return path.empty() ? KnownNames() : parse_name_map(read_file(path), input_name(path));
+}
+
+Flag source_flag() {
+  Flag flag = text_flag("source", "", "Cleaning", "what recorded the motion",
+                        "video, depth and suit: slow noise is taken out, too. keyframed: only gaps "
+                        "change. optical and unknown: only what the take shows to be noise. "
+                        "unknown is replaced by what the file says, where that is certain. For "
+                        "auto and learned.");
+  flag.spec.default_value = std::string(to_string(Source::unknown));
+  flag.spec.choices = source_names();
+  flag.has_default = true;
+  return flag;
 }
 
 std::vector<Flag> reading_flags(std::string strict_help) {

@@ -80,6 +80,8 @@ Flag unlabelled_flag();
 Flag map_flag();
 /// The names that the file of --map gives; empty where `path` is.
 KnownNames names_of_map(const std::string& path);
+/// --source, of the commands that clean or look for noise.
+Flag source_flag();
 /// All flags that `read_options` understands: --from, --asf, --from-fps, --strict.
 std::vector<Flag> reading_flags(std::string strict_help);
 /// Appends `more` to `list`.

@@ -60,6 +60,7 @@ ViewFiles files_of(const Arguments& arguments) {
   if (arguments.given("from_fps"))
     files.reading.push_back(fmt::format("--from-fps={}", arguments.number("from_fps")));
   if (arguments.flag("strict")) files.reading.emplace_back("--strict");
+  files.source = arguments.text("source");
   files.force = arguments.flag("force");
   return files;
 }
@@ -99,6 +100,13 @@ Flag view_file_flag(std::string name, std::string help) {
   return flag;
 }
 
+Flag view_source_flag() {
+  Flag flag = source_flag();
+  flag.group = "Input";
+  flag.details = "The page can choose another one.";
+  return flag;
+}
+
 Flag view_gaps_flag() {
   Flag flag = view_file_flag("gaps",
                              "samples to treat as missing: lines name,first,last (default: none; "
@@ -131,6 +139,7 @@ Command view_command() {
   command.flags = {
       output_flag("file that Save as proposes (default walk.clean.bvh or walk.filled.bvh)"),
       view_gaps_flag(),
+      view_source_flag(),
       view_file_flag("contacts",
                      "where to save contacts (default walk.contacts); read if it exists"),
       view_file_flag("plan", "where to save the gap plan (default walk.plan.csv)"),

@@ -37,9 +37,9 @@ Settings preset_settings(const Preset& preset) {
 
 /// Flags that the page may set: none that reads or writes a file.
 constexpr std::array cleaning_flags = {
-    "method",   "strength",      "max_change_deg", "max_change",      "fill",
-    "fill_all", "feet",          "fix_swaps",      "peak_loss_limit", "joints",
-    "exclude",  "root_position", "range",          "preset"};
+    "method", "source",   "strength", "max_change_deg", "max_change",
+    "fill",   "fill_all", "feet",     "fix_swaps",      "peak_loss_limit",
+    "joints", "exclude",  "range",    "root_position",  "preset"};
 constexpr std::array filling_flags = {"method", "names",       "range",
                                       "donor",  "longest_gap", "fill_all"};
 
@@ -167,6 +167,7 @@ Json session_json(const ViewFiles& files) {
           {"gaps", files.gaps},
           {"with_gaps", files.with_gaps},
           {"default_method", default_method},
+          {"source", files.source},
           {"methods", methods_json()},
           {"presets", presets_json()},
           {"fill_methods", fill_methods_json()}};
@@ -311,6 +312,10 @@ std::vector<std::string> ViewSession::words_of(const ViewAsked& asked) const {
     words.push_back(word_of(flag));
   }
   words.push_back("--output=" + output_of(asked));
+  const bool has_source = std::any_of(asked.flags.begin(), asked.flags.end(),
+                                      [](const AskedFlag& flag) { return flag.name == "source"; });
+  if (!asked.is_fill && !has_source && files_.source != to_string(Source::unknown))
+    words.push_back("--source=" + files_.source);
   if (!asked.is_fill && asked.contacts) words.push_back("--contacts=" + files_.contacts);
   if (asked.is_fill && asked.plan) words.push_back("--plan=" + files_.plan);
   return words;

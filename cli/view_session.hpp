@@ -29,6 +29,7 @@ struct ViewFiles {
   std::string contacts, plan, gaps;  ///< side files
   bool with_gaps = false;            ///< what `gaps` lists is missing from the start
   std::vector<std::string> reading;  ///< flags of the input, as they were given: "--asf=..."
+  std::string source = "unknown";    ///< of `clean`, where the page sets none
   bool force = false;                ///< replace files that another run has made
 };
 

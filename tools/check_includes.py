@@ -45,7 +45,7 @@ USES = {
 PUBLIC = {header: room for room, headers in {
     "base": "error random options pose_matrix version json_depth content_hash frame_rate text threads wildcards letter_case",
     "rotation": "rotation",
-    "motion": "skeleton take take_view kinematics convert gaps frame_numbers subjects",
+    "motion": "skeleton source take take_view kinematics convert gaps frame_numbers subjects",
     "io": "io",
     "body": "representation body",
     "signal": "signal",

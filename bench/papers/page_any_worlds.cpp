@@ -20,8 +20,17 @@ struct Harm {
                          ///< 500 mm/s
 };
 
-Harm harm_of(const Take& take, const Compared& method) {
-  const CleanReport report = clean_take(take, *make_cleaner(method.method, method.options)).report;
+// A method with what it is told of the take.
+struct ComparedOfSource {
+  Compared method;
+  Source source = Source::unknown;
+};
+
+Harm harm_of(const Take& take, const ComparedOfSource& by) {
+  CleanSettings settings;
+  settings.source = by.source;
+  const auto cleaner = make_cleaner(by.method.method, by.method.options);
+  const CleanReport report = clean_take(take, *cleaner, settings).report;
   const double metres = metres_per_unit(take.unit);
   const double unit = take.has_joints() ? 1 : 1000 * (metres > 0 ? metres : 0.001);
   const double fast = take.has_joints() ? 100 : 500;
@@ -80,8 +89,9 @@ void experiment(const Arguments& arguments) {
   if (!arguments.quick && !arguments.data.empty())
     worlds = recorded_worlds(arguments.data / "worlds");
   if (worlds.empty()) worlds = made_worlds();
-  std::vector<Compared> methods = auto_and_learned;
-  methods.push_back({"learned, model trusted", "learned", {{"trust_model", true}}});
+  std::vector<ComparedOfSource> methods;
+  for (const Compared& method : auto_and_learned) methods.push_back({method});
+  methods.push_back({{"learned, source video", "learned"}, Source::video});
   Table table(arguments, "any_worlds.csv",
               "world,unit,method,takes,changed,median,ninety_five,most,peak_loss");
   std::map<std::pair<std::string, std::string>, std::vector<Harm>> all;
@@ -105,11 +115,11 @@ void experiment(const Arguments& arguments) {
                figures[4]);
   };
   for (const auto& [name, takes] : worlds) {
-    for (const Compared& method : methods) {
+    for (const ComparedOfSource& by : methods) {
       std::vector<Harm> harms;
-      for (const Take& take : takes) harms.push_back(harm_of(take, method));
-      write(name.first, name.second, method.label, harms);
-      std::vector<Harm>& together = all[{name.second, method.label}];
+      for (const Take& take : takes) harms.push_back(harm_of(take, by));
+      write(name.first, name.second, by.method.label, harms);
+      std::vector<Harm>& together = all[{name.second, by.method.label}];
       together.insert(together.end(), harms.begin(), harms.end());
     }
   }

@@ -37,7 +37,7 @@ class Job:
         self.words = program.command_line(
             program.find_program(program_path), settings.method, settings.strength,
             None if len(self.chosen) == len(self.rig.joints) else sorted(self.chosen), frames, settings.feet,
-            settings.root_position, (self.report, self.page))
+            settings.root_position, (self.report, self.page), settings.source)
         self.data = takes.to_npz(self.rig.take(render.fps / render.fps_base))
         self.run = None
 

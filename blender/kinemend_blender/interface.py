@@ -37,6 +37,13 @@ class KINEMEND_Preferences(bpy.types.AddonPreferences):
 
 class KINEMEND_Settings(bpy.types.PropertyGroup):
     method: EnumProperty(name="Method", items=[(name or "DEFAULT", *rest) for name, *rest in METHODS], default="DEFAULT")
+    source: EnumProperty(name="Source", default="unknown", description="What recorded the motion", items=[
+        ("unknown", "Unknown", "Only what the motion itself shows to be noise is taken out"),
+        ("optical", "Optical", "Markers and cameras; as unknown"),
+        ("suit", "Suit", "Sensors on the body: slow noise is taken out, too"),
+        ("video", "Video", "Pose estimation without markers: slow noise is taken out, too"),
+        ("depth", "Depth camera", "Slow noise is taken out, too"),
+        ("keyframed", "Keyframed", "Keys set by hand: the default and Auto change nothing")])
     strength: FloatProperty(name="Strength", min=0, max=1, default=1, subtype="FACTOR",
                             description="How far to go from the input (0) to the cleaned motion (1)")
     bones: EnumProperty(name="Bones", default="ALL", items=[
@@ -56,7 +63,7 @@ class _Values:
     """The settings as the rest of the add-on sees them."""
 
     def __init__(self, settings):
-        for name in ("strength", "bones", "pattern", "use_range", "first", "last", "feet", "root_position"):
+        for name in ("source", "strength", "bones", "pattern", "use_range", "first", "last", "feet", "root_position"):
             setattr(self, name, getattr(settings, name))
         self.method = "" if settings.method == "DEFAULT" else settings.method
 
@@ -172,7 +179,7 @@ class KINEMEND_PT_panel(bpy.types.Panel):
 
     def draw(self, context):
         layout, settings = self.layout, context.scene.kinemend
-        for name in ("method", "strength", "bones"):
+        for name in ("method", "source", "strength", "bones"):
             layout.prop(settings, name)
         if settings.bones == "NAME":
             layout.prop(settings, "pattern")

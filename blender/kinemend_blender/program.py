@@ -26,14 +26,17 @@ def name_pattern(name):
     return re.sub(r"[,*?\[\]\\\s]", "?", name)
 
 
-def command_line(program, method="", strength=1.0, joints=None, frames=None, feet="off", root_position=True, reports=()):
+def command_line(program, method="", strength=1.0, joints=None, frames=None, feet="off", root_position=True, reports=(), source="unknown"):
     """The words that clean standard input to standard output.
 
     `joints`: names; None for all. `frames`: first and last frame, counted from 1; None for all.
+    `source`: what recorded the motion, as --source names it.
     """
     words = [program, "clean", "-", "--from", "npz", "-o", "-", "--quiet", "--force", "--feet", feet, f"--strength={strength:.6g}"]
     if method:
         words += ["--method", method]
+    if source != "unknown":
+        words += ["--source", source]
     if joints is not None:
         words.append("--joints=" + ",".join(map(name_pattern, joints)))
     if frames is not None:

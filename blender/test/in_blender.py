@@ -30,7 +30,7 @@ NEAR_DEG = 1e-4
 
 class Settings:
     def __init__(self, **others):
-        self.method, self.strength, self.bones, self.pattern = "gaussian", 1.0, "ALL", "*"
+        self.method, self.source, self.strength, self.bones, self.pattern = "gaussian", "unknown", 1.0, "ALL", "*"
         self.use_range, self.first, self.last, self.feet, self.root_position = False, 1, 100, "off", True
         vars(self).update(others)
 

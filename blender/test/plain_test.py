@@ -242,6 +242,11 @@ class WithProgram(unittest.TestCase):
         jitter = [np.abs(np.diff(each["rotations"], 2, axis=0)).mean() for each in (take, cleaned)]
         self.assertLess(jitter[1], jitter[0] / 3)
 
+    def test_keys_come_back_where_the_source_says_so(self):
+        take = walk()
+        self.assertTrue(np.any(self.clean(take)["rotations"] != take["rotations"]))
+        np.testing.assert_array_equal(self.clean(take, source="keyframed")["rotations"], take["rotations"])
+
     def test_other_arrays_and_samples_that_are_not_chosen_stay(self):
         take = {**walk(), "contacts": RANDOM.random((200, 4)).astype(np.float32)}
         cleaned = self.clean(take, method="gaussian", joints=["Füße"], frames=(51, 100))

@@ -13,6 +13,7 @@
 #include "kinemend/feet.hpp"
 #include "kinemend/gaps.hpp"
 #include "kinemend/skeleton.hpp"
+#include "kinemend/source.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {
@@ -155,6 +156,9 @@ struct CheckSettings {
   std::optional<double> metres_per_unit;
   KnownNames names;  ///< what joints or markers of feet are called where names do not tell
   std::optional<RobotSettings> robot;  ///< none: these checks are left out
+  /// What recorded the take, as `CleanSettings::source`: noise and spikes that cleaning would take
+  /// out are found.
+  Source source = Source::unknown;
 };
 
 /// One of several people in a take of markers.
@@ -178,6 +182,7 @@ struct CheckReport {
   double metres_per_unit = 0;          ///< as used; 0: unknown
   std::string noise_unit;              ///< "deg", or the markers' unit
   std::vector<NoiseCharacter> noise;   ///< what `auto` finds; none of a space without noise
+  TakeSource source;                   ///< what counted as the source of the take, and why
   CheckFigures figures;
   std::vector<TrackHealth> tracks;      ///< J, or the markers that are positions
   std::vector<SubjectHealth> subjects;  ///< of a take of several people; feet, lengths and size

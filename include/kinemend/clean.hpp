@@ -14,6 +14,7 @@
 #include "kinemend/cleaner.hpp"
 #include "kinemend/feet.hpp"
 #include "kinemend/fill.hpp"
+#include "kinemend/source.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {
@@ -47,6 +48,9 @@ struct CleanSettings {
   /// The noise, for `auto` and the learned methods; not set: they measure it. Other methods ignore
   /// it.
   std::optional<KnownNoise> noise;
+  /// What recorded the take, for `auto` and `learned`; `unknown`: what the file says (`source_of`).
+  /// Other methods ignore it.
+  Source source = Source::unknown;
   double peak_loss_limit = 0.10;  ///< a larger loss of a peak speed is a warning (0..1)
   /// Fills gaps after the method has run, from the cleaned samples, without spikes that the method
   /// left there; not set: gaps stay. Gaps outside the selection and the range stay. Its own list of
@@ -100,6 +104,7 @@ struct TrackSummary {
 struct CleanReport {
   TakeKind kind = TakeKind::joints;
   std::string method;  ///< `Cleaner::name`
+  TakeSource source;   ///< what counted as the source of the take, and why
   std::string unit;  ///< of the tracks: "deg" for joints; the file's for markers, empty if unknown
   std::size_t frames = 0;
   std::size_t calibration_frames = 0;  ///< at the start, left alone; joints only

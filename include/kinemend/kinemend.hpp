@@ -12,5 +12,6 @@
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
 #include "kinemend/report.hpp"
+#include "kinemend/source.hpp"
 #include "kinemend/stream.hpp"
 #include "kinemend/take.hpp"

@@ -105,7 +105,8 @@ struct NonlocalOptions {
 std::unique_ptr<Cleaner> make_nonlocal(const NonlocalOptions& options = {});
 
 /// Measures the noise of each joint or marker, repairs spikes, smooths by the measured noise, and
-/// leaves clean takes unchanged. The default of the program is `learned`.
+/// leaves clean takes unchanged. Of a take that is keyframed (`TakeView::source`) only gaps change.
+/// The default of the program is `learned`.
 struct AutoOptions {
   double sensitivity = 1;  ///< factor on the estimated noise: above 1 smooths more, below 1 less
   bool despike = true;
@@ -196,17 +197,17 @@ std::unique_ptr<Cleaner> make_recurrent(const RecurrentOptions& options = {},
 /// damage it, and takes that two systems saw: it mixes smoothers of all widths per channel and
 /// moment, and corrects what the body tells. Any skeleton, and markers; it knows bodies better
 /// whose joints it recognises. Takes that are shorter than half a second, or slower than 20 Hz, are
-/// cleaned by `auto`. Errors: `ErrorKind::usage` for a model of another method.
+/// cleaned by `auto`. The source of the take (`TakeView::source`) decides what becomes of slow
+/// noise that the take does not show: of video, depth cameras and suits all is taken out that the
+/// network expects to be wrong. Otherwise, within half a second, no more changes than twice what
+/// the quieter quarter of the take shows, or than the measured noise asks for, so that clean motion
+/// stays. Errors: `ErrorKind::usage` for a model of another method.
 struct LearnedOptions {
   std::string model{};  ///< a file made by `kinemend-train learned`; empty: what ships
   std::string map{};    ///< file that maps names in the take to names in the model
   /// Frame by frame, 0.117 s behind (at most 14 frames up to 390 Hz): no rules of spikes, no noise
   /// that is measured first. A take is then cleaned as a stream of its frames would be.
   bool live = false;
-  /// Takes out all that the network expects to be wrong. Off: within half a second no more than
-  /// twice what the quieter quarter of the take shows, or what the measured noise asks for, so that
-  /// clean motion stays.
-  bool trust_model = false;
 };
 std::unique_ptr<Cleaner> make_learned(const LearnedOptions& options = {},
                                       std::shared_ptr<const Model> model = nullptr);

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "kinemend/cleaner.hpp"
+#include "kinemend/source.hpp"
 
 namespace kinemend {
 
@@ -40,8 +41,9 @@ class Stream {
 /// A stream of this cleaner for takes with the skeleton, or the names and kinds of markers, and the
 /// rate of `like`, whose frames are ignored. The cleaner must outlive the stream. `body_height`, of
 /// markers: the height of the person in file units, for example that of an earlier take
-/// (`body_height(take)`). Errors: as of `Cleaner::live`.
+/// (`body_height(take)`). `source`: what records the frames; `unknown`: what `like` says.
+/// Errors: as of `Cleaner::live`.
 std::unique_ptr<Stream> make_stream(const Cleaner& cleaner, const Take& like,
-                                    double body_height = 0);
+                                    double body_height = 0, Source source = Source::unknown);
 
 }  // namespace kinemend

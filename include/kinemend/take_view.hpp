@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "kinemend/source.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {
@@ -39,6 +40,7 @@ struct Selection {
   bool translations = true;            ///< positions of translated joints that are selected
   double body_height = 0;  ///< of the person, file units, by which markers are measured; 0: found
   TakeNoise noise{};
+  Source source = Source::unknown;  ///< what recorded the take
 
   bool includes(std::size_t owner) const { return owners.empty() || owners[owner] != 0; }
 };
@@ -80,6 +82,7 @@ struct TakeView {
   /// Of markers: file units, by which distances are measured. That of joints is their skeleton's.
   double body_height = 1;
   std::optional<double> noise_correlation;  ///< `TakeNoise::correlation`
+  Source source = Source::unknown;          ///< `Selection::source`
 
   /// The track of the root position; of joints only.
   std::size_t root_track() const noexcept { return owners; }

@@ -16,6 +16,7 @@ from .reports import Contact, DamageReport, Report
 
 _Progress = Callable[[str, float], object] | None
 _Range = tuple[int, int] | None
+_Source = Literal["optical", "suit", "video", "depth", "keyframed", "unknown"]
 
 
 def _report(core: _core.CoreReport) -> Report:
@@ -70,6 +71,7 @@ def clean(
     exclude: Iterable[str] = (),
     root_position: bool = True,
     range: _Range = None,
+    source: _Source = "unknown",
     noise: Literal["auto", "white"] | Report = "auto",
     peak_loss_limit: float = 0.10,
     fill: str | None = None,
@@ -107,6 +109,10 @@ def clean(
         Also clean the position of joint 0.
     range : (int, int), optional
         First and last frame that may change, counted from 0.
+    source : {"optical", "suit", "video", "depth", "keyframed", "unknown"}
+        What recorded the motion, for the methods `learned` and `auto`. Video, depth and suit: slow
+        noise is taken out, too. Keyframed: only gaps change. Unknown: what the file says, where
+        that is certain; else only what the take shows to be noise is taken out.
     noise : "auto", "white" or Report
         The noise of the capture system: measured, independent from frame to frame, or as the report
         of another take of the same system says.
@@ -170,6 +176,7 @@ def clean(
         exclude=exclude,
         root_position=root_position,
         range=range,
+        source=source,
         noise=_noise(noise),
         peak_loss_limit=peak_loss_limit,
         fill=fill,
@@ -318,6 +325,7 @@ def check(
     metres_per_unit: float | None = None,
     feet_names: Mapping[str, str] | None = None,
     robot: bool | RobotLimits = False,
+    source: _Source = "unknown",
 ) -> Report:
     """Find what is wrong with a take before it is cleaned, worst first.
 
@@ -334,6 +342,9 @@ def check(
     robot : bool or RobotLimits, optional
         Also find what a robot or a simulated body cannot follow, as `kinemend check --robot`:
         with its limits, or with your own.
+    source : {"optical", "suit", "video", "depth", "keyframed", "unknown"}
+        What recorded the motion: noise and spikes are found that `clean` would take out with this
+        source.
 
     Examples
     --------
@@ -350,6 +361,7 @@ def check(
             feet_names=feet_names or {},
             robot=limits._given() if robot else None,
             joint_limits=limits.joints,
+            source=source,
         )
     )
 

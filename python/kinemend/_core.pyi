@@ -126,7 +126,7 @@ class CoreReport:
     def to_text(self) -> str: ...
 
 class CoreStream:
-    def __init__(self, cleaner: CoreCleaner, like: Take, body_height: float) -> None: ...
+    def __init__(self, cleaner: CoreCleaner, like: Take, body_height: float, source: str) -> None: ...
     @property
     def latency_frames(self) -> int: ...
     def push(
@@ -195,6 +195,7 @@ def clean(
     root_position: bool,
     range: tuple[int, int] | None,
     noise: tuple[float, Mapping[str, float]] | None,
+    source: str,
     peak_loss_limit: float,
     fill: str | None,
     fill_all: bool,
@@ -229,6 +230,7 @@ def check(
     feet_names: Mapping[str, str],
     robot: Mapping[str, float] | None,
     joint_limits: Mapping[str, Mapping[str, float]],
+    source: str,
 ) -> CoreReport: ...
 def contacts(take: Take, *, feet_names: Mapping[str, str]) -> CoreReport: ...
 def compare(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -45,6 +46,9 @@ class LiveFilter:
         A method that runs live: `methods()` says which do.
     body_height : float, default 0
         Of markers: the height of the person in the unit of the take; 0: a usual one.
+    source : {"optical", "suit", "video", "depth", "keyframed", "unknown"}
+        What records the frames, for the method `learned`, as in `clean`. Unknown: what the file of
+        `like` says.
     options : mapping, optional
         Options of the method.
     **more
@@ -72,11 +76,12 @@ class LiveFilter:
         method: str | Cleaner = "median",
         *,
         body_height: float = 0.0,
+        source: Literal["optical", "suit", "video", "depth", "keyframed", "unknown"] = "unknown",
         options: Mapping[str, _GivenOption] | None = None,
         **more: _GivenOption,
     ) -> None:
         self.cleaner = method if isinstance(method, Cleaner) else Cleaner(method, options, **more)
-        self._stream = _core.CoreStream(self.cleaner._core, like, body_height)
+        self._stream = _core.CoreStream(self.cleaner._core, like, body_height, source)
 
     @property
     def latency_frames(self) -> int:

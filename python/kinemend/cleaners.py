@@ -490,7 +490,6 @@ def learned(
     model: str | os.PathLike[str] = "",
     map: str | os.PathLike[str] = "",
     live: bool = False,
-    trust_model: bool = False,
 ) -> Cleaner:
     """Network that reads the take itself and finds noise of every kind, slow noise too.
 
@@ -504,18 +503,8 @@ def learned(
         File that maps names in the take to names in the model.
     live : bool, default False
         Live form: looks an eighth of a second ahead.
-    trust_model : bool, default False
-        Take out all that the network expects, also where the take shows no noise.
     """
-    return Cleaner(
-        "learned",
-        {
-            "model": model,
-            "map": map,
-            "live": live,
-            "trust_model": trust_model,
-        },
-    )
+    return Cleaner("learned", {"model": model, "map": map, "live": live})
 
 
 def one_euro(

@@ -733,6 +733,10 @@ class Report:
         One line for people; null of compare.
     method : str or None
         Clean.
+    source : {"optical", "suit", "video", "depth", "keyframed", "unknown"} or None
+        Clean, check: what counted as the source of the motion.
+    source_reason : str or None
+        Clean, check: "given", "not known", or where the file says it.
     options : dict[str, bool | float | str] or None
         Clean: of the method, all with their values.
     noise : list[Noise] or None
@@ -785,6 +789,8 @@ class Report:
     tracks: list[Track]
     animation: str | None = None
     method: str | None = None
+    source: Literal["optical", "suit", "video", "depth", "keyframed", "unknown"] | None = None
+    source_reason: str | None = None
     options: dict[str, bool | float | str] | None = None
     noise: list[Noise] | None = None
     fall_backs: list[FallBack] | None = None

@@ -123,10 +123,11 @@ py::tuple clean(const HeldTakePtr& held, const HeldCleanerPtr& cleaner, double s
                 double max_change_deg, double max_change, const py::iterable& joints,
                 const py::iterable& exclude, bool root_position,
                 const std::optional<std::pair<std::size_t, std::size_t>>& range,
-                const py::object& noise, double peak_loss_limit, const py::object& fill,
-                bool fill_all, bool unlabelled, const std::optional<std::string>& feet,
-                const py::dict& feet_names, const std::optional<std::vector<Contact>>& contacts,
-                bool fix_swaps, std::size_t threads, const py::object& progress) {
+                const py::object& noise, const std::string& source, double peak_loss_limit,
+                const py::object& fill, bool fill_all, bool unlabelled,
+                const std::optional<std::string>& feet, const py::dict& feet_names,
+                const std::optional<std::vector<Contact>>& contacts, bool fix_swaps,
+                std::size_t threads, const py::object& progress) {
   CleanWork work{held, cleaner, {}, fix_swaps, threads};
   CleanSettings& settings = work.settings;
   settings.strength = strength;
@@ -137,6 +138,7 @@ py::tuple clean(const HeldTakePtr& held, const HeldCleanerPtr& cleaner, double s
   settings.root_position = root_position;
   settings.range = range;
   settings.noise = noise_of(noise);
+  settings.source = parse_source(source);
   settings.peak_loss_limit = peak_loss_limit;
   settings.fill = fill_settings(fill, fill_all, unlabelled);
   if (feet || contacts)
@@ -182,8 +184,8 @@ void bind_cleaning(py::module_& module) {
   bind_report(module);
   module.def("clean", clean, "take"_a, "cleaner"_a, py::kw_only(), "strength"_a, "max_change_deg"_a,
              "max_change"_a, "joints"_a, "exclude"_a, "root_position"_a, "range"_a, "noise"_a,
-             "peak_loss_limit"_a, "fill"_a, "fill_all"_a, "unlabelled"_a, "feet"_a, "feet_names"_a,
-             "contacts"_a, "fix_swaps"_a, "threads"_a, "progress"_a);
+             "source"_a, "peak_loss_limit"_a, "fill"_a, "fill_all"_a, "unlabelled"_a, "feet"_a,
+             "feet_names"_a, "contacts"_a, "fix_swaps"_a, "threads"_a, "progress"_a);
 }
 
 }  // namespace kinemend::python

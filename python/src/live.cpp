@@ -20,12 +20,13 @@ using namespace py::literals;
 
 class CoreStream {
  public:
-  CoreStream(HeldCleanerPtr cleaner, const HeldTakePtr& like, double body_height)
+  CoreStream(HeldCleanerPtr cleaner, const HeldTakePtr& like, double body_height,
+             const std::string& source)
       : cleaner_(std::move(cleaner)),
         joints_(static_cast<py::ssize_t>(like->take.joint_count())),
         points_(static_cast<py::ssize_t>(like->take.point_count())),
         owners_(static_cast<py::ssize_t>(like->take.owner_count())),
-        stream_(make_stream(*cleaner_->cleaner, like->take, body_height)) {}
+        stream_(make_stream(*cleaner_->cleaner, like->take, body_height, parse_source(source))) {}
 
   std::size_t latency_frames() const { return stream_->latency_frames(); }
 
@@ -97,8 +98,8 @@ class CoreStream {
 
 void bind_live(py::module_& module) {
   py::class_<CoreStream> type(module, "CoreStream", "A cleaner on one stream of frames.");
-  type.def(py::init<HeldCleanerPtr, const HeldTakePtr&, double>(), "cleaner"_a, "like"_a,
-           "body_height"_a);
+  type.def(py::init<HeldCleanerPtr, const HeldTakePtr&, double, const std::string&>(), "cleaner"_a,
+           "like"_a, "body_height"_a, "source"_a);
   type.def_property_readonly("latency_frames", &CoreStream::latency_frames);
   type.def("push", &CoreStream::push, "rotations"_a, "positions"_a, "observed"_a);
   type.def("flush", &CoreStream::flush);

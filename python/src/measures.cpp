@@ -132,8 +132,10 @@ RobotSettings robot_settings_of(const py::dict& numbers, const py::dict& joints)
 
 ReportPtr check(const HeldTakePtr& held, const std::optional<std::string>& up,
                 std::optional<double> metres_per_unit, const py::dict& feet_names,
-                const std::optional<py::dict>& robot, const py::dict& joint_limits) {
+                const std::optional<py::dict>& robot, const py::dict& joint_limits,
+                const std::string& source) {
   CheckSettings settings;
+  settings.source = parse_source(source);
   if (robot) settings.robot = robot_settings_of(*robot, joint_limits);
   settings.up = axis_named(up);
   settings.metres_per_unit = metres_per_unit;
@@ -239,7 +241,7 @@ void bind_measures(py::module_& module) {
              "longest_gap_s"_a, "fill_all"_a, "max_error"_a, "max_error_deg"_a, "unlabelled"_a,
              "range"_a, "model"_a, "map"_a);
   module.def("check", check, "take"_a, py::kw_only(), "up"_a, "metres_per_unit"_a, "feet_names"_a,
-             "robot"_a, "joint_limits"_a);
+             "robot"_a, "joint_limits"_a, "source"_a);
   module.def("contacts", contacts, "take"_a, py::kw_only(), "feet_names"_a);
   module.def("compare", compare, "reference"_a, "other"_a, py::kw_only(), "psnr_peak"_a,
              "metres_per_unit"_a, "up"_a, "fit"_a, "fit_to"_a, "lag_frames"_a, "least_motion"_a);

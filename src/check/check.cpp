@@ -153,6 +153,7 @@ std::vector<Finding> beyond_cleaning(std::vector<Finding> findings) {
 
 CheckReport check_joints(const Take& clip, const CheckSettings& settings) {
   CheckReport report = report_on_joints(clip);
+  report.source = source_of(clip, settings.source);
   std::optional<Take> sliced;
   const Take& motion = frames_from(clip, report.calibration_frames, sliced);
   check_gaps_of(motion, report);
@@ -178,6 +179,7 @@ CheckReport check_joints(const Take& clip, const CheckSettings& settings) {
 CheckReport check_markers(const Take& clip, const CheckSettings& settings) {
   MarkerRows rows;
   CheckReport report = report_on_markers(clip, rows);
+  report.source = source_of(clip, settings.source);
   const auto& [markers, track_of] = rows;
   const std::vector<Subject> subjects = subjects_of(clip);
   check::check_unit(clip, largest_of(subjects, markers), settings, report);

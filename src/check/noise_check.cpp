@@ -43,6 +43,12 @@ void add_spikes(TrackHealth& track, const std::string& name,
   }
 }
 
+TakeView view_for(const Take& clip, const CheckReport& report) {
+  Selection selection;
+  selection.source = report.source.source;
+  return view_of(clip, selection);
+}
+
 // What `auto` says of a take.
 struct Verdict {
   CleanTrace trace;                                        // no noise: too short to tell
@@ -84,7 +90,7 @@ Verdict verdict_of(const TakeView& take) {
 void check_noise_and_spikes(const Take& clip, const CheckSettings& settings, CheckReport& report) {
   const std::size_t frames = clip.frame_count(), joints = clip.joint_count();
   if (frames == 0) return;
-  const Verdict verdict = verdict_of(view_of(clip));
+  const Verdict verdict = verdict_of(view_for(clip, report));
   const std::vector<double>& noise = verdict.trace.noise;
   report.noise = verdict.trace.characters;
   for (std::size_t j = 0; j < joints && !noise.empty(); ++j)
@@ -101,7 +107,7 @@ void check_noise_and_spikes(const Take& clip, const std::vector<std::size_t>& ma
                             const CheckSettings& settings, CheckReport& report) {
   const std::size_t frames = clip.frame_count();
   if (frames == 0 || markers.empty()) return;
-  const Verdict verdict = verdict_of(view_of(clip));
+  const Verdict verdict = verdict_of(view_for(clip, report));
   const std::vector<double>& noise = verdict.trace.noise;
   report.noise = verdict.trace.characters;
   // Without a unit there is no limit to compare with.

@@ -35,9 +35,12 @@ std::unique_ptr<FrameWriter> writer_of(const LiveHeader& header, LiveFormat form
 
 std::unique_ptr<Stream> stream_of(const Cleaner& cleaner, const LiveHeader& header,
                                   const LiveOptions& options) {
-  if (header.markers.empty()) return make_stream(cleaner, clip_like(header));
+  // Axis Neuron sends what a suit records.
+  const Source source =
+      options.neuron && options.source == Source::unknown ? Source::suit : options.source;
+  if (header.markers.empty()) return make_stream(cleaner, clip_like(header), 0, source);
   const Take like = make_marker_take(header.markers, 0, header.frame_rate_hz);
-  return make_stream(cleaner, like, options.body_height);
+  return make_stream(cleaner, like, options.body_height, source);
 }
 
 // Interpolates between two frames. A marker is observed if it is in both.

@@ -47,7 +47,7 @@ class VmcSession::Work {
       : options_((check_vmc_options(options), options)),
         sink_(std::move(sink)),
         bones_(options.bones),
-        stream_(cleaner, bones_, options.frame_rate_hz, options.feet,
+        stream_(cleaner, bones_, options.frame_rate_hz, options.feet, options.source,
                 [this](std::size_t, const VmcFrame& frame) { clean_poses(frame); }),
         clock_(options.frame_rate_hz, silence_s),
         chosen_(bones_.count(), options.bones.empty() ? 1 : 0),

@@ -14,17 +14,19 @@ constexpr std::size_t warm_frames = 60;
 }  // namespace
 
 VmcStream::VmcStream(const Cleaner& cleaner, const VmcBones& bones, double frame_rate_hz, bool feet,
-                     Give give)
+                     Source source, Give give)
     : cleaner_(cleaner),
       bones_(bones),
       frame_rate_hz_(frame_rate_hz),
+      source_(source),
       give_(std::move(give)),
       present_(bones.count(), 0),
       offsets_(bones.count()),
       holds_feet_(feet) {
   // A method that cannot clean a humanoid says so before there is a sender.
   const std::vector<std::uint8_t> all(bones.count(), 1);
-  latency_ = make_stream(cleaner, bones.take_of(all, offsets_, frame_rate_hz))->latency_frames();
+  latency_ = make_stream(cleaner, bones.take_of(all, offsets_, frame_rate_hz), 0, source)
+                 ->latency_frames();
   kept_frames_ = 2 * latency_ + warm_frames;
   begin_anew();
 }
@@ -54,7 +56,7 @@ void VmcStream::push(VmcFrame frame) {
 void VmcStream::begin_anew() {
   is_outdated_ = false;
   const Take like = bones_.take_of(present_, offsets_, frame_rate_hz_);
-  stream_ = make_stream(cleaner_, like);
+  stream_ = make_stream(cleaner_, like, 0, source_);
   if (holds_feet_) feet_.emplace(like);
   joints_.assign(bones_.count(), 0);
   order_.clear();

@@ -32,7 +32,7 @@ class VmcStream {
 
   /// `cleaner` and `bones` must outlive the stream. Errors: as of `make_stream`.
   VmcStream(const Cleaner& cleaner, const VmcBones& bones, double frame_rate_hz, bool feet,
-            Give give);
+            Source source, Give give);
 
   std::size_t latency_frames() const { return latency_; }
   bool has(std::size_t bone) const { return present_[bone] != 0; }
@@ -53,6 +53,7 @@ class VmcStream {
   const Cleaner& cleaner_;
   const VmcBones& bones_;
   double frame_rate_hz_;
+  Source source_;
   Give give_;
   std::vector<std::uint8_t> present_;
   std::vector<Vec3> offsets_;

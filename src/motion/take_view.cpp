@@ -106,6 +106,7 @@ TakeView view_of(const Take& take, const Selection& selection) {
     add_markers(take, selection, view);
   }
   tell_noise(selection.noise, view);
+  view.source = selection.source;
   return view;
 }
 

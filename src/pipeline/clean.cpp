@@ -302,9 +302,10 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-CleanReport report_for(const Take& take, const Cleaner& cleaner) {
+CleanReport report_for(const Take& take, const Cleaner& cleaner, const CleanSettings& settings) {
   CleanReport report;
   report.method = cleaner.name();
+  report.source = source_of(take, settings.source);
   report.frames = take.frame_count();
   report.frame_rate_hz = take.frame_rate_hz;
   if (take.has_joints()) {
@@ -331,8 +332,10 @@ Work work_of(const Take& take, const CleanSettings& settings, const CleanReport&
   constexpr double rounding_of_bone = 1e-11, rounding_of_body = 1e-13;
   const bool joints = take.has_joints();
   const std::size_t first = report.calibration_frames;
+  Selection selection = selection_of(take, settings);
+  selection.source = report.source.source;
   return {settings,
-          selection_of(take, settings),
+          std::move(selection),
           first,
           frame_weights(settings, report.frames, first, take.frame_rate_hz),
           joints ? joint_scale() : marker_scale(take.unit, report.body_height),
@@ -349,7 +352,7 @@ CleanResult clean_take(const Take& take, const Cleaner& cleaner, const CleanSett
 CleanResult clean_take(Take&& take, const Cleaner& cleaner, const CleanSettings& settings) {
   const Stopwatch stopwatch;
   check_settings(settings, take.frame_count());
-  CleanResult result{{}, report_for(take, cleaner)};
+  CleanResult result{{}, report_for(take, cleaner, settings)};
   CleanReport& report = result.report;
   if (!take.has_joints()) warn_of_feet(settings, report);
   const Work work = work_of(take, settings, report);

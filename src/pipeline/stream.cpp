@@ -44,8 +44,10 @@ bool Stream::push(const Frame& in, Frame& out) {
   return filter_->push(in, out);
 }
 
-std::unique_ptr<Stream> make_stream(const Cleaner& cleaner, const Take& like, double body_height) {
+std::unique_ptr<Stream> make_stream(const Cleaner& cleaner, const Take& like, double body_height,
+                                    Source source) {
   Selection selection;
+  selection.source = source_of(like, source).source;
   selection.body_height = body_height;
   return std::make_unique<Stream>(cleaner, without_frames(like), selection);
 }

@@ -156,6 +156,7 @@ std::string check_text(const TakeFacts& take, const CheckReport& report,
   const TakeKind kind = report.is_markers ? TakeKind::markers : TakeKind::joints;
   for (const NoiseCharacter& noise : report.noise)
     table.add({"noise found", noise_words(noise, kind, report.noise_unit, report.frame_rate_hz)});
+  table.add({"source", source_words(report.source)});
   for (const Diagnostic& entry : take.diagnostics.entries())
     table.add({"repaired", printable(diagnostic_text(take.format, entry))});
   text += table.text() + subjects_text(report) + findings_text(take, report, options.all);

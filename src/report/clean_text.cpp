@@ -254,6 +254,7 @@ std::string details(const TakeFacts& take, const CleanOutcome& outcome, bool all
         report.calibration_frames == 1 ? "is" : fmt::format("{} are", report.calibration_frames));
   }
   text += "\n";
+  text += fmt::format("  source: {}\n", source_words(report.source));
   if (const std::string table = change_table(report, all_rows); !table.empty())
     text += "\n" + table + "\n";
   if (report.root_max_change > 0) {

@@ -157,6 +157,11 @@ Json noise_json(const std::vector<NoiseCharacter>& characters, double frame_rate
   return list;
 }
 
+void add_source(const TakeSource& source, Json& json) {
+  json["source"] = to_string(source.source);
+  json["source_reason"] = source.reason;
+}
+
 Json subjects_json(const CheckReport& report) {
   Json list = Json::array();
   for (const SubjectHealth& subject : report.subjects) {
@@ -178,6 +183,7 @@ Json robot_json(const RobotFindings& robot, std::int64_t first_frame) {
 // What only one command has, between the verdict and the figures.
 void add_own(const TakeFacts& take, const CleanOutcome& outcome, Depth depth, Json& json) {
   json["method"] = outcome.report.method;
+  add_source(outcome.report.source, json);
   if (depth != Depth::row) json["options"] = json_of(outcome.options);
   if (outcome.report.feet) {
     json["feet"] = feet_json(*outcome.report.feet, take.first_frame, depth != Depth::row);
@@ -189,6 +195,7 @@ void add_own(const TakeFacts& take, const CleanOutcome& outcome, Depth depth, Js
   json["leftovers"] = leftovers_json(outcome.leftovers);
 }
 void add_own(const TakeFacts& take, const CheckReport& report, Depth /*depth*/, Json& json) {
+  add_source(report.source, json);
   json["noise"] = noise_json(report.noise, report.frame_rate_hz);
   json["subjects"] = subjects_json(report);
   if (report.robot) json["robot"] = robot_json(*report.robot, take.first_frame);

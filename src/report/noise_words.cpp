@@ -1,4 +1,4 @@
-// Describes the noise of a take in words.
+// Describes the noise and the source of a take in words.
 #include <fmt/format.h>
 
 #include "base/measure.hpp"
@@ -21,6 +21,11 @@ std::string colour_words(const NoiseCharacter& noise, double frame_rate_hz) {
 }
 
 }  // namespace
+
+std::string source_words(const TakeSource& source) {
+  if (source.source == Source::unknown) return source.reason;
+  return fmt::format("{} ({})", to_string(source.source), source.reason);
+}
 
 std::string noise_words(const NoiseCharacter& noise, TakeKind kind, std::string_view unit,
                         double frame_rate_hz) {

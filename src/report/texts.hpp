@@ -17,6 +17,8 @@ std::string shown_name(const TakeFacts& take);
 /// tracks.
 std::string noise_words(const NoiseCharacter& noise, TakeKind kind, std::string_view unit,
                         double frame_rate_hz);
+/// "video (given)"; "not known".
+std::string source_words(const TakeSource& source);
 /// "; written to walk.clean.bvh"; nothing for standard output.
 std::string written_text(const TakeFacts& take);
 

@@ -17,6 +17,23 @@ TEST(CheckClip, FindsNothingInCleanTakes) {
   }
 }
 
+// What is found is what cleaning takes out: of keys nothing.
+TEST(CheckClip, FindsNoNoiseAndNoSpikesInKeys) {
+  Take clip = synthetic_clip("walk");
+  Random random(3);
+  for (Quat& q : clip.rotations)
+    q = q * exp(radians_per_degree * Vec3{random.normal(), random.normal(), random.normal()});
+  CheckSettings settings;
+  const CheckReport unknown = check_take(clip, settings);
+  EXPECT_FALSE(of_kind(unknown, FindingKind::noise).empty());
+  EXPECT_EQ(unknown.source, TakeSource());
+  settings.source = Source::keyframed;
+  const CheckReport keyed = check_take(clip, settings);
+  EXPECT_TRUE(of_kind(keyed, FindingKind::noise).empty());
+  EXPECT_TRUE(of_kind(keyed, FindingKind::spike).empty());
+  EXPECT_EQ(keyed.source, (TakeSource{Source::keyframed, "given"}));
+}
+
 TEST(CheckClip, TellsGapsByJoint) {
   Take clip = synthetic_clip("walk");
   const std::vector<NamedGap> gaps{{"LeftArm", 100, 129}, {"LeftArm", 300, 301}, {"Head", 10, 10}};

@@ -49,6 +49,13 @@ INSTANTIATE_TEST_SUITE_P(
         Case{{"clean", "a.bvh", "--strength", "0,5"}, "--strength: \"0,5\" is not a number"},
         Case{{"clean", "a.bvh", "--max-change-deg", "181"},
              "--max-change-deg: 181 is outside 0 to 180 deg"},
+        Case{{"clean", "a.bvh", "--source", "vidoe"},
+             "--source: unknown name vidoe (did you mean video?)"},
+        Case{{"check", "a.bvh", "--source", "vidoe"},
+             "--source: unknown name vidoe (did you mean video?)"},
+        Case{{"clean", "a.bvh", "--source", "satellite"},
+             "--source: \"satellite\" is not one of optical, suit, video, depth, keyframed, "
+             "unknown"},
         Case{{"clean", "a.bvh", "--jobs", "2.5"}, "--jobs: \"2.5\" is not a whole number"},
         Case{{"clean", "a.bvh", "-m", "butterworth", "--cutoff-hz", "900"},
              "--cutoff-hz: 900 is outside 0.05 to 500 Hz"},

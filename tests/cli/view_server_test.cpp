@@ -13,6 +13,7 @@
 namespace kinemend::test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -277,6 +278,16 @@ TEST_F(ViewServer, TakesAFileWhoseNameBeginsWithADash) {
   EXPECT_THAT(post("save", R"({"command": "clean", "file": "-x.bvh"})"),
               StartsWith("HTTP/1.1 200 "));
   EXPECT_TRUE(fs::exists(folder / "-x.bvh"));
+}
+
+TEST_F(ViewServer, CleansWithItsSourceUnlessThePageChoosesAnother) {
+  noisy("walk.bvh", "1");
+  start({"walk.bvh", "--source", "keyframed"});
+  EXPECT_THAT(post("save", R"({"file": "keyed.bvh"})"), HasSubstr("--source=keyframed"));
+  EXPECT_EQ(contents(folder / "keyed.bvh"), contents(folder / "walk.bvh"));
+  EXPECT_THAT(post("save", R"({"flags": {"source": "unknown"}, "file": "other.bvh"})"),
+              AllOf(HasSubstr("--source=unknown"), Not(HasSubstr("keyframed"))));
+  EXPECT_NE(contents(folder / "other.bvh"), contents(folder / "walk.bvh"));
 }
 
 TEST_F(ViewServer, EndsAtOnceWhileConnectionsAreOpen) {

@@ -71,6 +71,18 @@ def test_the_noise_of_another_take_is_used(noisy):
         kinemend.clean(noisy, "auto", noise="pink")
 
 
+def test_the_source_is_given_or_read_and_the_report_names_it(noisy):
+    kept = kinemend.clean(noisy, source="keyframed")
+    assert np.array_equal(kept.take.rotations, noisy.rotations)
+    assert (kept.report.source, kept.report.source_reason) == ("keyframed", "given")
+    assert kinemend.check(noisy).source_reason == "not known"
+    assert kinemend.check(noisy, source="video").source == "video"
+    with pytest.raises(kinemend.Error, match="did you mean video"):
+        kinemend.clean(noisy, source="vidoe")
+    frames = [kinemend.LiveFilter(noisy, "learned", source=source, live=True).latency_frames for source in ("keyframed", "video")]
+    assert frames[0] == 0 < frames[1]
+
+
 def test_the_take_is_not_changed_and_threads_do_not_change_the_result(noisy):
     before = noisy.copy()
     one, two = (kinemend.clean(noisy, "auto", threads=threads) for threads in (1, 2))

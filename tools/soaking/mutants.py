@@ -13,7 +13,7 @@ OUTPUTS = ("bvh", "csv", "trc", "tsv", "c3d", "glb", "amc")
 METHODS = ("auto", "median", "butterworth", "gaussian", "one-euro", "kalman", "hampel", "weighted-mean", "wiener")
 ODD_WORDS = ["nan", "inf", "1e999", "-1", "0", "", " ", "\x1b[31m", "a" * 3000, "\u202e", "--", "-", "-x", "=", "*", "../x", "1:0", "0s:9s",
              "18446744073709551615", "9" * 400, "%n", "\udcff"]
-VALUED = ["--strength", "--cutoff-hz", "--range", "--joints", "--method", "--preset", "--noise", "--fill", "--feet", "--max-change-deg",
+VALUED = ["--strength", "--cutoff-hz", "--range", "--joints", "--method", "--preset", "--noise", "--fill", "--feet", "--source", "--max-change-deg",
           "--max-change", "--peak-loss-limit", "--seed", "--jobs", "--exclude", "--config", "--gaps", "--from-fps", "--asf", "--report"]
 
 

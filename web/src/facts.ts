@@ -30,6 +30,7 @@ function takeFacts(take: Take, entry: TakeEntry): [string, string][] {
   const seconds = entry.frame_rate_hz > 0 ? entry.frames / entry.frame_rate_hz : 0;
   rows.push(['frames', `${grouped(entry.frames)} at ${figure(entry.frame_rate_hz)} Hz, ${figure(seconds)} s`]);
   if (entry.frames > 0) rows.push(['frame numbers', ` ${entry.first_frame} to ${entry.first_frame + entry.frames - 1}`]);
+  if (entry.source) rows.push(['source', entry.source === 'unknown' ? String(entry.source_reason) : `${entry.source} (${entry.source_reason})`]);
   if (entry.calibration_frames) rows.push(['calibration frames', grouped(entry.calibration_frames)]);
   rows.push(['length unit', entry.unit ?? (entry.metres_per_unit ? `${figure(entry.metres_per_unit)} m` : 'not stated')]);
   rows.push(['up axis', `${data.stage.sign < 0 ? '\u2212' : ''}${data.stage.up.toUpperCase()}`]);

@@ -30,6 +30,8 @@ export interface TakeEntry {
   track_unit: string | null;
   verdict: string | null;
   method?: string;
+  source?: string;
+  source_reason?: string;
   reference?: string;
   options?: Record<string, unknown>;
   fall_backs?: { method: string; reason: string; tracks: { name: string; share: number }[] }[];

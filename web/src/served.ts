@@ -16,6 +16,8 @@ export interface Session {
   with_gaps: boolean;
   /** The method of the program, where neither a flag nor a preset names one. */
   default_method: string;
+  /** What recorded the take, where no flag says another. */
+  source: string;
   methods: { name: string; summary: string; options: Option[] }[];
   fill_methods: { name: string; summary: string; joints: boolean; markers: boolean }[];
   /** `values`: what a preset sets of the controls; `options`: of the options of methods. */

@@ -196,6 +196,7 @@ class Controls {
     const pattern = this.isJoints ? 'Left*' : 'L*';
     for (const name of this.refused.keys()) if (name.startsWith('clean.')) this.refused.delete(name);
     this.rows.clean.replaceChildren(field('method', 'how to clean', method),
+      this.option('clean', 'source', { name: 'source', kind: 'choice', help: 'what recorded the motion; video, depth and suit: slow noise is taken out, too; keyframed: only gaps change; unknown: what the file says, else what the take shows', default: this.session.source, choices: ['optical', 'suit', 'video', 'depth', 'keyframed', 'unknown'] }),
       this.option('clean', 'strength', { name: 'strength', kind: 'number', help: 'how much of the cleaning is applied: 0 keeps the input, 1 is the full result', default: 1, minimum: 0, maximum: 1 }),
       this.text('clean', 'joints', `${nouns} to clean`, `${pattern} (all)`, `names or patterns, separated by commas; empty: all ${nouns}`),
       this.text('clean', 'exclude', `${nouns} to leave out`, 'none', `names or patterns of ${nouns} that are not changed`),

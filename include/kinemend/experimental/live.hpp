@@ -45,6 +45,8 @@ struct LiveOptions {
   /// BVH text with hierarchy and rate, used until a header arrives. Empty: frames before the first
   /// header are malformed.
   std::string skeleton;
+  /// What records the frames; `unknown` is a suit for `neuron`.
+  Source source = Source::unknown;
   double body_height = 1750;  ///< of the person, in the units of a stream of markers (> 0)
   double longest_gap_s = 1;   ///< longest run of lost frames that is interpolated (>= 0)
   std::size_t most_line_bytes = 1U << 20;    ///< a longer line is malformed

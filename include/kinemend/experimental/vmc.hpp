@@ -20,6 +20,7 @@ struct VmcOptions {
   std::vector<std::string> bones;
   double strength = 1;  ///< 0..1: geodesic blend from the pose as it came to the cleaned one
   bool feet = false;    ///< as `LiveOptions::feet`
+  Source source = Source::unknown;  ///< what records the frames
   /// Datagrams that wait for their bones; when they are more, all of them leave at once.
   std::size_t most_waiting_bytes = std::size_t{4} << 20;
 };

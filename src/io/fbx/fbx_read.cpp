@@ -11,6 +11,7 @@
 #include "base/quote.hpp"
 #include "io/fbx/fbx.hpp"
 #include "io/fbx/fbx_document.hpp"
+#include "io/fbx/fbx_properties.hpp"
 #include "io/memory_limit.hpp"
 #include "kinemend/experimental/text.hpp"
 
@@ -153,6 +154,22 @@ class FbxReader {
          "scales that change, or differ by axis, move a joint in the frame of its parent", scaled);
   }
 
+  // The program that wrote the file. What it says of an earlier one does not count: the motion may
+  // have been edited since.
+  std::string software() const {
+    const std::uint32_t header = tree().child(no_fbx_record, "FBXHeaderExtension");
+    if (header == no_fbx_record) return {};
+    const std::uint32_t info = tree().child(header, "SceneInfo");
+    if (info == no_fbx_record) return {};
+    std::string vendor, name;
+    for_each_fbx_property(tree(), info, [&](const FbxNamedProperty& property) {
+      if (property.name == "LastSaved|ApplicationVendor") vendor = property.text();
+      if (property.name == "LastSaved|ApplicationName") name = property.text();
+    });
+    if (vendor.empty() || name.find(vendor) != name.npos) return name;
+    return name.empty() ? vendor : vendor + ", " + name;
+  }
+
   void add_facts(Take& take) const {
     const auto fact = [&](const char* name, const std::string& text) {
       take.source.facts.push_back({name, printable(text)});
@@ -166,6 +183,7 @@ class FbxReader {
     if (others > 0) fact("other models", fmt::format("{}", others));
     if (document_.motion.layers.size() > 1)
       fact("layers", fmt::format("{}", document_.motion.layers.size()));
+    if (const std::string writer = software(); !writer.empty()) fact("software", writer);
   }
 
   FbxDocument& document_;

@@ -42,9 +42,7 @@ const OptionTable<LearnedOptions>& learned_table() {
                 "model file made by kinemend-train learned; empty: the model that ships")
           .text(&LearnedOptions::map, "map",
                 "file that maps names in the take to names in the model")
-          .flag(&LearnedOptions::live, "live", "live form: looks an eighth of a second ahead")
-          .flag(&LearnedOptions::trust_model, "trust_model",
-                "take out all that the network expects, also where the take shows no noise");
+          .flag(&LearnedOptions::live, "live", "live form: looks an eighth of a second ahead");
   return options;
 }
 
@@ -65,6 +63,7 @@ class Learned final : public Cleaner {
 
   CleanTrace clean(const TakeView& view, const TrackSink& sink,
                    const std::function<void(double)>& tell) const override {
+    if (view.source == Source::keyframed) return make_auto()->clean(view, sink, tell);
     CleanTrace trace;
     if (const std::string reason = why_not_learned(view); !reason.empty())
       return clean_by_auto(view, reason, sink, tell);
@@ -72,7 +71,7 @@ class Learned final : public Cleaner {
     progress.begin_part(0.3, 1);
     MotionTracks tracks = motion_tracks_of(view, changeable_tracks(view));
     if (tracks.numbers.empty()) return trace;
-    tracks.take.expects_slow_noise = options_.trust_model;
+    tracks.take.expects_slow_noise = expects_slow_noise(view.source);
     std::optional<KnownBody> body = read_body(model_->layout, names_, view, tracks);
     if (body) show_body(*body, tracks.take);
     progress.step();
@@ -80,7 +79,7 @@ class Learned final : public Cleaner {
     add_measured_smoothing(tracks.take);
     MotionResult result = filtered(network_, tracks.take);
     join_measured(tracks.take, result);
-    if (!options_.trust_model) {
+    if (!expects_slow_noise(view.source)) {
       const std::vector<double> put_back =
           keep_to_noise_floor(tracks.take, marks_of(body, tracks.numbers.size()),
                               stepped_tracks(view, tracks.numbers), result);
@@ -146,9 +145,12 @@ class Learned final : public Cleaner {
       const double size = median_of(sizes) / degrees_per_unit(view, space);
       trace.notes.push_back(fmt::format(
           "left alone: changes of about {} on {} that the model proposes and the take does not "
-          "show to be noise; if it comes from video or a depth camera, --trust-model makes them",
+          "show to be noise{}",
           turns ? fmt::format("{:.2g} deg", size) : fmt::format("{:.2g} file units", size),
-          counted(count, turns ? "joint" : "marker")));
+          counted(count, turns ? "joint" : "marker"),
+          view.source == Source::unknown ? "; if this take comes from video, a depth camera or a "
+                                           "suit, --source video (depth, suit) makes them"
+                                         : ""));
     }
   }
 
@@ -251,7 +253,8 @@ class LiveLearned final : public Cleaner {
   }
   std::unique_ptr<LiveFilter> live(const TakeView& like) const override {
     if (!live_support(like.frame_rate_hz).runs()) return Cleaner::live(like);
-    return make_learned_live(network_, model_->layout, names_, like, options_.trust_model);
+    if (like.source == Source::keyframed) return gap_holding_filter(like);
+    return make_learned_live(network_, model_->layout, names_, like);
   }
 
  private:

@@ -105,7 +105,7 @@ class LivePoses {
 class LearnedLive final : public LiveFilter {
  public:
   LearnedLive(const MotionNetwork& network, const BodyLayout& layout, const NameMap& names,
-              const TakeView& like, bool trusts_model)
+              const TakeView& like)
       : follow_(1 - portable::exp(-1 / (follow_s * like.frame_rate_hz))),
         degrees_per_unit_(degrees_per_unit(like, Space::position)) {
     const std::size_t rotations = like.joints != nullptr ? like.owners : 0;
@@ -138,14 +138,15 @@ class LearnedLive final : public LiveFilter {
     values_.resize(slots.size());
     result_.resize(slots.size());
     missing_.resize(slots.size());
-    filter_ = std::make_unique<LiveMotionFilter>(network, like.frame_rate_hz, slots,
-                                                 std::move(is_position), trusts_model);
+    filter_ =
+        std::make_unique<LiveMotionFilter>(network, like.frame_rate_hz, slots,
+                                           std::move(is_position), expects_slow_noise(like.source));
     std::vector<std::uint8_t> counts;
     for (const StreamedTrack& track : tracks_) {
       of_body_.push_back(track.known ? 1 : 0);
       counts.push_back(track.turns || rotations == 0 ? 1 : 0);
     }
-    if (!trusts_model) floor_.emplace(like.frame_rate_hz, std::move(counts));
+    if (!expects_slow_noise(like.source)) floor_.emplace(like.frame_rate_hz, std::move(counts));
     poses_.emplace(network, std::move(slots), like.frame_rate_hz);
     waiting_.resize(filter_->ahead() + 1);
   }
@@ -267,8 +268,8 @@ class LearnedLive final : public LiveFilter {
 
 std::unique_ptr<LiveFilter> make_learned_live(const MotionNetwork& network,
                                               const BodyLayout& layout, const NameMap& names,
-                                              const TakeView& like, bool trusts_model) {
-  return std::make_unique<LearnedLive>(network, layout, names, like, trusts_model);
+                                              const TakeView& like) {
+  return std::make_unique<LearnedLive>(network, layout, names, like);
 }
 
 }  // namespace kinemend

@@ -61,8 +61,13 @@ class Auto final : public Cleaner {
       keep_bridges(take, rotations, sink);
       return trace;
     }
-    ShareProgress progress(tell);
     trace.noise.assign(take.tracks.size(), 0);
+    // Keys are not measured: nothing of them is noise, however they look.
+    if (take.source == Source::keyframed) {
+      keep_bridges(take, rotations, sink);
+      return trace;
+    }
+    ShareProgress progress(tell);
     clean_together(take, rotations, sink, progress, trace);
     clean_together(take, positions, sink, progress, trace);
     return trace;

@@ -1,6 +1,8 @@
 // Pushes a take through a live filter frame by frame and collects the tracks that changed.
 #include "methods/core/live.hpp"
 
+#include <optional>
+
 namespace kinemend {
 
 namespace {
@@ -53,7 +55,24 @@ std::vector<std::vector<Vec3>> bridged_positions(const TakeView& take) {
   return bridged;
 }
 
+// Keeps what is seen, and holds it where nothing is.
+template <class Sample>
+class HeldSample {
+ public:
+  Sample step(const Sample& sample, bool seen) {
+    if (seen) last_ = sample;
+    return last_.value_or(sample);
+  }
+
+ private:
+  std::optional<Sample> last_;
+};
+
 }  // namespace
+
+std::unique_ptr<LiveFilter> gap_holding_filter(const TakeView& like) {
+  return causal_filter(like, HeldSample<Quat>(), HeldSample<Vec3>());
+}
 
 CleanTrace clean_as_live(const Cleaner& cleaner, const TakeView& take, const TrackSink& sink,
                          const std::function<void(double)>& tell) {

@@ -74,6 +74,9 @@ class CausalTracks final : public LiveFilter {
   std::vector<Positions> positions_;
 };
 
+/// A filter that changes no sample: a joint that is not seen keeps the last rotation that was.
+std::unique_ptr<LiveFilter> gap_holding_filter(const TakeView& like);
+
 /// Of `Step<Quat>` and `Step<Vec3>`.
 template <template <class> class Step>
 std::unique_ptr<LiveFilter> causal_filter(const TakeView& like, const Step<Quat>& rotation,

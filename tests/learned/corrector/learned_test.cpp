@@ -32,9 +32,14 @@ Take with_damage(Take clip, const std::string& damage, const OptionValues& optio
   return clip;
 }
 
-std::unique_ptr<Cleaner> cleaner_of(Model model, bool trust_model = false) {
-  return make_learned({.trust_model = trust_model},
-                      std::make_shared<const Model>(std::move(model)));
+std::unique_ptr<Cleaner> cleaner_of(Model model, bool live = false) {
+  return make_learned({.live = live}, std::make_shared<const Model>(std::move(model)));
+}
+
+CleanResult cleaned_from(Source source, const Take& take, const Cleaner& cleaner) {
+  CleanSettings settings;
+  settings.source = source;
+  return clean_take(take, cleaner, settings);
 }
 
 // Asks for one smoother, whatever it sees.
@@ -160,16 +165,59 @@ TEST(LearnedCleaner, LeavesTracksAloneWhoseChangeIsSmallBesideWhatMayBeWrongAnyw
 }
 
 // A network that takes the peaks of fast moves for errors: the take shows no noise.
-TEST(LearnedCleaner, KeepsAFastMoveThatItsNetworkWouldSmoothUnlessTheModelIsTrusted) {
+TEST(LearnedCleaner, KeepsAFastMoveThatItsNetworkWouldSmoothUnlessTheSourceHasSlowNoise) {
   const Take punch = synthesize({.motion = "punch", .duration_s = 6, .frame_rate_hz = 60});
-  const Model smoothing = one_smoother_model(gaussian_of_50_ms);
-  const CleanResult kept = clean_take(punch, *cleaner_of(smoothing)),
-                    trusted = clean_take(punch, *cleaner_of(smoothing, true));
-  EXPECT_GT(rms_deg(punch, trusted.take), 0.5);
-  EXPECT_LT(rms_deg(punch, kept.take), 0.2 * rms_deg(punch, trusted.take));
+  const auto cleaner = asking_for(gaussian_of_50_ms);
+  const CleanResult kept = clean_take(punch, *cleaner),
+                    video = cleaned_from(Source::video, punch, *cleaner);
+  EXPECT_GT(rms_deg(punch, video.take), 0.5);
+  EXPECT_LT(rms_deg(punch, kept.take), 0.2 * rms_deg(punch, video.take));
   ASSERT_EQ(kept.report.notes.size(), 1U);
-  EXPECT_THAT(kept.report.notes[0], testing::HasSubstr("--trust-model"));
-  EXPECT_TRUE(trusted.report.notes.empty());
+  EXPECT_THAT(kept.report.notes[0],
+              testing::EndsWith("; if this take comes from video, a depth camera or a suit, "
+                                "--source video (depth, suit) makes them"));
+  EXPECT_TRUE(video.report.notes.empty());
+  for (const Source source : {Source::depth, Source::suit})
+    EXPECT_EQ(cleaned_from(source, punch, *cleaner).take.rotations, video.take.rotations);
+  EXPECT_EQ(cleaned_from(Source::unknown, punch, *cleaner).take.rotations, kept.take.rotations);
+}
+
+// Who says what recorded a take needs no advice.
+TEST(LearnedCleaner, CleansOpticalTakesAsUnknownOnesWithoutTheAdvice) {
+  const Take punch = synthesize({.motion = "punch", .duration_s = 6, .frame_rate_hz = 60});
+  const auto cleaner = asking_for(gaussian_of_50_ms);
+  const CleanResult optical = cleaned_from(Source::optical, punch, *cleaner);
+  EXPECT_EQ(optical.take.rotations, clean_take(punch, *cleaner).take.rotations);
+  ASSERT_EQ(optical.report.notes.size(), 1U);
+  EXPECT_THAT(optical.report.notes[0], testing::EndsWith("does not show to be noise"));
+}
+
+TEST(LearnedCleaner, LiveTheSourceCountsToo) {
+  const Take punch = synthesize({.motion = "punch", .duration_s = 6, .frame_rate_hz = 60});
+  const auto cleaner = cleaner_of(one_smoother_model(gaussian_of_50_ms), true);
+  const Take unknown = clean_take(punch, *cleaner).take,
+             video = cleaned_from(Source::video, punch, *cleaner).take;
+  EXPECT_EQ(cleaned_from(Source::optical, punch, *cleaner).take.rotations, unknown.rotations);
+  EXPECT_GT(rms_deg(punch, video), 2 * rms_deg(punch, unknown));
+}
+
+TEST(LearnedCleaner, ChangesNothingOfKeysButGaps) {
+  Take keyed = with_damage(walk_for_networks(60), "gaussian", {{"std_deg", 3.0}});
+  const std::size_t knee = 2, gap = 50;
+  keyed.observed.assign(keyed.frame_count() * keyed.joint_count(), 1);
+  keyed.observed[gap * keyed.joint_count() + knee] = 0;
+  keyed.rotation(gap, knee) = keyed.rotation(gap, knee) * exp(Vec3{2, 0, 0});
+  for (const bool live : {false, true}) {
+    const auto cleaner = cleaner_of(one_smoother_model(gaussian_of_50_ms), live);
+    const CleanResult result = cleaned_from(Source::keyframed, keyed, *cleaner);
+    EXPECT_EQ(result.report.method, "learned");
+    EXPECT_TRUE(result.report.fall_backs.empty());
+    EXPECT_LT(angle_between(result.take.rotation(gap, knee), keyed.rotation(gap - 1, knee)), 0.5);
+    Take rest = result.take;
+    rest.rotation(gap, knee) = keyed.rotation(gap, knee);
+    EXPECT_EQ(rest.rotations, keyed.rotations) << live;
+    EXPECT_EQ(rest.positions, keyed.positions) << live;
+  }
 }
 
 // What shows from frame to frame is measurable, however large it is; and small errors are nothing
@@ -178,8 +226,8 @@ TEST(LearnedCleaner, NamesNoiseThatIsLargeAndSlowOnly) {
   const Take clip = walk_for_networks(120);
   const auto characters = [&](const Take& take, double expected_deg) {
     const std::unique_ptr<Cleaner> cleaner =
-        cleaner_of(expecting(one_smoother_model(gaussian_of_50_ms), expected_deg), true);
-    std::vector<NoiseCharacter> noise = clean_take(take, *cleaner).report.noise;
+        cleaner_of(expecting(one_smoother_model(gaussian_of_50_ms), expected_deg));
+    std::vector<NoiseCharacter> noise = cleaned_from(Source::video, take, *cleaner).report.noise;
     std::erase_if(noise, [](const NoiseCharacter& one) {
       return one.space != Space::rotation || !one.is_expected;
     });
