@@ -57,8 +57,7 @@ Take cleaned_case(const RegretRow& row, const RegretCase& given, const Cleaner& 
 
 std::vector<double> best_cut_errors(const RegretRow& row, const RegretCase& given) {
   std::vector<double> best = given.errors(given.take);
-  for (const double cutoff_hz :
-       {0.7, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 25.0, 30.0, 40.0}) {
+  for (const double cutoff_hz : row.cutoffs_hz) {
     if (cutoff_hz >= given.take.frame_rate_hz / 2.2) break;
     const std::vector<double> errors = given.errors(
         cleaned_case(row, given, *make_cleaner("butterworth", {{"cutoff_hz", cutoff_hz}})));

@@ -21,10 +21,11 @@ struct RegretRow {
   std::string unit;  ///< of the errors; empty: they have several
   /// What is measured: one figure, named "", or several, each of which is a row of the table.
   std::vector<std::string> figures{""};
-  std::size_t cut_by = 0;  ///< the figure by which the best cut is chosen
-  bool is_clean = false;   ///< errors are changes of takes that need none
-  bool has_gaps = false;   ///< gaps are filled after cleaning
-  bool has_slow = true;    ///< methods that take minutes are tried, on the first take
+  std::size_t cut_by = 0;            ///< the figure by which the best cut is chosen
+  std::vector<double> cutoffs_hz{};  ///< that are tried for it
+  bool is_clean = false;             ///< errors are changes of takes that need none
+  bool has_gaps = false;             ///< gaps are filled after cleaning
+  bool has_slow = true;              ///< methods that take minutes are tried, on the first take
   /// Each makes its take when it is called, so that one at a time is in memory.
   std::vector<std::function<RegretCase()>> cases{};
 };
