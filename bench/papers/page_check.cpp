@@ -34,17 +34,20 @@ void exchanged_labels(const Arguments& arguments) {
 // Of how many takes something is said that is no fault.
 struct Doubts {
   std::size_t takes = 0, expected_noise = 0, no_contact = 0, either = 0;
+  std::size_t nothing = 0;  ///< neither, and no warning
 
   void add(const Take& take) {
-    bool expects = false, never_stands = false;
+    bool expects = false, never_stands = false, is_faulty = false;
     for (const Finding& finding : check_take(take).findings) {
       expects = expects || finding.kind == FindingKind::expected_noise;
       never_stands = never_stands || finding.kind == FindingKind::no_contact;
+      is_faulty = is_faulty || finding.severity != Severity::note;
     }
     ++takes;
     expected_noise += expects ? 1 : 0;
     no_contact += never_stands ? 1 : 0;
     either += expects || never_stands ? 1 : 0;
+    nothing += expects || never_stands || is_faulty ? 0 : 1;
   }
 };
 
@@ -66,13 +69,14 @@ void doubts(const Arguments& arguments) {
     found[pair.source].add(read_take(pair.noisy).take);
     found[pair.source + " reference"].add(read_take(pair.reference).take);
   }
-  Table table(arguments, "page_doubts.csv", "takes,number,expected_noise,no_contact,either");
+  Table table(arguments, "page_doubts.csv",
+              "takes,number,expected_noise,no_contact,either,nothing");
   for (const auto& [name, those] : found) {
     table.add({quoted(name), fmt::format("{}", those.takes),
                fmt::format("{}", those.expected_noise), fmt::format("{}", those.no_contact),
-               fmt::format("{}", those.either)});
-    fmt::print("{:20} {:4} takes: {} expected noise, {} no contact, {} either\n", name, those.takes,
-               those.expected_noise, those.no_contact, those.either);
+               fmt::format("{}", those.either), fmt::format("{}", those.nothing)});
+    fmt::print("{:20} {:4} takes: {} expected noise, {} no contact, {} either, {} nothing\n", name,
+               those.takes, those.expected_noise, those.no_contact, those.either, those.nothing);
   }
   table.close();
 }

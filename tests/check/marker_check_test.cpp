@@ -14,11 +14,11 @@ TEST(CheckMarkers, FindsNothingInCleanTakes) {
     EXPECT_EQ(faults_of(check_take(synthetic_markers(motion))), "") << motion;
 }
 
-TEST(CheckMarkers, SaysThatTheModelExpectsTheNoiseOfADepthCamera) {
+TEST(CheckMarkers, SaysThatTheModelExpectsTheNoiseOfVideo) {
   Take clip = synthetic_markers("walk");
   EXPECT_EQ(doubts_of(check_take(clip)), "");
   Random random(1);
-  apply_damage(clip, "system", {{"kind", std::string("depth")}}, random);
+  apply_damage(clip, "system", {{"kind", std::string("video")}}, random);
   const std::vector<Finding> found = of_kind(check_take(clip), FindingKind::expected_noise);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].unit, clip.unit);
