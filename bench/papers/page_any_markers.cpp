@@ -1,71 +1,34 @@
 // Figures of docs/methods/learned.md: markers of bodies that travel, under noise and clean.
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <numbers>
 
 #include "base/quantiles.hpp"
 #include "compared.hpp"
 #include "kept_takes.hpp"
-#include "kinemend/experimental/convert.hpp"
 #include "kinemend/methods.hpp"
+#include "marker_noise.hpp"
 #include "page.hpp"
 
 namespace kinemend::papers {
 namespace {
 
-struct Noise {
-  std::string name;
-  double std_mm, correlation;
-};
-
-const std::vector<Noise> marker_noises{{"none", 0, 0},
-                                       {"white 1 mm", 1, 0},
-                                       {"white 3 mm", 3, 0},
-                                       {"white 15 mm", 15, 0},
-                                       {"correlation 0.8, 3 mm", 3, 0.8},
-                                       {"correlation 0.8, 15 mm", 15, 0.8},
-                                       {"correlation 0.95, 15 mm", 15, 0.95}};
-
-Take in_millimetres(const Take& clip) {
-  const auto unit = guess_length_unit(clip.skeleton);
-  return joint_markers(scale_lengths(clip, 1000 * (unit ? unit->metres : 1)));
-}
-
-Take with_marker_noise(Take clip, const Noise& noise, std::uint64_t seed) {
-  Random random(seed);
-  const std::size_t markers = clip.marker_count();
-  const double fresh = std::sqrt(1 - noise.correlation * noise.correlation);
-  for (std::size_t m = 0; m < markers; ++m) {
-    Vec3 error{};
-    for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-      const Vec3 drawn{random.normal(), random.normal(), random.normal()};
-      error = f == 0 ? drawn : noise.correlation * error + fresh * drawn;
-      clip.positions[f * markers + m] += noise.std_mm * error;
-    }
-  }
-  return clip;
-}
+const std::vector<MarkerNoise> marker_noises{{"none", 0, 0},
+                                             {"white 1 mm", 1, 0},
+                                             {"white 3 mm", 3, 0},
+                                             {"white 15 mm", 15, 0},
+                                             {"correlation 0.8, 3 mm", 3, 0.8},
+                                             {"correlation 0.8, 15 mm", 15, 0.8},
+                                             {"correlation 0.95, 15 mm", 15, 0.95}};
 
 Take markers_cleaned_by(const Compared& compared, Take clip) {
   clean_in_place(*make_cleaner(compared.method, compared.options), clip);
   return clip;
 }
 
-// Millimetres, root mean square of distances.
-double distance_mm(const Take& a, const Take& b) {
-  double square = 0;
-  for (std::size_t i = 0; i < a.positions.size(); ++i) {
-    const Vec3 d = a.positions[i] - b.positions[i];
-    square += dot(d, d);
-  }
-  return std::sqrt(square / static_cast<double>(a.positions.size()));
-}
-
 void markers_under_noise(const Arguments& arguments) {
   Table table(arguments, "any_markers.csv", "noise,method,takes,rms_mm");
   const std::vector<std::string> names = kept_takes(arguments);
-  for (const Noise& noise : marker_noises) {
+  for (const MarkerNoise& noise : marker_noises) {
     std::map<std::string, double> errors;
     for (const std::string& name : names) {
       const Take truth = in_millimetres(kept_take(arguments, name));
@@ -108,39 +71,19 @@ void optical_takes(const Arguments& arguments) {
   table.close();
 }
 
-// Markers of the hands of a clean take that shake by 6 cm for two seconds: the share of that which
-// is left.
+// Markers of the hands of a clean take that shake: the share of that which is left.
 void shaking_hands(const Arguments& arguments) {
-  constexpr double size_mm = 60;
   Table table(arguments, "any_shaking.csv", "frequency_hz,method,share");
   const Take still = in_millimetres(kept_take(arguments, kept_takes(arguments).back()));
   for (const double frequency_hz : {3.0, 5.0, 7.0}) {
-    Take shaking = still;
-    const std::size_t markers = still.marker_count(), first = still.frame_count() / 3,
-                      last = first + static_cast<std::size_t>(2 * still.frame_rate_hz);
-    const auto shakes_at = [&](std::size_t f) {
-      const auto inside = static_cast<double>(std::min(f - first, last - 1 - f));
-      return size_mm * std::min(1.0, inside / (0.2 * still.frame_rate_hz)) *
-             std::sin(2 * std::numbers::pi * frequency_hz * static_cast<double>(f) /
-                      still.frame_rate_hz);
-    };
-    const auto is_hand = [&](std::size_t m) {
-      return still.names[m].find("Hand") != std::string::npos;
-    };
-    for (std::size_t f = first; f < std::min(last, still.frame_count()); ++f) {
-      for (std::size_t m = 0; m < markers; ++m)
-        if (is_hand(m)) shaking.positions[f * markers + m].z += shakes_at(f);
-    }
+    const Take shaking = with_shaking_hands(still, frequency_hz);
     for (const Compared& compared : auto_and_learned) {
       const Take result = markers_cleaned_by(compared, shaking);
       double left = 0, put = 0;
-      for (std::size_t f = first; f < std::min(last, still.frame_count()); ++f) {
-        for (std::size_t m = 0; m < markers; ++m) {
-          if (!is_hand(m)) continue;
-          const std::size_t i = f * markers + m;
-          left += shakes_at(f) * (result.positions[i].z - still.positions[i].z);
-          put += shakes_at(f) * shakes_at(f);
-        }
+      for (std::size_t i = 0; i < still.positions.size(); ++i) {
+        const double shake = shaking.positions[i].z - still.positions[i].z;
+        left += shake * (result.positions[i].z - still.positions[i].z);
+        put += shake * shake;
       }
       table.add({fmt::format("{:g}", frequency_hz), compared.label, figure(left / put)});
       fmt::print("hands shake at {} Hz: {:14} {:.3f} is left\n", frequency_hz, compared.label,

@@ -8,8 +8,7 @@
 #include "base/quantiles.hpp"
 #include "compared.hpp"
 #include "kept_takes.hpp"
-#include "kinemend/experimental/signal.hpp"
-#include "kinemend/rotation.hpp"
+#include "noise_kinds.hpp"
 #include "page.hpp"
 #include "quality/lower_rate.hpp"
 
@@ -38,47 +37,6 @@ struct Kind {
   std::function<Take(const Take&, std::uint64_t)> damage;
   std::function<double(const Take&, const Take&)> measure = best_gaussian;
 };
-
-// A deviation of `std_deg` per axis, shaped by `shape` (F x 3 J, from white noise).
-Take with_shaped_noise(Take clip, double std_deg, std::uint64_t seed,
-                       const std::function<void(PoseMatrix&)>& shape) {
-  PoseMatrix noise(clip.frame_count(), 3 * clip.joint_count());
-  Random random(seed);
-  for (double& value : noise.values) value = random.normal();
-  shape(noise);
-  double square = 0;
-  for (const double value : noise.values) square += value * value;
-  const double unit =
-      radians_per_degree * std_deg / std::sqrt(square / static_cast<double>(noise.values.size()));
-  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-    for (std::size_t j = 0; j < clip.joint_count(); ++j) {
-      const Vec3 v{noise(f, 3 * j), noise(f, 3 * j + 1), noise(f, 3 * j + 2)};
-      clip.rotation(f, j) = clip.rotation(f, j) * exp(unit * v);
-    }
-  }
-  return clip;
-}
-
-// As pipelines filter takes before they hand them over.
-Take low_passed_noise(const Take& clip, std::uint64_t seed) {
-  return with_shaped_noise(clip, 3, seed, [&](PoseMatrix& noise) {
-    filter_zero_phase(noise, butterworth_lowpass(2, 4, clip.frame_rate_hz));
-  });
-}
-
-// As of a system of 30 Hz whose poses were brought to the rate of the take.
-Take noise_of_30_hz(const Take& clip, std::uint64_t seed) {
-  return with_shaped_noise(clip, 1.5, seed, [&](PoseMatrix& noise) {
-    const auto step = static_cast<std::size_t>(std::lround(clip.frame_rate_hz / 30));
-    for (std::size_t f = 0; f < noise.frames; ++f) {
-      const std::size_t before = f - f % step, after = std::min(before + step, noise.frames - 1);
-      const double share = static_cast<double>(f - before) / static_cast<double>(step);
-      if (f == before || after % step != 0) continue;
-      for (std::size_t c = 0; c < noise.channels; ++c)
-        noise(f, c) = noise(before, c) + share * (noise(after, c) - noise(before, c));
-    }
-  });
-}
 
 std::vector<Kind> kinds() {
   using quality::of_lower_rate;

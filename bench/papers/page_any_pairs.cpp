@@ -8,86 +8,16 @@
 #include "base/quantiles.hpp"
 #include "compared.hpp"
 #include "kinemend/experimental/model.hpp"
-#include "kinemend/experimental/representation.hpp"
-#include "kinemend/experimental/signal.hpp"
-#include "kinemend/rotation.hpp"
 #include "learned/corrector/measured_smoothing.hpp"
-#include "learned/corrector/motion_channels.hpp"
 #include "learned/corrector/motion_filter.hpp"
-#include "learned/corrector/motion_samples.hpp"
 #include "made_pairs.hpp"
-#include "methods/core/pieces.hpp"
 #include "page.hpp"
+#include "system_pairs.hpp"
 
 namespace kinemend::papers {
 namespace {
 
-struct Pair {
-  std::string source, noisy, reference;
-};
-
-// Those that tools/train_learned does not learn from.
-bool is_left_out(const std::string& name) {
-  if (name.starts_with("lbmc-")) {
-    const std::string system = name.substr(5, name.find('-', 5) - 5);
-    return system != "M1" && system != "M2" && system != "M3" && system != "M5" && system != "M7";
-  }
-  const std::size_t person = name.find("_s");
-  return name.starts_with("kinect-") && person != std::string::npos && name[person + 3] > '3';
-}
-
-std::vector<Pair> pairs_below(const std::filesystem::path& folder) {
-  std::vector<Pair> pairs;
-  if (!std::filesystem::is_directory(folder)) return pairs;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    const std::size_t at = name.find(".noisy.");
-    if (at == std::string::npos || !is_left_out(name)) continue;
-    const std::string reference = name.substr(0, at) + ".reference." + name.substr(at + 7);
-    pairs.push_back(
-        {name.substr(0, name.find('-')), entry.path().string(), (folder / reference).string()});
-  }
-  std::sort(pairs.begin(), pairs.end(),
-            [](const Pair& a, const Pair& b) { return a.noisy < b.noisy; });
-  return pairs;
-}
-
-struct Errors {
-  double value = 0, velocity = 0, fast = 0;
-};
-
-// Root mean squares over channels whose reference moves. F x C.
-Errors errors_of(const std::vector<float>& values, const MotionSample& pair) {
-  const MotionTake& take = pair.take;
-  PoseMatrix error(take.frames, take.channels);
-  std::vector<std::uint8_t> moves(take.channels);
-  for (std::size_t f = 0; f < take.frames; ++f) {
-    for (std::size_t c = 0; c < take.channels; ++c) {
-      const std::size_t i = f * take.channels + c;
-      error(f, c) = static_cast<double>(values[i] - pair.truth[i]);
-      if (pair.truth[i] != 0) moves[c] = 1;
-    }
-  }
-  PoseMatrix fast = error;
-  filter_zero_phase(fast, butterworth_lowpass(4, 6, take.frame_rate_hz));
-  Errors sums;
-  double count = 0;
-  for (std::size_t f = 1; f + 1 < take.frames; ++f) {
-    for (std::size_t c = 0; c < take.channels; ++c) {
-      if (moves[c] == 0) continue;
-      const double change = (error(f + 1, c) - error(f - 1, c)) * take.frame_rate_hz / 2;
-      const double quick = error(f, c) - fast(f, c);
-      sums.value += error(f, c) * error(f, c);
-      sums.velocity += change * change;
-      sums.fast += quick * quick;
-      count += 1;
-    }
-  }
-  return {std::sqrt(sums.value / count), std::sqrt(sums.velocity / count),
-          std::sqrt(sums.fast / count)};
-}
-
-Errors share_of(const Errors& errors, const Errors& before) {
+PairErrors share_of(const PairErrors& errors, const PairErrors& before) {
   return {errors.value / before.value, errors.velocity / before.velocity,
           errors.fast / before.fast};
 }
@@ -95,7 +25,7 @@ Errors share_of(const Errors& errors, const Errors& before) {
 struct Source {
   std::size_t takes = 0;
   double within = 0;  ///< summed over takes
-  std::map<std::string, Errors> shares;
+  std::map<std::string, PairErrors> shares;
   // Of each method, what it does to the references, which are clean: degrees, of each take.
   std::map<std::string, std::vector<double>> reference_changes;
 };
@@ -123,30 +53,11 @@ double share_within(const MotionSample& pair) {
   return static_cast<double>(within) / static_cast<double>(count);
 }
 
-// F x 3 (J - 1): the turns of the joints below the root, degrees, going on past half a turn.
-std::vector<float> channels_of(const MotionTracks& tracks, const Take& clip) {
-  if (!clip.has_joints()) return values_in(tracks, view_of(clip));
-  const std::size_t joints = clip.joint_count() - 1;
-  std::vector<float> values;
-  std::vector<Vec3> last(joints);
-  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
-    for (std::size_t j = 0; j < joints; ++j) {
-      last[j] = continue_rotation_vector(log(clip.rotation(f, j + 1)), last[j]);
-      for (const double radians : {last[j].x, last[j].y, last[j].z})
-        values.push_back(static_cast<float>(degrees_per_radian * radians));
-    }
-  }
-  return values;
-}
-
 void add_pair(const Take& noisy, const Take& reference, double least_deg, Source& source) {
-  const TakeView view = view_of(noisy);
-  MotionTracks tracks = motion_tracks_of(view, changeable_tracks(view));
-  MotionSample both{tracks.take, channels_of(tracks, reference)};
-  both.take.values = channels_of(tracks, noisy);
-  both.take.channels = both.take.values.size() / both.take.frames;
-  const MotionSample pair = mapped_pair({"", std::move(both)}, least_deg).sample;
-  if (std::all_of(pair.truth.begin(), pair.truth.end(), [](float v) { return v == 0; })) return;
+  const PairInChannels both = pair_in_channels(noisy, reference, least_deg);
+  const MotionTracks& tracks = both.tracks;
+  const MotionSample& pair = both.sample;
+  if (!moves(pair)) return;
   const auto channels_by = [&](const std::string& method, const OptionValues& options, Take clip) {
     clean_in_place(*make_cleaner(method, options), clip);
     return channels_of(tracks, clip);
@@ -154,18 +65,18 @@ void add_pair(const Take& noisy, const Take& reference, double least_deg, Source
   const auto errors_by = [&](const std::string& method, const OptionValues& options) {
     return errors_of(channels_by(method, options, noisy), pair);
   };
-  const Errors untouched = errors_of(pair.take.values, pair);
-  const auto add = [&](const std::string& name, const Errors& errors) {
-    Errors& sum = source.shares[name];
-    const Errors share = share_of(errors, untouched);
+  const PairErrors untouched = errors_of(pair.take.values, pair);
+  const auto add = [&](const std::string& name, const PairErrors& errors) {
+    PairErrors& sum = source.shares[name];
+    const PairErrors share = share_of(errors, untouched);
     sum.value += share.value;
     sum.velocity += share.velocity;
     sum.fast += share.fast;
   };
-  Errors best{0, std::numeric_limits<double>::max(), 0};
+  PairErrors best{0, std::numeric_limits<double>::max(), 0};
   for (const double cutoff_hz : {1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0}) {
     if (cutoff_hz >= noisy.frame_rate_hz / 2.2) break;
-    const Errors errors = errors_by("butterworth", {{"cutoff_hz", cutoff_hz}});
+    const PairErrors errors = errors_by("butterworth", {{"cutoff_hz", cutoff_hz}});
     if (errors.velocity < best.velocity) best = errors;
   }
   add("best cut", best);
@@ -181,8 +92,6 @@ void add_pair(const Take& noisy, const Take& reference, double least_deg, Source
   ++source.takes;
 }
 
-constexpr double least_turn_deg = 2, least_move_deg = 0.34;
-
 // Without data: walks with the noise of such systems.
 void add_made_pairs(std::map<std::string, Source>& sources) {
   const MarkerPair depth = made_pair("walk", 30, "depth");
@@ -195,7 +104,7 @@ void add_made_pairs(std::map<std::string, Source>& sources) {
 void experiment(const Arguments& arguments) {
   std::map<std::string, Source> sources;
   std::size_t number = 0;
-  for (const Pair& pair : pairs_below(arguments.data / "real2")) {
+  for (const SystemPair& pair : pairs_below(arguments.data / "real2")) {
     if (arguments.quick && number++ % 20 != 0) continue;
     const auto noisy = read_take(pair.noisy).take, reference = read_take(pair.reference).take;
     add_pair(noisy, reference, noisy.has_joints() ? least_turn_deg : least_move_deg,

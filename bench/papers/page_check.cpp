@@ -1,13 +1,18 @@
-// Figures of docs/check.md: labels of markers exchanged at random, and found.
+// Figures of docs/check.md: labels of markers exchanged at random, and found; takes that are noisy
+// although nothing shows, and clean takes.
+#include <map>
 
 #include "check/marker_support.hpp"
-#include "experiment.hpp"
+#include "clean_worlds.hpp"
+#include "kept_takes.hpp"
 #include "kinemend/check.hpp"
+#include "page.hpp"
+#include "system_pairs.hpp"
 
 namespace kinemend::papers {
 namespace {
 
-void experiment(const Arguments& arguments) {
+void exchanged_labels(const Arguments& arguments) {
   Table table(arguments, "page_swaps.csv", "take,pairs,to_the_frame,others,as_it_is");
   for (const char* file : {"85_02.c3d", "85_12.c3d", "05_13.c3d", "S02-Trial-Walk-1-vicon.c3d"}) {
     const auto path = find_take(arguments.data, file);
@@ -24,6 +29,61 @@ void experiment(const Arguments& arguments) {
     if (arguments.quick) break;
   }
   table.close();
+}
+
+// Of how many takes something is said that is no fault.
+struct Doubts {
+  std::size_t takes = 0, expected_noise = 0, no_contact = 0, either = 0;
+  std::size_t nothing = 0;  ///< neither, and no warning
+
+  void add(const Take& take) {
+    bool expects = false, never_stands = false, is_faulty = false;
+    for (const Finding& finding : check_take(take).findings) {
+      expects = expects || finding.kind == FindingKind::expected_noise;
+      never_stands = never_stands || finding.kind == FindingKind::no_contact;
+      is_faulty = is_faulty || finding.severity != Severity::note;
+    }
+    ++takes;
+    expected_noise += expects ? 1 : 0;
+    no_contact += never_stands ? 1 : 0;
+    either += expects || never_stands ? 1 : 0;
+    nothing += expects || never_stands || is_faulty ? 0 : 1;
+  }
+};
+
+void doubts(const Arguments& arguments) {
+  std::map<std::string, Doubts> found;
+  for (const std::string& name : kept_takes(arguments)) {
+    const Take take = kept_take(arguments, name);
+    found["CMU"].add(take);
+    for (const std::string kind : {"video", "depth", "inertial"})
+      found["CMU like " + kind].add(damaged(take, "system", {{"kind", kind}}, 1));
+  }
+  for (const auto& [world, takes] : clean_worlds(arguments)) {
+    for (const Take& take : takes)
+      found[world.second == "deg" ? "worlds, joints" : "worlds, markers"].add(take);
+  }
+  const std::vector<SystemPair> pairs =
+      arguments.quick ? std::vector<SystemPair>{} : pairs_below(arguments.data / "real2");
+  for (const SystemPair& pair : pairs) {
+    found[pair.source].add(read_take(pair.noisy).take);
+    found[pair.source + " reference"].add(read_take(pair.reference).take);
+  }
+  Table table(arguments, "page_doubts.csv",
+              "takes,number,expected_noise,no_contact,either,nothing");
+  for (const auto& [name, those] : found) {
+    table.add({quoted(name), fmt::format("{}", those.takes),
+               fmt::format("{}", those.expected_noise), fmt::format("{}", those.no_contact),
+               fmt::format("{}", those.either), fmt::format("{}", those.nothing)});
+    fmt::print("{:20} {:4} takes: {} expected noise, {} no contact, {} either, {} nothing\n", name,
+               those.takes, those.expected_noise, those.no_contact, those.either, those.nothing);
+  }
+  table.close();
+}
+
+void experiment(const Arguments& arguments) {
+  exchanged_labels(arguments);
+  doubts(arguments);
 }
 
 const Registration registration("page_check", experiment);

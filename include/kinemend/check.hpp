@@ -35,6 +35,8 @@ enum class FindingKind : std::uint8_t {
   zero_frames,      ///< whole frames of zeros
   calibration,      ///< a calibration pose at the start
   left_out,         ///< points that are angles or forces
+  no_contact,       ///< feet come near the floor, and hardly ever stand
+  expected_noise,   ///< the network of `learned` expects noise that the take does not show
   // Those that follow are of `CheckSettings::robot`.
   joint_speed,         ///< a joint turns faster than its limit
   joint_acceleration,  ///< a joint accelerates more than its limit

@@ -494,8 +494,9 @@ class Finding:
     Attributes
     ----------
     kind : {"gap", "spike", "frozen", "bridged", "noise", "swap", "rate", "unit", "length", "slide",
-    "sink", "euler_flip", "repeated_frames", "zero_frames", "calibration", "left_out",
-    "joint_speed", "joint_acceleration", "penetration", "floating", "flight", "jump", "floor"}
+    "sink", "euler_flip", "repeated_frames", "zero_frames", "calibration", "left_out", "no_contact",
+    "expected_noise", "joint_speed", "joint_acceleration", "penetration", "floating", "flight",
+    "jump", "floor"}
         What was wrong, in the words of check: what clean smoothed is noise, what it moved for a
         foot to stand is slide.
     verdict : {"note", "warning", "serious", "denoised", "despiked", "filled", "foot_adjusted",
@@ -521,7 +522,7 @@ class Finding:
         Clean, fill: that filled the gap, or was tried last.
     """
 
-    kind: Literal["gap", "spike", "frozen", "bridged", "noise", "swap", "rate", "unit", "length", "slide", "sink", "euler_flip", "repeated_frames", "zero_frames", "calibration", "left_out", "joint_speed", "joint_acceleration", "penetration", "floating", "flight", "jump", "floor"]
+    kind: Literal["gap", "spike", "frozen", "bridged", "noise", "swap", "rate", "unit", "length", "slide", "sink", "euler_flip", "repeated_frames", "zero_frames", "calibration", "left_out", "no_contact", "expected_noise", "joint_speed", "joint_acceleration", "penetration", "floating", "flight", "jump", "floor"]
     verdict: Literal["note", "warning", "serious", "denoised", "despiked", "filled", "foot_adjusted", "refused", "undone"]
     track: str | None
     first_frame: int

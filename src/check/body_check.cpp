@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <utility>
+#include <vector>
 
 #include "check/checks.hpp"
 #include "check/feet.hpp"
@@ -16,6 +19,74 @@ namespace {
 
 void put_largest(double value, std::optional<double>& largest) {
   largest = std::max(value, largest.value_or(value));
+}
+
+// Frames in which a foot is low, and those of them in which one stands.
+struct TimeOnFloor {
+  std::size_t low = 0, standing = 0;
+};
+
+TimeOnFloor time_on_floor(const BodyPoints& body, Up up, const std::vector<Contact>& contacts) {
+  // Body heights above the lowest that the feet come (a quantile). Chosen by hand, not swept.
+  constexpr double near_floor = 0.08, lowest_share = 0.05;
+  std::vector<double> lowest(body.frames, std::numeric_limits<double>::infinity());
+  for (const Foot& foot : body.feet) {
+    for (const std::size_t point : foot.points) {
+      for (std::size_t f = 0; f < body.frames; ++f) {
+        if (body.is_observed(f, point))
+          lowest[f] = std::min(lowest[f], along(body.at(f, point), up));
+      }
+    }
+  }
+  std::vector<std::uint8_t> stands(body.frames);
+  for (const Contact& contact : contacts)
+    std::fill_n(stands.begin() + static_cast<std::ptrdiff_t>(contact.span.first),
+                contact.span.length(), std::uint8_t{1});
+  std::vector<double> heights = lowest;
+  const double floor = quantile_of(heights, lowest_share);
+  TimeOnFloor time;
+  for (std::size_t f = 0; f < body.frames; ++f) {
+    if (!(lowest[f] < floor + near_floor * body.height)) continue;
+    ++time.low;
+    time.standing += stands[f];
+  }
+  return time;
+}
+
+// Half of the time the pelvis, or the middle of all markers, is as high as that of a person who
+// stands or squats.
+bool is_upright(const BodyPoints& body, Up up) {
+  // Body heights above the lowest point of a foot. Chosen by hand, not swept.
+  constexpr double least_height = 0.3;
+  std::vector<double> heights;
+  for (std::size_t f = 0; f < body.frames; ++f) {
+    for (const Foot& foot : body.feet) {
+      for (const std::size_t point : foot.points) {
+        if (body.is_observed(f, point))
+          heights.push_back(along(body.centres[f] - body.at(f, point), up));
+      }
+    }
+  }
+  return !heights.empty() && median_of(heights) > least_height * body.height;
+}
+
+// A person who is upright stands now and then. Errors of video and of depth cameras move feet that
+// stood, so that none is ever at rest.
+void report_no_contact(const BodyPoints& body, Up up, const std::vector<Contact>& contacts,
+                       CheckReport& report) {
+  // A jump may be shorter; the time that a person is at least low, and the most of it that counts
+  // as never standing. Chosen by hand, not swept.
+  constexpr double shortest_s = 2, least_low = 0.5, most_standing = 0.1;
+  const auto frames = static_cast<double>(body.frames);
+  if (frames < shortest_s * body.frame_rate_hz || !is_upright(body, up)) return;
+  const TimeOnFloor time = time_on_floor(body, up, contacts);
+  const auto low = static_cast<double>(time.low), standing = static_cast<double>(time.standing);
+  if (low < least_low * frames || standing > most_standing * low) return;
+  report.findings.push_back(
+      {FindingKind::no_contact, Severity::note, "", 0, body.frames - 1, 100 * standing / low, "%",
+       "feet come near the floor and hardly ever rest on it: typical of video, whose slow errors "
+       "this take alone cannot tell from motion, and of a body that walks on the spot; if it comes "
+       "from video, try: kinemend clean --source video"});
 }
 
 void report_feet(const BodyPoints& body, Up up, const CheckSettings& settings,
@@ -42,6 +113,7 @@ void report_feet(const BodyPoints& body, Up up, const CheckSettings& settings,
     if (sink > settings.sink_cm)
       report_cm(FindingKind::sink, sink, "is below the floor during ground contact");
   }
+  report_no_contact(body, up, contacts, report);
   // Feet that never stand neither slide nor sink.
   if (contacts.empty()) return;
   put_largest(slide_cm, report.figures.slide_cm);

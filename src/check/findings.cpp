@@ -8,7 +8,7 @@
 namespace kinemend {
 
 std::string_view to_string(FindingKind kind) {
-  static constexpr std::array<std::string_view, 23> names{"gap",
+  static constexpr std::array<std::string_view, 25> names{"gap",
                                                           "spike",
                                                           "frozen",
                                                           "bridged",
@@ -24,6 +24,8 @@ std::string_view to_string(FindingKind kind) {
                                                           "zero_frames",
                                                           "calibration",
                                                           "left_out",
+                                                          "no_contact",
+                                                          "expected_noise",
                                                           "joint_speed",
                                                           "joint_acceleration",
                                                           "penetration",
@@ -45,7 +47,7 @@ namespace {
 
 // Findings that affect most uses of a take come first.
 std::size_t rank_of(FindingKind kind) {
-  static constexpr std::array<FindingKind, 23> order{FindingKind::swap,
+  static constexpr std::array<FindingKind, 25> order{FindingKind::swap,
                                                      FindingKind::zero_frames,
                                                      FindingKind::jump,
                                                      FindingKind::rate,
@@ -60,9 +62,11 @@ std::size_t rank_of(FindingKind kind) {
                                                      FindingKind::length,
                                                      FindingKind::slide,
                                                      FindingKind::sink,
+                                                     FindingKind::no_contact,
                                                      FindingKind::penetration,
                                                      FindingKind::floating,
                                                      FindingKind::noise,
+                                                     FindingKind::expected_noise,
                                                      FindingKind::euler_flip,
                                                      FindingKind::flight,
                                                      FindingKind::floor,

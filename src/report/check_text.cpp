@@ -53,12 +53,35 @@ std::string finding_sentence(const Finding& finding, const TakeFacts& take,
   return text;
 }
 
+namespace {
+
+// How many findings are a fault.
+std::size_t faults_in(const CheckReport& report) {
+  return static_cast<std::size_t>(
+      std::count_if(report.findings.begin(), report.findings.end(),
+                    [](const Finding& finding) { return finding.severity != Severity::note; }));
+}
+
+// Whether the take looks as one that has errors which do not show.
+bool is_doubtful(const CheckReport& report) {
+  return std::any_of(report.findings.begin(), report.findings.end(), [](const Finding& finding) {
+    return finding.kind == FindingKind::no_contact || finding.kind == FindingKind::expected_noise;
+  });
+}
+
+}  // namespace
+
 std::string check_verdict(const CheckReport& report) {
-  std::size_t counts[3] = {};
-  for (const Finding& finding : report.findings)
-    ++counts[static_cast<std::size_t>(finding.severity)];
-  if (counts[1] + counts[2] == 0) return "nothing wrong";
-  return fmt::format("{} serious, {}", grouped(counts[2]), counted(counts[1], "warning"));
+  const std::size_t faults = faults_in(report);
+  if (faults == 0 && is_doubtful(report))
+    return "no fault shows, but the take is probably noisy: see the notes";
+  if (faults == 0)
+    return "nothing wrong that shows; slow errors (video, depth cameras, suits) do not show in a "
+           "take alone";
+  const auto serious = static_cast<std::size_t>(
+      std::count_if(report.findings.begin(), report.findings.end(),
+                    [](const Finding& finding) { return finding.severity == Severity::serious; }));
+  return fmt::format("{} serious, {}", grouped(serious), counted(faults - serious, "warning"));
 }
 
 namespace {
@@ -159,6 +182,10 @@ std::string check_text(const TakeFacts& take, const CheckReport& report,
   table.add({"source", source_words(report.source)});
   for (const Diagnostic& entry : take.diagnostics.entries())
     table.add({"repaired", printable(diagnostic_text(take.format, entry))});
+  if (faults_in(report) == 0 && !is_doubtful(report))
+    table.add({"looked for",
+               "all of the above, lengths, feet, rate and unit; if the take comes from video, a "
+               "depth camera or a suit, try: kinemend clean --source video"});
   text += table.text() + subjects_text(report) + findings_text(take, report, options.all);
   if (options.all) text += tracks_text(report);
   return text;

@@ -34,6 +34,62 @@ TEST(CheckClip, FindsNoNoiseAndNoSpikesInKeys) {
   EXPECT_EQ(keyed.source, (TakeSource{Source::keyframed, "given"}));
 }
 
+TEST(CheckClip, HasNoDoubtsAboutCleanTakes) {
+  for (const std::string_view motion : synth_motions())
+    EXPECT_EQ(doubts_of(check_take(synthetic_clip(std::string(motion), 5))), "") << motion;
+}
+
+TEST(CheckClip, SaysThatTheModelExpectsTheNoiseOfVideo) {
+  Take clip = synthetic_clip("walk", 8);
+  Random random(1);
+  apply_damage(clip, "system", {{"kind", std::string("video")}}, random);
+  const CheckReport report = check_take(clip);
+  const std::vector<Finding> found = of_kind(report, FindingKind::expected_noise);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].severity, Severity::note);
+  EXPECT_EQ(found[0].unit, "deg");
+  EXPECT_GT(found[0].figure, 1);
+  EXPECT_LT(found[0].figure, 8);
+  EXPECT_THAT(found[0].words, HasSubstr("--source video"));
+}
+
+TEST(CheckClip, ExpectsNoNoiseThatIsMeasured) {
+  Take clip = synthetic_clip("walk", 8);
+  Random random(1);
+  apply_damage(clip, "gaussian", {{"std_deg", 1.5}}, random);
+  const CheckReport report = check_take(clip);
+  EXPECT_FALSE(of_kind(report, FindingKind::noise).empty());
+  EXPECT_TRUE(of_kind(report, FindingKind::expected_noise).empty());
+}
+
+// The body sways by 15 cm twice a second, and both feet with it.
+Take swaying(double duration_s) {
+  Take clip = synthetic_clip("still", duration_s);
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    const double s = static_cast<double>(f) / clip.frame_rate_hz;
+    clip.root_position(f).x += 15 * std::sin(4 * pi * s);
+  }
+  return clip;
+}
+
+TEST(CheckClip, SaysThatFeetNeverStand) {
+  const std::vector<Finding> found = of_kind(check_take(swaying(5)), FindingKind::no_contact);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].severity, Severity::note);
+  EXPECT_LE(found[0].figure, 10);
+}
+
+TEST(CheckClip, DoesNotExpectFeetToStandInShortTakesOrOfABodyThatLies) {
+  EXPECT_TRUE(of_kind(check_take(swaying(1.5)), FindingKind::no_contact).empty());
+  Take lying = swaying(5);
+  CheckSettings settings;
+  settings.up = Axis::y;
+  const Quat over = exp(Vec3{pi / 2, 0, 0});
+  for (std::size_t f = 0; f < lying.frame_count(); ++f)
+    lying.rotation(f, 0) = over * lying.rotation(f, 0);
+  EXPECT_TRUE(of_kind(check_take(lying, settings), FindingKind::no_contact).empty());
+}
+
 TEST(CheckClip, TellsGapsByJoint) {
   Take clip = synthetic_clip("walk");
   const std::vector<NamedGap> gaps{{"LeftArm", 100, 129}, {"LeftArm", 300, 301}, {"Head", 10, 10}};

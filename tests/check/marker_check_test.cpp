@@ -14,6 +14,16 @@ TEST(CheckMarkers, FindsNothingInCleanTakes) {
     EXPECT_EQ(faults_of(check_take(synthetic_markers(motion))), "") << motion;
 }
 
+TEST(CheckMarkers, SaysThatTheModelExpectsTheNoiseOfVideo) {
+  Take clip = synthetic_markers("walk");
+  EXPECT_EQ(doubts_of(check_take(clip)), "");
+  Random random(1);
+  apply_damage(clip, "system", {{"kind", std::string("video")}}, random);
+  const std::vector<Finding> found = of_kind(check_take(clip), FindingKind::expected_noise);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].unit, clip.unit);
+}
+
 TEST(CheckMarkers, TellsGapsByMarker) {
   Take clip = synthetic_markers("walk");
   const std::vector<NamedGap> gaps{{"Head", 30, 89}, {"LeftHand", 0, 4}};

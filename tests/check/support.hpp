@@ -43,6 +43,16 @@ inline std::string faults_of(const CheckReport& report) {
   return text;
 }
 
+/// What casts doubt on a take without being a fault, for messages.
+inline std::string doubts_of(const CheckReport& report) {
+  std::string text;
+  for (const Finding& f : report.findings) {
+    if (f.kind == FindingKind::expected_noise || f.kind == FindingKind::no_contact)
+      text += std::string(to_string(f.kind)) + ": " + std::to_string(f.figure) + "; ";
+  }
+  return text;
+}
+
 inline std::size_t joint_of(const Take& clip, std::string_view name) {
   return static_cast<std::size_t>(clip.skeleton.find(name));
 }

@@ -6,13 +6,23 @@ namespace {
 
 using Check = Program;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 TEST_F(Check, FindsNothingInACleanTake) {
   synth("walk.bvh", "walk", "3");
   const Ran ran = run({"check", "walk.bvh", "--max-spikes", "0", "--max-frozen", "0"});
   EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out, StartsWith("walk.bvh: nothing wrong\n"));
+  EXPECT_THAT(ran.out,
+              StartsWith("walk.bvh: nothing wrong that shows; slow errors (video, depth cameras, "
+                         "suits) do not show in a take alone\n"));
+}
+
+TEST_F(Check, SaysWhatItLookedForWhereItFindsNothing) {
+  synth("walk.bvh", "walk", "3");
+  EXPECT_THAT(run({"check", "walk.bvh"}).out, HasSubstr("looked for"));
+  noisy("noisy.bvh", "3");
+  EXPECT_THAT(run({"check", "noisy.bvh"}).out, Not(HasSubstr("looked for")));
 }
 
 TEST_F(Check, CountsFramesFromOneInTextAndJson) {
@@ -68,7 +78,7 @@ TEST_F(Check, GoesOnAfterAFileThatCannotBeRead) {
   put(folder / "bad.bvh", "HIERARCHY\nROOT\n");
   const Ran ran = run({"check", "bad.bvh", "walk.bvh"});
   EXPECT_EQ(ran.code, 3);
-  EXPECT_THAT(ran.out, HasSubstr("walk.bvh: nothing wrong"));
+  EXPECT_THAT(ran.out, HasSubstr("walk.bvh: nothing wrong that shows"));
   EXPECT_EQ(run({"check", "bad.bvh", "walk.bvh", "--gaps-out", "g.csv"}).code, 2);
 }
 

@@ -1,0 +1,63 @@
+// Clean takes of worlds from which no model that ships has learned.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiment.hpp"
+#include "kinemend/experimental/convert.hpp"
+
+namespace kinemend::papers {
+
+/// By world and unit, each take of it.
+using Worlds = std::map<std::pair<std::string, std::string>, std::vector<Take>>;
+
+inline void add(Worlds& worlds, const std::string& world, Take take) {
+  const std::string unit = take.has_joints() ? "deg" : "mm";
+  worlds[{world, unit}].push_back(std::move(take));
+}
+
+inline Worlds recorded_worlds(const std::filesystem::path& folder) {
+  Worlds worlds;
+  std::vector<std::filesystem::path> files;
+  if (!std::filesystem::is_directory(folder)) return worlds;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.is_regular_file() && entry.path().extension() != ".md") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  for (const std::filesystem::path& file : files) {
+    try {
+      add(worlds, file.parent_path().filename().string(), read_take(file).take);
+    } catch (const Error& error) {
+      fmt::print("left out: {}\n", error.what());
+    }
+  }
+  return worlds;
+}
+
+inline Worlds made_worlds() {
+  Worlds worlds;
+  for (const std::string motion : {"walk", "run", "punch"}) {
+    for (const double frame_rate_hz : {30.0, 120.0}) {
+      const Take take =
+          synthesize({.motion = motion, .duration_s = 3, .frame_rate_hz = frame_rate_hz});
+      add(worlds, "made", joint_markers(take));
+      add(worlds, "made", take);
+    }
+  }
+  return worlds;
+}
+
+/// Made takes for the quick form, and where there is no data.
+inline Worlds clean_worlds(const Arguments& arguments) {
+  Worlds worlds;
+  if (!arguments.quick && !arguments.data.empty())
+    worlds = recorded_worlds(arguments.data / "worlds");
+  if (worlds.empty()) worlds = made_worlds();
+  return worlds;
+}
+
+}  // namespace kinemend::papers

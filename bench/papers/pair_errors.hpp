@@ -1,0 +1,11 @@
+// What is measured of one of two systems that saw the same motion.
+#pragma once
+
+namespace kinemend::papers {
+
+/// Root mean squares of the error, of its velocity, and of what of it is above 6 Hz.
+struct PairErrors {
+  double value = 0, velocity = 0, fast = 0;
+};
+
+}  // namespace kinemend::papers
