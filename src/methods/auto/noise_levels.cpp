@@ -180,4 +180,40 @@ std::vector<double> smoothing_shares(const std::vector<double>& noise, double fr
   return shares;
 }
 
+bool is_brief(std::size_t frames, double frame_rate_hz, const AgreementTuning& tuning) {
+  return frame_rate_hz < tuning.lowest_rate_hz &&
+         static_cast<double>(frames) < tuning.shortest_s * frame_rate_hz;
+}
+
+double agreement_of(const VectorTracks& tracks, std::span<const std::uint8_t> is_damaged,
+                    double frame_rate_hz, const AgreementTuning& tuning) {
+  if (!is_brief(tracks.frames(), frame_rate_hz, tuning)) return 1;
+  std::size_t moving = 0, damaged = 0;
+  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
+    const auto track = tracks.track(n);
+    if (std::all_of(track.begin(), track.end(), [&](Vec3 v) { return v == track[0]; })) continue;
+    ++moving;
+    damaged += is_damaged[n];
+  }
+  if (moving < tuning.fewest_tracks) return 0;
+  const double share = static_cast<double>(damaged) / static_cast<double>(moving);
+  return std::clamp((share - tuning.start) / (tuning.full - tuning.start), 0.0, 1.0);
+}
+
+double noise_agreement(const VectorTracks& tracks, const std::vector<double>& noise,
+                       double frame_rate_hz, const TrackTuning& tuning) {
+  const double least = tuning.dead_zone.start_noisy * rate_factor_of(frame_rate_hz);
+  std::vector<std::uint8_t> is_noisy(noise.size());
+  for (std::size_t n = 0; n < noise.size(); ++n) is_noisy[n] = noise[n] > least ? 1 : 0;
+  return agreement_of(tracks, is_noisy, frame_rate_hz, tuning.agreement);
+}
+
+std::vector<double> smoothing_shares(const VectorTracks& tracks, const std::vector<double>& noise,
+                                     double frame_rate_hz, const TrackTuning& tuning) {
+  std::vector<double> shares = smoothing_shares(noise, frame_rate_hz, tuning.dead_zone);
+  const double agreement = noise_agreement(tracks, noise, frame_rate_hz, tuning);
+  for (double& share : shares) share *= agreement;
+  return shares;
+}
+
 }  // namespace kinemend

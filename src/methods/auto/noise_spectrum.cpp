@@ -308,8 +308,11 @@ NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& m
                                 const ColourTuning& tuning) {
   NoiseSpectrum spectrum;
   const auto second = static_cast<std::size_t>(std::lround(window_rate_hz(frame_rate_hz)));
-  // Markers may stand still, or go on alike, for a second or two.
-  const std::size_t fewest = kind == TrackKind::positions ? tuning.fewest_seconds * second : 0;
+  // Markers may stand still, or go on alike, for a second or two; so do joints at rates that show a
+  // snappy move as some frames of noise.
+  const bool needs_seconds =
+      kind == TrackKind::positions || (!correlation && is_brief(tracks.frames(), frame_rate_hz));
+  const std::size_t fewest = needs_seconds ? tuning.fewest_seconds * second : 0;
   if (tracks.frames() < std::max(fewest_noisy_frames, fewest)) return spectrum;
   const MovingTracks moving(tracks, marked, whitenings);
   if (moving.count() < tuning.fewest_tracks) return spectrum;

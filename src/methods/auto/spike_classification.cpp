@@ -83,7 +83,9 @@ bool is_isolated(const SpikeCandidates& candidates, std::size_t t, std::size_t n
   const double error = candidates.predictions.errors(t, n);
   const bool quiet = share < 0.5;
   const double clearance = between(tuning.clearance_quiet, tuning.clearance_noisy, share);
-  if (error <= clearance * largest_error_about(candidates, t, n, quiet)) return false;
+  // Among dense outliers the largest error says nothing: it may be of one more.
+  if (candidates.dense[n] == 0 && error <= clearance * largest_error_about(candidates, t, n, quiet))
+    return false;
   if (continues_one_side(candidates, t, n)) return false;
   if (!quiet) return true;
   // An error that several joints share is motion.
@@ -106,16 +108,19 @@ double poisson_tail(double mean, std::size_t at_least) {
 }
 
 // Rejects runs of spikes, at most `cluster_gap` frames apart, that are longer than Poisson chance
-// at the take's rate explains.
-void reject_clusters(const SpikeTuning& tuning, SampleMarks& marked) {
+// explains at the take's rate, or at that of a track of dense outliers.
+void reject_clusters(const SpikeCandidates& candidates, SampleMarks& marked) {
+  const SpikeTuning& tuning = candidates.tuning;
   const auto total = std::count(marked.marks.begin(), marked.marks.end(), 1);
   if (total == 0) return;
-  const double rate = static_cast<double>(total) / static_cast<double>(marked.marks.size());
+  const double rate_of_take = static_cast<double>(total) / static_cast<double>(marked.marks.size());
   for (std::size_t n = 0; n < marked.tracks; ++n) {
     std::vector<std::size_t> frames;
     for (std::size_t t = 0; t < marked.frames; ++t) {
       if (marked(t, n) != 0) frames.push_back(t);
     }
+    const double own = static_cast<double>(frames.size()) / static_cast<double>(marked.frames);
+    const double rate = candidates.dense[n] != 0 ? std::max(own, rate_of_take) : rate_of_take;
     for (std::size_t first = 0; first < frames.size();) {
       std::size_t last = first;
       while (last + 1 < frames.size() && frames[last + 1] - frames[last] <= tuning.cluster_gap)
@@ -143,9 +148,9 @@ bool is_within_joint_speed(const SpikeCandidates& candidates, const SampleMarks&
   return sum * candidates.frame_rate_hz < candidates.tuning.recurrent_deg_s * count;
 }
 
-// Tracks with more spikes than Poisson chance at the mean rate explains, those that have even more
-// left out. Such recurrent spikes are motion, for example of a toe that leaves the ground at every
-// step.
+// Tracks with more spikes than Poisson chance explains at the mean rate of the other tracks with
+// one spike more, those that have even more left out. Such recurrent spikes are motion, for example
+// of a toe that leaves the ground at every step.
 std::vector<std::uint8_t> find_recurrent(const SpikeCandidates& candidates,
                                          const SampleMarks& spikes) {
   const SpikeTuning& tuning = candidates.tuning;
@@ -159,7 +164,7 @@ std::vector<std::uint8_t> find_recurrent(const SpikeCandidates& candidates,
   for (std::size_t left = spikes.tracks; left > 0; --left) {
     const auto worst = std::max_element(counts.begin(), counts.end());
     const auto n = static_cast<std::size_t>(worst - counts.begin());
-    const double expected = static_cast<double>(total) / static_cast<double>(left);
+    const double expected = static_cast<double>(total - *worst + 1) / static_cast<double>(left);
     if (poisson_tail(expected, *worst) > tuning.chance) break;
     recurrent[n] = is_within_joint_speed(candidates, spikes, n);
     total -= *worst;
@@ -179,7 +184,7 @@ double smallest_spike(const SpikeCandidates& candidates, const SampleMarks& sure
   const SpikeTuning& tuning = candidates.tuning;
   std::vector<double> sizes;
   for (std::size_t n = 0; n < sure.tracks; ++n) {
-    if (candidates.shares[n] >= 1) continue;
+    if (candidates.shares[n] >= 1 && candidates.dense[n] == 0) continue;
     for (std::size_t t = 0; t < sure.frames; ++t) {
       if (sure(t, n) != 0) sizes.push_back(candidates.predictions.errors(t, n));
     }
@@ -208,7 +213,7 @@ SampleMarks classify_spikes(const SpikeCandidates& candidates) {
   const std::vector<std::uint8_t> recurrent = find_recurrent(candidates, spikes);
   for (std::size_t n = 0; n < marks.tracks; ++n) {
     if (recurrent[n] != 0) reject_track(n, spikes);
-    if (candidates.shares[n] >= 1) continue;
+    if (candidates.shares[n] >= 1 && candidates.dense[n] == 0) continue;
     quiet_samples += marks.frames;
     for (std::size_t t = 0; t < marks.frames; ++t) quiet_spikes += spikes(t, n);
   }
@@ -233,7 +238,7 @@ SampleMarks classify_spikes(const SpikeCandidates& candidates) {
   for (std::size_t n = 0; n < marks.tracks; ++n) {
     if (late_recurrent[n] != 0) reject_track(n, spikes);
   }
-  reject_clusters(tuning, spikes);
+  reject_clusters(candidates, spikes);
   return spikes;
 }
 

@@ -28,8 +28,9 @@ struct SpikeCandidates {
   const VectorTracks& measured;
   const Predictions& predictions;
   const SampleMarks& marks;
-  const std::vector<double>& noise;   ///< of each track, degrees
-  const std::vector<double>& shares;  ///< 0: a quiet track, 1: a noisy one
+  const std::vector<double>& noise;        ///< of each track, degrees
+  const std::vector<double>& shares;       ///< 0: a quiet track, 1: a noisy one
+  const std::vector<std::uint8_t>& dense;  ///< 1: a track of dense outliers
   const std::vector<std::vector<std::size_t>>& nearby;
   double frame_rate_hz;
   const SpikeTuning& tuning;

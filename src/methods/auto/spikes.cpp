@@ -10,6 +10,7 @@
 #include "base/parallel.hpp"
 #include "base/quantiles.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
+#include "methods/auto/dense_outliers.hpp"
 #include "methods/auto/spike_classification.hpp"
 #include "signal/leave_one_out.hpp"
 
@@ -25,7 +26,8 @@ struct Detection {
   const signal::LeaveOneOut& smoothers;
   const TrackTuning& tuning;
   SampleMarks candidates;
-  std::vector<double> noise;  // without the candidates
+  std::vector<std::uint8_t> dense;  // of each track: 1 where its outliers are dense
+  std::vector<double> noise;        // without the candidates
   Predictions predictions;
 
   std::vector<std::uint8_t> left_out(std::size_t track) const {
@@ -69,6 +71,27 @@ void measure_noise(Detection& detection, std::size_t track) {
   detection.noise[track] =
       noise_level(detection.measured.track(track), detection.left_out(track),
                   detection.measured.is_whitened[track] != 0, detection.tuning.noise);
+}
+
+// Outliers that hide each other are the first candidates of their track. In a brief take they have
+// to be on most tracks: a pop in one frame of ten may be a move.
+void start_at_dense_outliers(Detection& detection) {
+  const VectorTracks& measured = detection.measured;
+  std::vector<std::vector<std::uint8_t>> outliers(measured.tracks());
+  for_each_parallel(measured.tracks(), measured.values.size(), [&](std::size_t n) {
+    const std::span<const std::uint8_t> missing =
+        detection.missing ? detection.missing->track(n) : std::span<const std::uint8_t>();
+    outliers[n] =
+        dense_outliers(measured.track(n), missing, detection.frame_rate_hz, detection.tuning.dense);
+    detection.dense[n] = outliers[n].empty() ? 0 : 1;
+  });
+  if (agreement_of(measured, detection.dense, detection.frame_rate_hz,
+                   detection.tuning.agreement) == 0)
+    std::fill(detection.dense.begin(), detection.dense.end(), std::uint8_t{0});
+  for (std::size_t n = 0; n < outliers.size(); ++n) {
+    if (detection.dense[n] == 0) continue;
+    std::copy(outliers[n].begin(), outliers[n].end(), detection.candidates.track(n).begin());
+  }
 }
 
 double error_scale(const Detection& detection, std::size_t track) {
@@ -264,15 +287,19 @@ DetectedSpikes find_spikes(VectorTracks& tracks, const SampleMarks& initial_cand
                       smoothers,
                       tuning,
                       initial_candidates,
+                      std::vector<std::uint8_t>(count),
                       std::vector<double>(count),
                       Predictions(frames, count)};
+  start_at_dense_outliers(detection);
   iterate_candidates(detection, progress);
-  const std::vector<double> shares =
-      smoothing_shares(detection.noise, frame_rate_hz, tuning.dead_zone);
+  std::vector<double> shares = smoothing_shares(tracks, detection.noise, frame_rate_hz, tuning);
+  // A track of dense outliers is as wrong as a noisy one, however quiet the samples between them.
+  for (std::size_t n = 0; n < count; ++n)
+    if (detection.dense[n] != 0) shares[n] = 1;
   const SampleMarks candidates = std::exchange(
       detection.candidates,
       classify_spikes({tracks, detection.predictions, detection.candidates, detection.noise, shares,
-                       nearby, frame_rate_hz, tuning.spikes, missing}));
+                       detection.dense, nearby, frame_rate_hz, tuning.spikes, missing}));
   detection.predictions = Predictions(0, 0);
   for_each_parallel(count, frames * count, [&](std::size_t n) {
     const std::span<const std::uint8_t> before = candidates.track(n),

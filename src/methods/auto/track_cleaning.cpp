@@ -54,10 +54,14 @@ NoiseSpectrum spectrum_of(const VectorTracks& tracks, const SampleMarks& missing
   return spectrum;
 }
 
+bool is_known(const std::vector<double>& noise, std::size_t track) {
+  return track < noise.size() && noise[track] > 0;
+}
+
 // What is known of the noise in place of what was measured.
 void take_known(const std::vector<double>& known, CleanedTracks& cleaned) {
   for (std::size_t n = 0; n < known.size(); ++n) {
-    if (known[n] <= 0) continue;
+    if (!is_known(known, n)) continue;
     cleaned.noise[n] = known[n];
     if (cleaned.spectrum.is_clear) cleaned.spectrum.deviations[n] = {known[n], known[n], known[n]};
   }
@@ -102,6 +106,9 @@ CleanedTracks clean_measurements(VectorTracks& tracks, const SampleMarks& spike_
     std::vector<double> assumed = cleaned.noise;
     for (double& level : assumed) level *= settings.sensitivity;
     cleaned.shares = smoothing_shares(assumed, frame_rate_hz, tuning.dead_zone);
+    const double agreement = noise_agreement(tracks, assumed, frame_rate_hz, tuning);
+    for (std::size_t n = 0; n < cleaned.shares.size(); ++n)
+      if (!is_known(settings.noise, n)) cleaned.shares[n] *= agreement;
     leave_hardly_observed(missing, cleaned.shares);
     smooth_tracks(tracks, missing, assumed, cleaned.shares, frame_rate_hz, progress,
                   tuning.smoothing);

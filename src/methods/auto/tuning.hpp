@@ -71,6 +71,29 @@ struct SpikeTuning {
   double smallest_share = 0.4;   ///< of that, below which an error is none
 };
 
+/// Of `dense_outliers`. Errors are in degrees.
+struct DenseTuning {
+  double least_share = 0.04;        ///< of the samples of a track, from which outliers are dense
+  double least_error = 6;           ///< of an outlier
+  double ratio = 6.5;               ///< of its error to the deviation of the samples about it
+  double shared_deviation = 0.5;    ///< of its error, by which a neighbour's differs at least
+  double curve_half_s = 0.05;       ///< of the window of medians and of quadratics
+  double scale_half_s = 0.08;       ///< of the running median of errors
+  double least_scale = 0.25;        ///< deviation assumed at least, degrees
+  double welsch_deviations = 3.25;  ///< at which the weight of a sample falls to 0.6
+  int rounds = 6;                   ///< of fitting and weighing
+  std::size_t fewest_outliers = 5;  ///< of a track
+};
+
+/// Of `agreement_of`.
+struct AgreementTuning {
+  double lowest_rate_hz = 50;     ///< from which noise is quicker than any motion
+  double shortest_s = 4;          ///< of takes whose quiet moments tell motion from noise
+  std::size_t fewest_tracks = 6;  ///< that move
+  double start = 0.7;             ///< share of them, from which noise is taken for such
+  double full = 0.9;              ///< and from which it is fully
+};
+
 /// Of `smoothing_shares`. Noise in degrees per axis, at 120 Hz.
 struct DeadZoneTuning {
   double start_noisy = 0.15;  ///< noise from which tracks are smoothed, in a noisy take
@@ -144,7 +167,9 @@ struct HeldTuning {
 struct TrackTuning {
   NoiseTuning noise;
   SpikeTuning spikes;
+  DenseTuning dense;
   DeadZoneTuning dead_zone;
+  AgreementTuning agreement;
   SmoothingTuning smoothing;
   ColourTuning colour;
   HeldTuning held;

@@ -96,5 +96,21 @@ double rate_factor_of(double frame_rate_hz, const DeadZoneTuning& tuning = {});
 /// and below 120 Hz, where differences respond to motion.
 std::vector<double> smoothing_shares(const std::vector<double>& noise, double frame_rate_hz,
                                      const DeadZoneTuning& tuning = {});
+/// The same, times the agreement of these tracks.
+std::vector<double> smoothing_shares(const VectorTracks& tracks, const std::vector<double>& noise,
+                                     double frame_rate_hz, const TrackTuning& tuning = {});
+
+/// How sure it is that damage is damage, 0 to 1, from the tracks that show it (`is_damaged`, one a
+/// track). A few seconds below 50 Hz do not tell a snappy keyed move from noise or an outlier. What
+/// a system does wrong is on all that it measures, moves are on some joints: such a take is damaged
+/// when most tracks that move, of at least six, are. 1 for all other takes.
+double agreement_of(const VectorTracks& tracks, std::span<const std::uint8_t> is_damaged,
+                    double frame_rate_hz, const AgreementTuning& tuning = {});
+/// The same from the tracks whose noise exceeds the least that is smoothed.
+double noise_agreement(const VectorTracks& tracks, const std::vector<double>& noise,
+                       double frame_rate_hz, const TrackTuning& tuning = {});
+
+/// Whether a take is too short, at its rate, to tell fast motion from noise by its quiet moments.
+bool is_brief(std::size_t frames, double frame_rate_hz, const AgreementTuning& tuning = {});
 
 }  // namespace kinemend
