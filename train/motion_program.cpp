@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "base/file_bytes.hpp"
@@ -80,10 +81,12 @@ std::vector<MarkerMotion> marker_motions_of(const std::vector<std::string>& path
 }
 
 // Clean takes of other rigs, in the channels in which the method sees them.
-RigMotion rig_motion_of(const Take& clip, const BodyLayout& layout) {
+RigMotion rig_motion_of(const Take& clip, const BodyLayout& layout,
+                        std::span<const float> deviation) {
   const TakeView view = view_of(clip);
   MotionTracks tracks = motion_tracks_of(view, changeable_tracks(view));
-  if (const auto body = read_body(layout, {}, view, tracks)) show_body(*body, tracks.take);
+  const BodyReading reading = read_body(layout, deviation, {}, view, tracks);
+  if (reading.body) show_body(*reading.body, tracks.take);
   const MotionTake& take = tracks.take;
   RigMotion motion{take.frame_rate_hz, PoseMatrix(take.frames, take.channels), take.slots,
                    take.is_position};
@@ -102,6 +105,7 @@ struct OtherMotion {
       : pairs(pairs_of(pair_list)) {
     if (has_markers) markers = marker_motions_of(takes);
     if (rig_list.empty()) return;
+    const std::vector<float> deviation = motion_statistics(sequences).deviation;
     for (const std::string& path : lines_of(rig_list)) {
       const Take take = read_take(path).take;
       if (take.frame_count() < 8) continue;
@@ -109,8 +113,9 @@ struct OtherMotion {
         if (has_markers) markers.push_back(marker_motion_of(take));
         continue;
       }
-      rigs.push_back(rig_motion_of(
-          slice(take, leading_calibration_frames(take), take.frame_count()), sequences.layout));
+      rigs.push_back(
+          rig_motion_of(slice(take, leading_calibration_frames(take), take.frame_count()),
+                        sequences.layout, deviation));
     }
   }
 };

@@ -8,14 +8,20 @@
 
 namespace kinemend::papers {
 
+/// A method, and what it is told of the takes.
 struct Compared {
   std::string label, method;
   OptionValues options{};
+  Source source = Source::unknown;
 };
 
 inline Take cleaned(const Take& clip, const Compared& by) {
-  return cleaned(clip, by.method, by.options);
+  CleanSettings settings;
+  settings.source = by.source;
+  return clean_take(clip, *make_cleaner(by.method, by.options), settings).take;
 }
+
+inline const Compared learned_of_video{"learned, source video", "learned", {}, Source::video};
 
 inline const std::vector<Compared> auto_and_learned{
     {"auto", "auto"}, {"learned", "learned"}, {"learned live", "learned", {{"live", true}}}};

@@ -58,12 +58,8 @@ void add_pair(const Take& noisy, const Take& reference, double least_deg, Source
   const MotionTracks& tracks = both.tracks;
   const MotionSample& pair = both.sample;
   if (!moves(pair)) return;
-  const auto channels_by = [&](const std::string& method, const OptionValues& options, Take clip) {
-    clean_in_place(*make_cleaner(method, options), clip);
-    return channels_of(tracks, clip);
-  };
-  const auto errors_by = [&](const std::string& method, const OptionValues& options) {
-    return errors_of(channels_by(method, options, noisy), pair);
+  const auto errors_by = [&](const Compared& by) {
+    return errors_of(channels_of(tracks, cleaned(noisy, by)), pair);
   };
   const PairErrors untouched = errors_of(pair.take.values, pair);
   const auto add = [&](const std::string& name, const PairErrors& errors) {
@@ -76,16 +72,18 @@ void add_pair(const Take& noisy, const Take& reference, double least_deg, Source
   PairErrors best{0, std::numeric_limits<double>::max(), 0};
   for (const double cutoff_hz : {1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0}) {
     if (cutoff_hz >= noisy.frame_rate_hz / 2.2) break;
-    const PairErrors errors = errors_by("butterworth", {{"cutoff_hz", cutoff_hz}});
+    const PairErrors errors = errors_by({"", "butterworth", {{"cutoff_hz", cutoff_hz}}});
     if (errors.velocity < best.velocity) best = errors;
   }
   add("best cut", best);
-  add("butterworth", errors_by("butterworth", {}));
+  add("butterworth", errors_by({"", "butterworth"}));
   const std::vector<float> clean = channels_of(tracks, reference);
-  for (const Compared& compared : auto_and_learned) {
-    add(compared.label, errors_by(compared.method, compared.options));
-    source.reference_changes[compared.label].push_back(root_mean_square_of_difference(
-        channels_by(compared.method, compared.options, reference), clean));
+  std::vector<Compared> methods = auto_and_learned;
+  methods.push_back(learned_of_video);
+  for (const Compared& by : methods) {
+    add(by.label, errors_by(by));
+    source.reference_changes[by.label].push_back(
+        root_mean_square_of_difference(channels_of(tracks, cleaned(reference, by)), clean));
   }
   const MotionSample seen{tracks.take, values_in(tracks, view_of(reference))};
   source.within += share_within(mapped_pair({"", seen}, least_deg).sample);

@@ -20,16 +20,10 @@ struct Harm {
                          ///< 500 mm/s
 };
 
-// A method with what it is told of the take.
-struct ComparedOfSource {
-  Compared method;
-  Source source = Source::unknown;
-};
-
-Harm harm_of(const Take& take, const ComparedOfSource& by) {
+Harm harm_of(const Take& take, const Compared& by) {
   CleanSettings settings;
   settings.source = by.source;
-  const auto cleaner = make_cleaner(by.method.method, by.method.options);
+  const auto cleaner = make_cleaner(by.method, by.options);
   const CleanReport report = clean_take(take, *cleaner, settings).report;
   const double metres = metres_per_unit(take.unit);
   const double unit = take.has_joints() ? 1 : 1000 * (metres > 0 ? metres : 0.001);
@@ -48,9 +42,8 @@ Harm harm_of(const Take& take, const ComparedOfSource& by) {
 
 void experiment(const Arguments& arguments) {
   const Worlds worlds = clean_worlds(arguments);
-  std::vector<ComparedOfSource> methods;
-  for (const Compared& method : auto_and_learned) methods.push_back({method});
-  methods.push_back({{"learned, source video", "learned"}, Source::video});
+  std::vector<Compared> methods = auto_and_learned;
+  methods.push_back(learned_of_video);
   Table table(arguments, "any_worlds.csv",
               "world,unit,method,takes,changed,median,ninety_five,most,peak_loss");
   std::map<std::pair<std::string, std::string>, std::vector<Harm>> all;
@@ -74,11 +67,11 @@ void experiment(const Arguments& arguments) {
                figures[4]);
   };
   for (const auto& [name, takes] : worlds) {
-    for (const ComparedOfSource& by : methods) {
+    for (const Compared& by : methods) {
       std::vector<Harm> harms;
       for (const Take& take : takes) harms.push_back(harm_of(take, by));
-      write(name.first, name.second, by.method.label, harms);
-      std::vector<Harm>& together = all[{name.second, by.method.label}];
+      write(name.first, name.second, by.label, harms);
+      std::vector<Harm>& together = all[{name.second, by.label}];
       together.insert(together.end(), harms.begin(), harms.end());
     }
   }

@@ -19,6 +19,7 @@ bool is_slow(const std::string& method) { return method == "sparse" || method ==
 // A cleaner reads its model once.
 struct NamedCleaner {
   std::string label, method;
+  Source source = Source::unknown;
   std::shared_ptr<const Cleaner> cleaner;
 };
 
@@ -26,11 +27,11 @@ std::vector<NamedCleaner> cleaners_compared() {
   std::vector<Compared> all;
   for (const Method& method : methods()) all.push_back({method.name, method.name});
   all.push_back({"learned live", "learned", {{"live", true}}});
-  all.push_back({"learned, model trusted", "learned", {{"trust_model", true}}});
+  all.push_back(learned_of_video);
   std::vector<NamedCleaner> cleaners;
   for (const Compared& by : all) {
     try {
-      cleaners.push_back({by.label, by.method, make_cleaner(by.method, by.options)});
+      cleaners.push_back({by.label, by.method, by.source, make_cleaner(by.method, by.options)});
     } catch (const Error& error) {
       // A method whose model everybody trains for himself has no defaults.
       if (error.kind() != ErrorKind::usage) throw;
@@ -49,8 +50,10 @@ bool counts_for_regret(const std::string& method) {
 // Of each take on which the method ran, its number and the figures.
 using Errors = std::map<std::size_t, std::vector<double>>;
 
-Take cleaned_case(const RegretRow& row, const RegretCase& given, const Cleaner& cleaner) {
+Take cleaned_case(const RegretRow& row, const RegretCase& given, const Cleaner& cleaner,
+                  Source source = Source::unknown) {
   CleanSettings settings;
+  settings.source = source;
   if (row.has_gaps) settings.fill.emplace();
   return clean_take(given.take, cleaner, settings).take;
 }
@@ -77,7 +80,7 @@ std::map<std::string, Errors> measured(const RegretRow& row) {
     for (const NamedCleaner& by : all) {
       if (is_slow(by.method) && (!row.has_slow || i > 0)) continue;
       try {
-        errors[by.label][i] = given.errors(cleaned_case(row, given, *by.cleaner));
+        errors[by.label][i] = given.errors(cleaned_case(row, given, *by.cleaner, by.source));
       } catch (const Error& error) {
         // A method for joints refuses markers, and one that learned refuses bodies it does not
         // know.

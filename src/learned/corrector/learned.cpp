@@ -72,7 +72,9 @@ class Learned final : public Cleaner {
     MotionTracks tracks = motion_tracks_of(view, changeable_tracks(view));
     if (tracks.numbers.empty()) return trace;
     tracks.take.expects_slow_noise = expects_slow_noise(view.source);
-    std::optional<KnownBody> body = read_body(model_->layout, names_, view, tracks);
+    BodyReading reading = read_body(model_->layout, network_.deviation, names_, view, tracks);
+    std::optional<KnownBody>& body = reading.body;
+    note_strange_motion(reading, trace);
     if (body) show_body(*body, tracks.take);
     progress.step();
     progress.begin_part(1, 1);
@@ -123,6 +125,15 @@ class Learned final : public Cleaner {
     }
     if (!fall_back.tracks.empty()) trace.fall_backs.push_back(std::move(fall_back));
     return trace;
+  }
+
+  // A body that the model knows by name, and that moves unlike what it has learned from.
+  static void note_strange_motion(const BodyReading& reading, CleanTrace& trace) {
+    if (reading.body || reading.spread <= most_spread) return;
+    trace.notes.push_back(
+        fmt::format("the body moves {:.1f} times as widely as those that the model has learned "
+                    "from: each joint is cleaned by itself",
+                    reading.spread));
   }
 
   // Slow noise that the model expects and the take does not show, of the middle one of the tracks

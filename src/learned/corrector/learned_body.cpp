@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "base/quantiles.hpp"
 #include "kinemend/error.hpp"
 #include "methods/core/pieces.hpp"
 
@@ -27,6 +28,17 @@ bool is_tame(const BodyChannels& body, std::size_t part) {
     if (f > 0 && norm(vector_at(f) - vector_at(f - 1)) > most_step_deg) return false;
   }
   return true;
+}
+
+// The root mean square turn of a joint about its mean pose, in deviations.
+double spread_of(const PoseMatrix& poses, std::span<const float> deviation, std::size_t part) {
+  double square = 0;
+  for (std::size_t c = 3 * part; c < 3 * part + 3; ++c) {
+    const auto unit = static_cast<double>(deviation[c]);
+    for (std::size_t f = 0; f < poses.frames; ++f)
+      square += poses(f, c) * poses(f, c) / (3 * unit * unit);
+  }
+  return std::sqrt(square / static_cast<double>(poses.frames));
 }
 
 void see_everywhere(const MotionTracks& tracks, Take& clip) {
@@ -52,15 +64,16 @@ std::string why_not_learned(const TakeView& view) {
   return {};
 }
 
-std::optional<KnownBody> read_body(const BodyLayout& layout, const NameMap& names,
-                                   const TakeView& view, const MotionTracks& tracks) {
-  if (view.joints == nullptr || layout.kind != BodyKind::joints) return std::nullopt;
+BodyReading read_body(const BodyLayout& layout, std::span<const float> deviation,
+                      const NameMap& names, const TakeView& view, const MotionTracks& tracks) {
+  BodyReading reading;
+  if (view.joints == nullptr || layout.kind != BodyKind::joints) return reading;
   KnownBody body;
   try {
     body.match = match_body(layout, *view.joints, names);
   } catch (const Error&) {
     if (!names.empty()) throw;
-    return std::nullopt;
+    return reading;
   }
   body.clip = *view.joints;
   for (std::size_t n = 0; n < tracks.numbers.size(); ++n) {
@@ -81,6 +94,7 @@ std::optional<KnownBody> read_body(const BodyLayout& layout, const NameMap& name
   body.track_of.assign(body.channels.poses.channels / 3, -1);
   // The place stays what any position is: in the body's frame it would depend on how that turns.
   std::size_t wild = 0, tame = 0;
+  std::vector<double> spreads;
   for (std::size_t part = 0; part < layout.track_count(); ++part) {
     if (body.match.tracks[part] < 0) continue;
     const auto number = static_cast<std::size_t>(body.match.tracks[part]);
@@ -88,12 +102,16 @@ std::optional<KnownBody> read_body(const BodyLayout& layout, const NameMap& name
     if (found == tracks.numbers.end()) continue;
     const bool fits = is_tame(body.channels, part);
     ++(fits ? tame : wild);
-    if (fits) body.track_of[part] = static_cast<std::int32_t>(found - tracks.numbers.begin());
+    if (!fits) continue;
+    body.track_of[part] = static_cast<std::int32_t>(found - tracks.numbers.begin());
+    spreads.push_back(spread_of(body.channels.poses, deviation, part));
   }
+  if (!spreads.empty()) reading.spread = median_of(spreads);
   // Half of a body misleads the network more than none. Chosen by hand, not swept.
   constexpr double most_wild = 0.2;
-  if (static_cast<double>(wild) > most_wild * static_cast<double>(wild + tame)) return std::nullopt;
-  return body;
+  const bool is_wild = static_cast<double>(wild) > most_wild * static_cast<double>(wild + tame);
+  if (!is_wild && reading.spread <= most_spread) reading.body = std::move(body);
+  return reading;
 }
 
 std::vector<std::uint8_t> marks_of(const std::optional<KnownBody>& body, std::size_t tracks) {

@@ -29,7 +29,7 @@ LearnedFilling fill_by_network(const MotionNetwork& network, const BodyLayout& l
   filling.left_out.assign(clip.joint_count(), why_not_learned(view));
   if (!filling.left_out.front().empty()) return filling;
   MotionTracks tracks = motion_tracks_of(view, changeable_tracks(view));
-  std::optional<KnownBody> body = read_body(layout, names, view, tracks);
+  std::optional<KnownBody> body = read_body(layout, network.deviation, names, view, tracks).body;
   if (body) show_body(*body, tracks.take);
   add_measured_smoothing(tracks.take);
   const MotionResult result = filtered(network, tracks.take);

@@ -23,9 +23,14 @@ BodyLayout layout_of(const Take& take) {
   return builder.finish();
 }
 
-std::optional<KnownBody> body_of(const Take& take, const BodyLayout& layout) {
+BodyReading reading_of(const Take& take, const BodyLayout& layout, float deviation_deg) {
   const TakeView view = view_of(take);
-  return read_body(layout, {}, view, motion_tracks_of(view, changeable_tracks(view)));
+  const std::vector<float> deviation(layout.channel_count(), deviation_deg);
+  return read_body(layout, deviation, {}, view, motion_tracks_of(view, changeable_tracks(view)));
+}
+
+std::optional<KnownBody> body_of(const Take& take, const BodyLayout& layout) {
+  return reading_of(take, layout, 1000).body;
 }
 
 // The same motion on a rig each of whose joints has its frame turned by `angle` about an axis of
@@ -72,6 +77,16 @@ TEST(KnownBody, IsTheSameOnARigWhoseBonesHaveOtherAxes) {
   EXPECT_LT(largest, 1) << "degrees";
 }
 
+TEST(KnownBody, IsNoneWhereItMovesWiderThanAllThatTheNetworkHasLearnedFrom) {
+  const Take walk = synthesize({.motion = "walk", .duration_s = 4, .frame_rate_hz = 60});
+  const BodyLayout layout = layout_of(walk);
+  const BodyReading fits = reading_of(walk, layout, 5), strange = reading_of(walk, layout, 0.5F);
+  EXPECT_TRUE(fits.body.has_value());
+  EXPECT_LT(fits.spread, most_spread);
+  EXPECT_FALSE(strange.body.has_value());
+  EXPECT_NEAR(strange.spread, 10 * fits.spread, 1e-9);
+}
+
 TEST(KnownBody, LeavesOutTheOneJointThatTurnsRoundAndRound) {
   const Take walk = synthesize({.motion = "walk", .duration_s = 2, .frame_rate_hz = 60});
   const BodyLayout layout = layout_of(walk);
@@ -108,7 +123,8 @@ TEST(KnownBody, SeesABridgeOverAGapAndNotTheSampleBeforeIt) {
   mark_gaps(clip, {&gap, 1});
   const TakeView view = view_of(clip);
   const MotionTracks tracks = motion_tracks_of(view, changeable_tracks(view));
-  const std::optional<KnownBody> body = read_body(layout, {}, view, tracks);
+  const std::vector<float> deviation(layout.channel_count(), 1000);
+  const std::optional<KnownBody> body = read_body(layout, deviation, {}, view, tracks).body;
   ASSERT_TRUE(body.has_value());
   std::size_t part = 0;
   while (body->match.tracks[part] != static_cast<std::int32_t>(knee)) ++part;
