@@ -35,6 +35,7 @@ class RobustCurve {
               double frame_rate_hz, const DenseTuning& tuning)
       : track_(track), missing_(missing), tuning_(tuning), errors_(track.size()) {
     const double rate_hz = window_rate_hz(frame_rate_hz);
+    wide_reach_ = frames_of(tuning.wide_half_s, rate_hz);
     reach_ = frames_of(tuning.curve_half_s, rate_hz);
     scale_reach_ = frames_of(tuning.scale_half_s, rate_hz);
   }
@@ -42,25 +43,30 @@ class RobustCurve {
   void fit() {
     start_by_medians();
     std::vector<double> weights(track_.size());
-    for (int round = 0; round < tuning_.rounds; ++round) {
+    // A wide window holds more samples than a cluster of outliers; a narrow one follows the motion.
+    for (int round = 0; round < 2 * tuning_.rounds; ++round) {
+      const std::size_t reach = round < tuning_.rounds ? wide_reach_ : reach_;
       for (std::size_t t = 0; t < track_.size(); ++t) {
         const double welsch = tuning_.welsch_deviations * scale_about(t);
         weights[t] = is_missing(t) ? 0 : portable::exp(-0.5 * square(norm(errors_[t]) / welsch));
       }
-      for (std::size_t t = 0; t < track_.size(); ++t) errors_[t] = track_[t] - value_at(t, weights);
+      for (std::size_t t = 0; t < track_.size(); ++t)
+        errors_[t] = track_[t] - value_at(t, reach, weights);
     }
   }
 
-  // Whether a sample is far from the curve and neither neighbour shares its deviation, as those of
-  // a motion do that is too quick for the curve.
+  // Whether a sample is far from the curve and agrees with neither neighbour: samples of a motion
+  // that is too quick for the curve share a deviation, and those beside a step share a value.
   bool is_outlier(std::size_t t) {
     const double error = norm(errors_[t]);
     if (is_missing(t) || error <= tuning_.least_error) return false;
     if (error <= tuning_.ratio * scale_about(t)) return false;
-    const auto shares = [&](std::size_t other) {
-      return norm(errors_[t] - errors_[other]) < tuning_.shared_deviation * error;
+    const auto agrees = [&](std::size_t other) {
+      const double apart =
+          std::min(norm(errors_[t] - errors_[other]), norm(track_[t] - track_[other]));
+      return apart < tuning_.least_apart * error;
     };
-    return !(t > 0 && shares(t - 1)) && !(t + 1 < track_.size() && shares(t + 1));
+    return !(t > 0 && agrees(t - 1)) && !(t + 1 < track_.size() && agrees(t + 1));
   }
 
  private:
@@ -74,7 +80,7 @@ class RobustCurve {
   void start_by_medians() {
     std::vector<double> x, y, z;
     for (std::size_t t = 0; t < track_.size(); ++t) {
-      const Window window = window_about(t, reach_, track_.size());
+      const Window window = window_about(t, wide_reach_, track_.size());
       x.clear();
       y.clear();
       z.clear();
@@ -99,12 +105,12 @@ class RobustCurve {
   }
 
   // Value at frame t of the quadratic through the samples about it.
-  Vec3 value_at(std::size_t t, const std::vector<double>& weights) const {
+  Vec3 value_at(std::size_t t, std::size_t reach, const std::vector<double>& weights) const {
     // A trace of every sample keeps the system solvable where all are far from the curve.
     constexpr double trace = 1e-6;
     std::array<double, 5> moments{};
     std::array<Vec3, 3> products{};
-    const Window window = window_about(t, reach_, track_.size());
+    const Window window = window_about(t, reach, track_.size());
     const auto half = static_cast<double>(std::max(t - window.first, window.last - t - 1) + 1);
     for (std::size_t k = window.first; k < window.last; ++k) {
       if (is_missing(k)) continue;
@@ -138,7 +144,7 @@ class RobustCurve {
   std::span<const std::uint8_t> missing_;
   const DenseTuning& tuning_;
   std::vector<Vec3> errors_;  // of each sample: what it is away from the curve
-  std::size_t reach_ = 0, scale_reach_ = 0;
+  std::size_t wide_reach_ = 0, reach_ = 0, scale_reach_ = 0;
   std::vector<double> sizes_;
 };
 

@@ -13,7 +13,7 @@ namespace kinemend {
 /// Outliers of a track (F vectors, degrees) of which they are more than a twentieth. A running
 /// median starts a curve that most samples agree with; local quadratics with Welsch's weights, on
 /// the scale of the samples that lie close to it, refine the curve. Samples far from the curve that
-/// no neighbour shares the deviation of are outliers. `missing` samples (F marks; may be empty)
+/// agree with neither neighbour are outliers. `missing` samples (F marks; may be empty)
 /// have no weight and are not marked. Returns F marks, or nothing where the track has fewer
 /// outliers: `find_spikes` then finds them one by one.
 std::vector<std::uint8_t> dense_outliers(std::span<const Vec3> track,

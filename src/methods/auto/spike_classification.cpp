@@ -199,6 +199,7 @@ SampleMarks classify_spikes(const SpikeCandidates& candidates) {
   const SampleMarks& marks = candidates.marks;
   SampleMarks spikes(marks.frames, marks.tracks);
   std::size_t quiet_samples = 0, quiet_spikes = 0;
+  const bool brief = is_brief(marks.frames, candidates.frame_rate_hz);
   const auto classify_track = [&](std::size_t n, double share) {
     for (std::size_t t = 0; t < marks.frames; ++t) {
       spikes(t, n) = marks(t, n) != 0 && is_isolated(candidates, t, n, share);
@@ -215,7 +216,10 @@ SampleMarks classify_spikes(const SpikeCandidates& candidates) {
     if (recurrent[n] != 0) reject_track(n, spikes);
     if (candidates.shares[n] >= 1 && candidates.dense[n] == 0) continue;
     quiet_samples += marks.frames;
-    for (std::size_t t = 0; t < marks.frames; ++t) quiet_spikes += spikes(t, n);
+    const auto track = spikes.track(n);
+    const auto own = static_cast<std::size_t>(std::count(track.begin(), track.end(), 1));
+    // Damage is on many tracks; a few pops of one are a move where a move is as quick.
+    quiet_spikes += brief ? std::min<std::size_t>(own, 1) : own;
   }
   // Few spikes in a quiet take are motion unless they exceed the speed of joints. Many are damage:
   // quiet tracks then get the thresholds of noisy ones, and a least error.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "methods/auto/auto_scale.hpp"
+#include "methods/auto/dense_outliers.hpp"
 #include "methods/auto/smooth_chart.hpp"
 #include "methods/auto/spikes.hpp"
 #include "methods/core/pieces.hpp"
@@ -13,10 +14,23 @@ namespace kinemend {
 
 namespace {
 
-RotationChart chart_of(std::vector<Quat> track, double frame_rate_hz,
+// Dense outliers bend a reference most where the take ends, since the mean there is of few samples:
+// the reference is then that of the track without them.
+RotationChart chart_of(const std::vector<Quat>& rotations, double frame_rate_hz,
                        std::vector<std::uint8_t>* gross = nullptr) {
+  std::vector<Quat> track = rotations;
   std::vector<std::uint8_t> marks = replace_gross_spikes(track);
   if (gross) *gross = std::move(marks);
+  RotationChart chart = smooth_chart(track, frame_rate_hz);
+  std::vector<Vec3> vectors;
+  vectors.reserve(rotations.size());
+  for (std::size_t t = 0; t < rotations.size(); ++t)
+    vectors.push_back(degrees_per_radian * chart.vector_of(t, rotations[t]));
+  const std::vector<std::uint8_t> dense = dense_outliers(vectors, {}, frame_rate_hz);
+  if (dense.empty()) return chart;
+  fill_marked(vectors, dense);
+  for (std::size_t t = 0; t < track.size(); ++t)
+    track[t] = dense[t] != 0 ? chart.rotation_of(t, radians_per_degree * vectors[t]) : rotations[t];
   return smooth_chart(track, frame_rate_hz);
 }
 

@@ -76,12 +76,13 @@ struct DenseTuning {
   double least_share = 0.04;        ///< of the samples of a track, from which outliers are dense
   double least_error = 6;           ///< of an outlier
   double ratio = 6.5;               ///< of its error to the deviation of the samples about it
-  double shared_deviation = 0.5;    ///< of its error, by which a neighbour's differs at least
-  double curve_half_s = 0.05;       ///< of the window of medians and of quadratics
-  double scale_half_s = 0.08;       ///< of the running median of errors
+  double least_apart = 0.5;         ///< of its error, from its neighbours or from their errors
+  double wide_half_s = 0.1;         ///< of the window of medians and of the first quadratics
+  double curve_half_s = 0.05;       ///< of the window of the last quadratics
+  double scale_half_s = 0.16;       ///< of the running median of errors
   double least_scale = 0.25;        ///< deviation assumed at least, degrees
   double welsch_deviations = 3.25;  ///< at which the weight of a sample falls to 0.6
-  int rounds = 6;                   ///< of fitting and weighing
+  int rounds = 4;                   ///< of fitting and weighing
   std::size_t fewest_outliers = 5;  ///< of a track
 };
 
