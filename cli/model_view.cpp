@@ -42,8 +42,8 @@ Facts facts_of(const ModelFile& file) {
   if (model.method == "learned") {
     facts.insert(facts.begin() + 2,
                  {"rigs",
-                  "those whose mean pose is near the learned one; joints of other rigs and "
-                  "markers are cleaned one by one"});
+                  "all whose joints have names that it knows; other joints and markers are "
+                  "cleaned one by one"});
   }
   std::erase_if(facts, [](const auto& fact) { return fact.second.empty(); });
   return facts;

@@ -1,9 +1,10 @@
-// Clean takes of worlds from which no model that ships has learned.
+// Clean takes of other worlds, from a few of which the model of `learned` has learned.
 #pragma once
 
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,14 @@ namespace kinemend::papers {
 
 /// By world and unit, each take of it.
 using Worlds = std::map<std::pair<std::string, std::string>, std::vector<Take>>;
+
+/// Whether `tools/train_learned` shows its takes to the network.
+inline bool is_learned_from(const std::string& world) {
+  static const std::set<std::string> learned{"animated-drawings", "biomechzoo-hockey",
+                                             "kaykit",            "khronos-fox",
+                                             "mesh2motion-animals", "opensim-core"};
+  return learned.count(world) > 0;
+}
 
 inline void add(Worlds& worlds, const std::string& world, Take take) {
   const std::string unit = take.has_joints() ? "deg" : "mm";

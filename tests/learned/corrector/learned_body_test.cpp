@@ -10,9 +10,9 @@
 #include <optional>
 #include <vector>
 
-#include "kinemend/experimental/random.hpp"
 #include "kinemend/experimental/synth.hpp"
 #include "kinemend/gaps.hpp"
+#include "learned/corrector/turned_rig.hpp"
 
 namespace kinemend::test {
 namespace {
@@ -33,30 +33,6 @@ std::optional<KnownBody> body_of(const Take& take, const BodyLayout& layout) {
   return reading_of(take, layout, 1000).body;
 }
 
-// The same motion on a rig each of whose joints has its frame turned by `angle` about an axis of
-// its own: all joints are where they were.
-Take on_turned_rig(Take take, double angle) {
-  const std::size_t joints = take.joint_count();
-  std::vector<Quat> turns;
-  Random random(5);
-  for (std::size_t j = 0; j < joints; ++j) {
-    const Vec3 axis{random.normal(), random.normal(), random.normal()};
-    turns.push_back(exp((angle / norm(axis)) * axis));
-  }
-  const auto parent_turn = [&](std::size_t j) {
-    const std::int32_t parent = take.skeleton.parents[j];
-    return parent < 0 ? Quat{} : turns[static_cast<std::size_t>(parent)];
-  };
-  for (std::size_t j = 1; j < joints; ++j)
-    take.skeleton.offsets[j] = rotate(conjugate(parent_turn(j)), take.skeleton.offsets[j]);
-  for (auto& site : take.skeleton.end_sites)
-    site.offset = rotate(conjugate(turns[static_cast<std::size_t>(site.parent)]), site.offset);
-  for (std::size_t f = 0; f < take.frame_count(); ++f)
-    for (std::size_t j = 0; j < joints; ++j)
-      take.rotation(f, j) = conjugate(parent_turn(j)) * take.rotation(f, j) * turns[j];
-  return take;
-}
-
 // A joint that turns on and on, past what a rotation vector says.
 Take with_wheel(Take take, std::size_t joint) {
   for (std::size_t f = 0; f < take.frame_count(); ++f)
@@ -68,7 +44,8 @@ TEST(KnownBody, IsTheSameOnARigWhoseBonesHaveOtherAxes) {
   const Take walk = synthesize({.motion = "walk", .duration_s = 4, .frame_rate_hz = 60});
   const BodyLayout layout = layout_of(walk);
   const std::optional<KnownBody> own = body_of(walk, layout);
-  const std::optional<KnownBody> turned = body_of(on_turned_rig(walk, 0.7), layout);
+  const std::optional<KnownBody> turned =
+      body_of(on_turned_rig(walk, rig_turns(walk, 0.7)), layout);
   ASSERT_TRUE(own && turned);
   const PoseMatrix &expected = own->channels.poses, &found = turned->channels.poses;
   double largest = 0;
