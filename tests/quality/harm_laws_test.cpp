@@ -22,6 +22,7 @@ namespace {
 
 using test::on_turned_rig;
 using test::rig_turns;
+using test::with_turned_axes;
 
 Take renamed(Take take) {
   for (std::size_t j = 0; j < take.joint_count(); ++j)
@@ -150,11 +151,14 @@ TEST(HarmLaw, TheSameMotionOnAnotherRigIsCleanedAlike) {
     const auto cleaned = [&](const Take& take) {
       return clean_take(take, *make_learned(), settings).take;
     };
-    const Take own = on_turned_rig(cleaned(noisy), turns),
-               other = cleaned(on_turned_rig(noisy, turns)), before = on_turned_rig(noisy, turns);
+    const Take before = with_turned_axes(noisy, turns),
+               own = with_turned_axes(cleaned(noisy), turns), other = cleaned(before);
     double difference = 0, change = 0;
     for (std::size_t f = 0; f < own.frame_count(); ++f) {
       for (std::size_t j = 1; j < own.joint_count(); ++j) {
+        // Fingers that the model does not know are smoothed axis by axis.
+        if (own.skeleton.names[j].ends_with("2") || own.skeleton.names[j].ends_with("Thumb1"))
+          continue;
         const double apart = angle_between(own.rotation(f, j), other.rotation(f, j)),
                      moved = angle_between(own.rotation(f, j), before.rotation(f, j));
         difference += apart * apart;

@@ -30,7 +30,7 @@ BodyReading reading_of(const Take& take, const BodyLayout& layout, float deviati
 }
 
 std::optional<KnownBody> body_of(const Take& take, const BodyLayout& layout) {
-  return reading_of(take, layout, 1000).body;
+  return reading_of(take, layout, 20).body;
 }
 
 // A joint that turns on and on, past what a rotation vector says.
@@ -45,13 +45,13 @@ TEST(KnownBody, IsTheSameOnARigWhoseBonesHaveOtherAxes) {
   const BodyLayout layout = layout_of(walk);
   const std::optional<KnownBody> own = body_of(walk, layout);
   const std::optional<KnownBody> turned =
-      body_of(on_turned_rig(walk, rig_turns(walk, 0.7)), layout);
+      body_of(with_turned_axes(walk, rig_turns(walk, 0.7)), layout);
   ASSERT_TRUE(own && turned);
   const PoseMatrix &expected = own->channels.poses, &found = turned->channels.poses;
   double largest = 0;
   for (std::size_t i = 0; i < expected.values.size(); ++i)
     largest = std::max(largest, std::abs(expected.values[i] - found.values[i]));
-  EXPECT_LT(largest, 1) << "degrees";
+  EXPECT_LT(largest, 1e-5) << "degrees";
 }
 
 TEST(KnownBody, IsNoneWhereItMovesWiderThanAllThatTheNetworkHasLearnedFrom) {
@@ -100,7 +100,7 @@ TEST(KnownBody, SeesABridgeOverAGapAndNotTheSampleBeforeIt) {
   mark_gaps(clip, {&gap, 1});
   const TakeView view = view_of(clip);
   const MotionTracks tracks = motion_tracks_of(view, changeable_tracks(view));
-  const std::vector<float> deviation(layout.channel_count(), 1000);
+  const std::vector<float> deviation(layout.channel_count(), 20);
   const std::optional<KnownBody> body = read_body(layout, deviation, {}, view, tracks).body;
   ASSERT_TRUE(body.has_value());
   std::size_t part = 0;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "kinemend/experimental/random.hpp"
@@ -22,21 +23,32 @@ inline std::vector<Quat> rig_turns(const Take& take, double angle) {
   return turns;
 }
 
-/// All joints are where they were; their frames are turned.
-inline Take on_turned_rig(Take take, const std::vector<Quat>& turns) {
-  const std::size_t joints = take.joint_count();
-  const auto parent_turn = [&](std::size_t j) {
-    const std::int32_t parent = take.skeleton.parents[j];
-    return parent < 0 ? Quat{} : turns[static_cast<std::size_t>(parent)];
-  };
-  for (std::size_t j = 1; j < joints; ++j)
-    take.skeleton.offsets[j] = rotate(conjugate(parent_turn(j)), take.skeleton.offsets[j]);
-  for (auto& site : take.skeleton.end_sites)
+/// The same motion with other bone axes: all joints are where they were, and so is the rest pose.
+inline Take with_turned_axes(Take take, const std::vector<Quat>& turns) {
+  Skeleton& skeleton = take.skeleton;
+  for (std::size_t j = 0; j < take.joint_count(); ++j) {
+    const std::int32_t parent = skeleton.parents[j];
+    const Quat above = parent < 0 ? Quat{} : turns[static_cast<std::size_t>(parent)];
+    skeleton.rest_rotations[j] = conjugate(above) * skeleton.rest_rotations[j] * turns[j];
+    if (parent >= 0) skeleton.offsets[j] = rotate(conjugate(above), skeleton.offsets[j]);
+    for (std::size_t f = 0; f < take.frame_count(); ++f)
+      take.rotation(f, j) = conjugate(turns[j]) * take.rotation(f, j) * turns[j];
+  }
+  for (auto& site : skeleton.end_sites)
     site.offset = rotate(conjugate(turns[static_cast<std::size_t>(site.parent)]), site.offset);
-  for (std::size_t f = 0; f < take.frame_count(); ++f)
-    for (std::size_t j = 0; j < joints; ++j)
-      take.rotation(f, j) = conjugate(parent_turn(j)) * take.rotation(f, j) * turns[j];
   return take;
+}
+
+/// The same, and the pose without any rotation is no standing person: rest rotations are part of
+/// the motion, as in BVH files.
+inline Take on_turned_rig(const Take& take, const std::vector<Quat>& turns) {
+  Take turned = with_turned_axes(take, turns);
+  for (std::size_t j = 0; j < take.joint_count(); ++j) {
+    const Quat rest = std::exchange(turned.skeleton.rest_rotations[j], Quat{});
+    for (std::size_t f = 0; f < take.frame_count(); ++f)
+      turned.rotation(f, j) = normalized(rest * turned.rotation(f, j));
+  }
+  return turned;
 }
 
 }  // namespace kinemend::test
