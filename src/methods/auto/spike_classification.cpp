@@ -136,6 +136,37 @@ void reject_clusters(const SpikeCandidates& candidates, SampleMarks& marked) {
   }
 }
 
+// In runs of spikes on tracks of dense outliers that are longer than chance explains, keeps only
+// those that are far from the samples beside them: the others are a move that is too quick to be
+// predicted.
+void reject_quick_moves(const SpikeCandidates& candidates, SampleMarks& marked) {
+  const SpikeTuning& tuning = candidates.tuning;
+  const std::size_t frames = marked.frames;
+  for (std::size_t n = 0; n < marked.tracks; ++n) {
+    if (candidates.dense[n] == 0) continue;
+    const auto track = marked.track(n);
+    const std::vector<std::uint8_t> before(track.begin(), track.end());
+    const double share = static_cast<double>(std::count(before.begin(), before.end(), 1)) /
+                         static_cast<double>(frames);
+    const auto agrees = [&](std::size_t t, std::size_t other) {
+      return norm(candidates.measured.at(t, n) - candidates.measured.at(other, n)) <
+             tuning.move_share * candidates.predictions.errors(t, n);
+    };
+    for (std::size_t first = 0; first < frames;) {
+      std::size_t last = first;
+      while (last < frames && before[last] != 0) ++last;
+      const auto length = static_cast<double>(last - first);
+      if (last > first &&
+          static_cast<double>(frames) * portable::pow(share, length) < tuning.chance) {
+        for (std::size_t t = first; t < last; ++t) {
+          if ((t > 0 && agrees(t, t - 1)) || (t + 1 < frames && agrees(t, t + 1))) track[t] = 0;
+        }
+      }
+      first = last + 1;
+    }
+  }
+}
+
 // Whether the mean speed of a track's spikes is within that of joints.
 bool is_within_joint_speed(const SpikeCandidates& candidates, const SampleMarks& spikes,
                            std::size_t n) {
@@ -243,6 +274,7 @@ SampleMarks classify_spikes(const SpikeCandidates& candidates) {
     if (late_recurrent[n] != 0) reject_track(n, spikes);
   }
   reject_clusters(candidates, spikes);
+  reject_quick_moves(candidates, spikes);
   return spikes;
 }
 

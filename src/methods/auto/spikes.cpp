@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -73,8 +74,8 @@ void measure_noise(Detection& detection, std::size_t track) {
                   detection.measured.is_whitened[track] != 0, detection.tuning.noise);
 }
 
-// Outliers that hide each other are the first candidates of their track. In a brief take they have
-// to be on most tracks: a pop in one frame of ten may be a move.
+// Outliers that hide each other are the first candidates of their track. At low rates they have to
+// be on most tracks: a pop in one frame of ten is a toe that leaves the ground at every step.
 void start_at_dense_outliers(Detection& detection) {
   const VectorTracks& measured = detection.measured;
   std::vector<std::vector<std::uint8_t>> outliers(measured.tracks());
@@ -85,8 +86,9 @@ void start_at_dense_outliers(Detection& detection) {
         dense_outliers(measured.track(n), missing, detection.frame_rate_hz, detection.tuning.dense);
     detection.dense[n] = outliers[n].empty() ? 0 : 1;
   });
-  if (agreement_of(measured, detection.dense, detection.frame_rate_hz,
-                   detection.tuning.agreement) == 0)
+  AgreementTuning of_any_length = detection.tuning.agreement;
+  of_any_length.shortest_s = std::numeric_limits<double>::infinity();
+  if (agreement_of(measured, detection.dense, detection.frame_rate_hz, of_any_length) == 0)
     std::fill(detection.dense.begin(), detection.dense.end(), std::uint8_t{0});
   for (std::size_t n = 0; n < outliers.size(); ++n) {
     if (detection.dense[n] == 0) continue;

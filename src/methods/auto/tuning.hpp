@@ -64,6 +64,7 @@ struct SpikeTuning {
   std::size_t cluster_gap = 8;    ///< frames between spikes of a cluster
   std::size_t usual_cluster = 2;  ///< spikes that need no further reason
   double recurrent_deg_s = 2000;  ///< mean speed of spikes that may be motion
+  double move_share = 0.5;        ///< of the error, by which samples of a move are apart at most
   // Damage of quiet takes.
   double damage_count = 5;       ///< fewest spikes on quiet tracks
   double damage_share = 0.0006;  ///< and share of their samples

@@ -112,6 +112,26 @@ TEST(FindSpikes, RepairsDenseOutliersOfAllTracks) {
   for (const double share : {0.05, 0.1, 0.2}) EXPECT_LT(error_left(share, 8, 4), 0.8) << share;
 }
 
+// A swing there and back within a fifth of a second, on tracks of dense outliers.
+TEST(FindSpikes, KeepsAQuickMoveAmongDenseOutliers) {
+  constexpr std::size_t frames = 800, count = 8;
+  Random random(6);
+  VectorTracks tracks(frames, count), truth(frames, count);
+  for (std::size_t n = 0; n < count; ++n) {
+    std::vector<Vec3> track(frames);
+    for (std::size_t t = 465; t <= 495; ++t)
+      track[t].x = 300 * (1 - std::cos(2 * pi * static_cast<double>(t - 465) / 30));
+    for (std::size_t t = 0; t < frames; ++t) truth.set(t, n, track[t]);
+    add_outliers(track, 0.2, random);
+    for (std::size_t t = 0; t < frames; ++t) tracks.set(t, n, track[t]);
+  }
+  find_spikes(tracks, SampleMarks(frames, count), std::vector<std::vector<std::size_t>>(count),
+              dense_rate_hz);
+  for (std::size_t n = 0; n < count; ++n)
+    for (std::size_t t = 465; t <= 495; ++t)
+      EXPECT_LT(norm(tracks.at(t, n) - truth.at(t, n)), 200) << n << ' ' << t;
+}
+
 TEST(FindSpikes, RepairsDenseOutliersOfOneTrackOfACleanTake) {
   EXPECT_LT(error_left(0.2, 1, 5), 0.8);
 }
