@@ -21,7 +21,7 @@ inline Take cleaned(const Take& clip, const Compared& by) {
   return clean_take(clip, *make_cleaner(by.method, by.options), settings).take;
 }
 
-inline const Compared learned_of_video{"learned, source video", "learned", {}, Source::video};
+inline const Compared learned_of_video{"learned (video)", "learned", {}, Source::video};
 
 inline const std::vector<Compared> auto_and_learned{
     {"auto", "auto"}, {"learned", "learned"}, {"learned live", "learned", {{"live", true}}}};

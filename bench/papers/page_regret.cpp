@@ -43,8 +43,7 @@ std::vector<NamedCleaner> cleaners_compared() {
 // Nobody gets the oracle's cut, and the others are the default with options that somebody has to
 // choose.
 bool counts_for_regret(const std::string& method) {
-  return method != untouched && method != best_cut && !method.starts_with("learned ") &&
-         !method.starts_with("learned,");
+  return method != untouched && method != best_cut && !method.starts_with("learned ");
 }
 
 // Of each take on which the method ran, its number and the figures.
