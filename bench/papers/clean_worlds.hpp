@@ -19,9 +19,9 @@ using Worlds = std::map<std::pair<std::string, std::string>, std::vector<Take>>;
 
 /// Whether `tools/train_learned` shows its takes to the network.
 inline bool is_learned_from(const std::string& world) {
-  static const std::set<std::string> learned{"animated-drawings", "biomechzoo-hockey",
-                                             "kaykit",            "khronos-fox",
-                                             "mesh2motion-animals", "opensim-core"};
+  static const std::set<std::string> learned{
+      "animated-drawings", "biomechzoo-hockey",   "kaykit",
+      "khronos-fox",       "mesh2motion-animals", "opensim-core"};
   return learned.count(world) > 0;
 }
 

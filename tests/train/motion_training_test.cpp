@@ -64,7 +64,8 @@ TEST(MotionTraining, BeginsWithAModel) {
   EXPECT_EQ(write_model(next.model()), write_model(trained.model()));
   MotionTraining wider = other;
   wider.shape.hidden = 16;
-  EXPECT_THROW(MotionTrainer(walks_to_clean(), {}, {}, {}, wider).begin_with(trained.model()), Error);
+  EXPECT_THROW(MotionTrainer(walks_to_clean(), {}, {}, {}, wider).begin_with(trained.model()),
+               Error);
 }
 
 TEST(MotionTraining, LearnsToTakeNoiseOut) {
