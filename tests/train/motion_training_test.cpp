@@ -70,13 +70,13 @@ TEST(MotionTraining, BeginsWithAModel) {
 
 TEST(MotionTraining, LearnsToTakeNoiseOut) {
   MotionTraining training = tiny_motion_training();
-  training.batches = 80;
+  training.batches = 140;
   training.rate = 5e-3;
   MotionTrainer trainer(walks_to_clean(), {}, {}, {}, training);
   MotionSampling sampling = training.sampling;
   sampling.clean_share = 0;
   const double before = trainer.share_left({walks_to_clean(), trainer.mirror()}, sampling, 8, 5);
-  for (int i = 0; i < 80; ++i) trainer.step();
+  for (int i = 0; i < 140; ++i) trainer.step();
   EXPECT_LT(trainer.share_left({walks_to_clean(), trainer.mirror()}, sampling, 8, 5),
             0.95 * before);
 }
