@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "kinemend/experimental/synth.hpp"
@@ -173,6 +175,34 @@ TEST(MotionSamples, MapAReferenceByTheGainAndOffsetOfEachChannel) {
     EXPECT_EQ(mapped.sample.truth[3 * f + 2], 0);
     EXPECT_EQ(mapped.sample.take.values[3 * f + 2], 0);
   }
+}
+
+// Two tracks that swing, on a rig of 30 Hz whose first joint the model knows.
+RigMotion swinging_rig() {
+  RigMotion rig{30, PoseMatrix(40, 6), {0, 1, 2, -1, -1, -1}, std::vector<std::uint8_t>(6)};
+  for (std::size_t f = 0; f < 40; ++f)
+    for (std::size_t c = 0; c < 6; ++c)
+      rig.values(f, c) = 20 * std::sin(0.3 * static_cast<double>(f) + static_cast<double>(c));
+  return rig;
+}
+
+TEST(MotionSamples, OfOtherRigsSomeAreCleanAndSomeAreDamaged) {
+  const std::vector<RigMotion> rigs{swinging_rig()};
+  std::size_t clean = 0, known = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const MotionSample sample =
+        random_motion_sample({walks(), mirror_of(walks().layout), {}, {}, rigs},
+                             {.rig_share = 1, .live_share = 0}, Random(seed));
+    const std::vector<std::int32_t>& slots = sample.take.slots;
+    const auto marked =
+        std::count_if(slots.begin(), slots.end(), [](std::int32_t slot) { return slot >= 0; });
+    clean += size_of_damage(sample) == 0 ? 1 : 0;
+    known += marked == 3 ? 1 : 0;
+  }
+  EXPECT_GT(clean, 10U);
+  EXPECT_LT(clean, 30U);
+  EXPECT_GT(known, 15U);
+  EXPECT_LT(known, 40U);
 }
 
 }  // namespace
