@@ -31,7 +31,7 @@ void exchanged_labels(const Arguments& arguments) {
   table.close();
 }
 
-// Of how many takes something is said that is no fault.
+// The number of takes of which something is said that is no fault.
 struct Doubts {
   std::size_t takes = 0, expected_noise = 0, no_contact = 0, either = 0;
   std::size_t nothing = 0;  ///< neither, and no warning

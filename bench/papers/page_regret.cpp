@@ -46,7 +46,7 @@ bool counts_for_regret(const std::string& method) {
   return method != untouched && method != best_cut && !method.starts_with("learned ");
 }
 
-// Of each take on which the method ran, its number and the figures.
+// The figures of each take on which the method ran, by the number of the take.
 using Errors = std::map<std::size_t, std::vector<double>>;
 
 Take cleaned_case(const RegretRow& row, const RegretCase& given, const Cleaner& cleaner,

@@ -1,4 +1,4 @@
-// What is measured of one of two systems that saw the same motion.
+// The errors of one of two systems that saw the same motion.
 #pragma once
 
 namespace kinemend::papers {

@@ -132,7 +132,7 @@ void add_damaged(const Arguments& arguments, const std::vector<NamedDamage>& dam
   }
 }
 
-// Of samples that both have.
+// Compares the samples that both have.
 double seen_distance_mm(const Take& truth, const Take& cleaned) {
   return compare_markers(truth, cleaned, {}).all.rms_distance;
 }

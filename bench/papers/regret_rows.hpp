@@ -19,7 +19,7 @@ struct RegretCase {
 struct RegretRow {
   std::string name;
   std::string unit;  ///< of the errors; empty: they have several
-  /// What is measured: one figure, named "", or several, each of which is a row of the table.
+  /// The figures that are measured: one, named "", or several, each of which is a row of the table.
   std::vector<std::string> figures{""};
   std::size_t cut_by = 0;            ///< the figure by which the best cut is chosen
   std::vector<double> cutoffs_hz{};  ///< that are tried for it

@@ -23,7 +23,7 @@ struct SystemPair {
   std::string source, noisy, reference;
 };
 
-/// Those that tools/train_learned does not learn from.
+/// The pairs that tools/train_learned does not learn from.
 inline bool is_left_out(const std::string& name) {
   if (name.starts_with("lbmc-")) {
     const std::string system = name.substr(5, name.find('-', 5) - 5);

@@ -49,7 +49,7 @@ TakeView view_for(const Take& clip, const CheckReport& report) {
   return view_of(clip, selection);
 }
 
-// What `auto` says of a take, and what `learned` expects.
+// The verdict of `auto` on a take, and the noise that `learned` expects.
 struct Verdict {
   CleanTrace trace;                                        // no noise: too short to tell
   std::vector<std::map<std::size_t, double>> spike_sizes;  // of each track, by frame
@@ -89,7 +89,7 @@ std::vector<NoiseCharacter> noise_expected(const TakeView& take,
   // Where it has no say it hands over to `auto`, and does not know what is left.
   if (trace.left.empty()) return expected;
   for (const Space space : {Space::rotation, Space::position}) {
-    // Of a body, the network knows nothing of places.
+    // The network knows nothing of the places of a body.
     if (space == Space::position && take.joints != nullptr) continue;
     const double strength = expected_strength(take, trace, space);
     const auto explains = [&](const NoiseCharacter& noise) {
@@ -106,7 +106,7 @@ std::vector<NoiseCharacter> noise_expected(const TakeView& take,
 
 void report_expected(const Verdict& verdict, std::size_t frames, CheckReport& report) {
   for (const NoiseCharacter& noise : verdict.expected) {
-    // Of other noise its colour is not known.
+    // The colour of other noise is not known.
     if (noise.is_expected) report.noise.push_back(noise);
     report.findings.push_back(
         {FindingKind::expected_noise, Severity::note, "", 0, frames - 1, noise.strength,

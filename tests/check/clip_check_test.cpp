@@ -17,7 +17,7 @@ TEST(CheckClip, FindsNothingInCleanTakes) {
   }
 }
 
-// What is found is what cleaning takes out: of keys nothing.
+// A check finds what cleaning takes out: of keys nothing.
 TEST(CheckClip, FindsNoNoiseAndNoSpikesInKeys) {
   Take clip = synthetic_clip("walk");
   Random random(3);

@@ -8,6 +8,7 @@
 
 #include "base/quantiles.hpp"
 #include "kinemend/error.hpp"
+#include "learned/corrector/noise_floor.hpp"
 #include "methods/core/pieces.hpp"
 
 namespace kinemend {
@@ -109,12 +110,11 @@ BodyReading read_body(const BodyLayout& layout, std::span<const float> deviation
   if (!spreads.empty()) reading.spread = median_of(spreads);
   // Half of a body misleads the network more than none. Chosen by hand, not swept.
   constexpr double most_wild = 0.2;
-  // A few joints that move are no body; as many make one as make a noisy take (`noise_floor.cpp`).
+  // A few joints that move say nothing of a body, as they say nothing of a take.
   constexpr double least_spread = 0.02;
-  constexpr std::ptrdiff_t fewest_moving = 6;
-  const bool is_still = std::count_if(spreads.begin(), spreads.end(), [](double spread) {
-                          return spread > least_spread;
-                        }) < fewest_moving;
+  const auto moves = [](double spread) { return spread > least_spread; };
+  const auto moving = std::count_if(spreads.begin(), spreads.end(), moves);
+  const bool is_still = static_cast<std::size_t>(moving) < fewest_noisy_tracks;
   const bool is_wild = static_cast<double>(wild) > most_wild * static_cast<double>(wild + tame);
   if (!is_wild && !is_still && reading.spread <= most_spread) reading.body = std::move(body);
   return reading;

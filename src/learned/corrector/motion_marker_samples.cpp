@@ -23,12 +23,10 @@ PoseMatrix marker_stretch(std::span<const MarkerMotion> markers, double rate_hz,
   const MarkerMotion& motion = markers[drawn_index(shares, random)];
   const double pace = random_pace(random) * motion.rate_hz / rate_hz;
   const auto wanted = static_cast<std::size_t>(pace * static_cast<double>(frames)) + 3;
-  const std::size_t have = motion.positions.frames, taken = std::min(wanted, have);
-  const std::size_t first = random.below(have - taken + 1);
-  PoseMatrix part(taken, motion.positions.channels);
-  std::copy_n(motion.positions.row(first).begin(), part.values.size(), part.values.begin());
+  const PoseMatrix part = random_part(motion.positions, wanted, random);
   // A stretch that is too short is played more slowly.
-  return warped(part, pace * static_cast<double>(taken) / static_cast<double>(wanted), frames);
+  return warped(part, pace * static_cast<double>(part.frames) / static_cast<double>(wanted),
+                frames);
 }
 
 // From the root's, the first three channels.
@@ -100,11 +98,8 @@ SampleDamage damage_markers(PoseMatrix& positions, double rate_hz, const MotionS
   if (random.chance(0.2)) add_jumps(positions, random);
   if (random.chance(0.15)) observed = lose_samples_at_random(positions, rate_hz, random);
   if (rate_hz >= 100 && random.chance(0.15)) lower_marker_rate(positions, random);
-  if (sampling.has_slow_noise && random.chance(0.3)) {
-    const double cutoff_hz = random.uniform(3, 12);
-    low_pass(positions, 1 + static_cast<int>(random.below(3)), cutoff_hz, rate_hz);
+  if (sampling.has_slow_noise && low_pass_at_random(positions, rate_hz, 0.3, random))
     is_slow = true;
-  }
   return is_slow ? SampleDamage::slow : SampleDamage::quick;
 }
 

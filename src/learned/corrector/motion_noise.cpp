@@ -24,7 +24,7 @@ struct UnitNoise {
 
 UnitNoise unit_noise(std::size_t frames, std::size_t channels, double rate_hz, bool has_slow,
                      Random& random) {
-  // What changes this slowly hardly shows from frame to frame. Chosen by hand, not swept.
+  // Such noise hardly shows from frame to frame. Chosen by hand, not swept.
   constexpr double slow_time_s = 0.1, slow_cutoff_hz = 6;
   PoseMatrix noise(frames, channels);
   for (double& value : noise.values) value = random.normal();
@@ -98,6 +98,23 @@ bool add_random_noise(PoseMatrix& poses, double rate_hz, std::vector<double> str
   return noise.is_slow;
 }
 
+std::vector<double> random_strengths(const PoseMatrix& poses, double chance_of_shares,
+                                     Random& random) {
+  std::vector<double> strengths(poses.channels, log_uniform(random, 0.15, 6));
+  if (!random.chance(chance_of_shares)) return strengths;
+  const double share = log_uniform(random, 0.08, 1);
+  strengths = deviations_of(poses);
+  for (double& strength : strengths) strength *= share;
+  return strengths;
+}
+
+bool low_pass_at_random(PoseMatrix& poses, double rate_hz, double chance, Random& random) {
+  if (!random.chance(chance)) return false;
+  const double cutoff_hz = random.uniform(3, 12);
+  low_pass(poses, 1 + static_cast<int>(random.below(3)), cutoff_hz, rate_hz);
+  return true;
+}
+
 // Leaves poses at keys and draws curves through them as animators do: straight, eased, or held.
 void keyframe(PoseMatrix& poses, double rate_hz, Random& random) {
   const double apart_s = log_uniform(random, 0.08, 0.5);
@@ -166,6 +183,23 @@ bool is_said_to_be_slow(SampleDamage damage, Random& random) {
 
 Quat random_turn(Random& random) {
   return normalized(Quat{random.normal(), random.normal(), random.normal(), random.normal()});
+}
+
+void turn_track(PoseMatrix& poses, std::size_t track, Random& random) {
+  const Quat turn = random_turn(random);
+  for (std::size_t f = 0; f < poses.frames; ++f) {
+    double* const v = &poses(f, 3 * track);
+    const Vec3 turned = rotate(turn, Vec3{v[0], v[1], v[2]});
+    v[0] = turned.x, v[1] = turned.y, v[2] = turned.z;
+  }
+}
+
+PoseMatrix random_part(const PoseMatrix& motion, std::size_t frames, Random& random) {
+  const std::size_t taken = std::min(frames, motion.frames);
+  const std::size_t first = random.below(motion.frames - taken + 1);
+  PoseMatrix part(taken, motion.channels);
+  std::copy_n(motion.row(first).begin(), part.values.size(), part.values.begin());
+  return part;
 }
 
 std::size_t drawn_index(std::span<const double> weights, Random& random) {

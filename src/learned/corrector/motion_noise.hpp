@@ -24,7 +24,14 @@ void low_pass(PoseMatrix& poses, int order, double cutoff_hz, double rate_hz);
 bool add_random_noise(PoseMatrix& poses, double rate_hz, std::vector<double> strengths,
                       bool has_slow, Random& random);
 
-/// What was done to a sample.
+/// Strengths of noise on joints, degrees, one a channel: alike or, with this chance, in proportion
+/// to how far each channel moves.
+std::vector<double> random_strengths(const PoseMatrix& poses, double chance_of_shares,
+                                     Random& random);
+/// Filters with this chance, as pipelines do; returns whether it has.
+bool low_pass_at_random(PoseMatrix& poses, double rate_hz, double chance, Random& random);
+
+/// The damage of a sample.
 enum class SampleDamage : std::uint8_t { none, quick, slow };
 /// Whether a person says of a sample that its system errs slowly: mostly of those that do.
 bool is_said_to_be_slow(SampleDamage damage, Random& random);
@@ -41,6 +48,11 @@ void vary_motion(PoseMatrix& poses, double rate_hz, const Shaking& shaking, Rand
 
 /// Of axes, drawn evenly.
 Quat random_turn(Random& random);
+/// The vectors of a track in other axes.
+void turn_track(PoseMatrix& poses, std::size_t track, Random& random);
+
+/// So many frames from a random one on; all of them where there are no more.
+PoseMatrix random_part(const PoseMatrix& motion, std::size_t frames, Random& random);
 
 /// The index of a weight, drawn in proportion to them.
 std::size_t drawn_index(std::span<const double> weights, Random& random);

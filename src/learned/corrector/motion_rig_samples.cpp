@@ -1,7 +1,5 @@
 // Draws stretches of other rigs' takes, and adds the errors of real systems to clean motion.
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -28,13 +26,10 @@ PoseMatrix prolonged(const PoseMatrix& part, std::size_t frames) {
   return result;
 }
 
-PoseMatrix rig_stretch(const RigMotion& motion, double pace, std::size_t frames, Random& random) {
+// A random stretch of so many frames at that pace, to and fro where the motion is too short.
+PoseMatrix played(const PoseMatrix& motion, double pace, std::size_t frames, Random& random) {
   const auto wanted = static_cast<std::size_t>(pace * static_cast<double>(frames)) + 3;
-  const std::size_t have = motion.values.frames, taken = std::min(wanted, have);
-  const std::size_t first = random.below(have - taken + 1);
-  PoseMatrix part(taken, motion.values.channels);
-  std::copy_n(motion.values.row(first).begin(), part.values.size(), part.values.begin());
-  return warped(prolonged(part, wanted), pace, frames);
+  return warped(prolonged(random_part(motion, wanted, random), wanted), pace, frames);
 }
 
 // Tracks that move, at most `most`, in random order.
@@ -54,15 +49,6 @@ std::vector<std::size_t> some_tracks(const PoseMatrix& values, std::size_t most,
   return tracks;
 }
 
-void turn_track(PoseMatrix& values, std::size_t track, Random& random) {
-  const Quat turn = random_turn(random);
-  for (std::size_t f = 0; f < values.frames; ++f) {
-    double* const v = &values(f, 3 * track);
-    const Vec3 turned = rotate(turn, Vec3{v[0], v[1], v[2]});
-    v[0] = turned.x, v[1] = turned.y, v[2] = turned.z;
-  }
-}
-
 SampleDamage damage_rig(PoseMatrix& values, double rate_hz, const MotionSources& sources,
                         const MotionSampling& sampling, std::vector<std::uint8_t>& observed,
                         Random& random) {
@@ -71,21 +57,11 @@ SampleDamage damage_rig(PoseMatrix& values, double rate_hz, const MotionSources&
     add_residuals(values, rate_hz, sources.pairs, random);
     is_slow = true;
   } else {
-    std::vector<double> strengths(values.channels, log_uniform(random, 0.15, 6));
-    if (random.chance(0.5)) {
-      const double share = log_uniform(random, 0.08, 1);
-      strengths = deviations_of(values);
-      for (double& strength : strengths) strength *= share;
-    }
-    is_slow =
-        add_random_noise(values, rate_hz, std::move(strengths), sampling.has_slow_noise, random);
+    is_slow = add_random_noise(values, rate_hz, random_strengths(values, 0.5, random),
+                               sampling.has_slow_noise, random);
   }
   if (random.chance(0.15)) observed = lose_samples_at_random(values, rate_hz, random);
-  if (sampling.has_slow_noise && random.chance(0.2)) {
-    const double cutoff_hz = random.uniform(3, 12);
-    low_pass(values, 1 + static_cast<int>(random.below(3)), cutoff_hz, rate_hz);
-    is_slow = true;
-  }
+  if (sampling.has_slow_noise && low_pass_at_random(values, rate_hz, 0.2, random)) is_slow = true;
   return is_slow ? SampleDamage::slow : SampleDamage::quick;
 }
 
@@ -105,20 +81,16 @@ void add_residuals(PoseMatrix& poses, double rate_hz, std::span<const MotionPair
     if (sizes[c] > least_error_deg) erring.push_back(c);
   if (erring.empty()) return;
   const double pace = random_pace(random) * take.frame_rate_hz / rate_hz;
-  const auto wanted = static_cast<std::size_t>(pace * static_cast<double>(poses.frames)) + 3;
-  const std::size_t taken = std::min(wanted, errors.frames);
-  const std::size_t first = random.below(errors.frames - taken + 1);
-  PoseMatrix part(taken, errors.channels);
-  std::copy_n(errors.row(first).begin(), part.values.size(), part.values.begin());
-  const PoseMatrix played = warped(prolonged(part, wanted), pace, poses.frames);
+  const PoseMatrix stretch = played(errors, pace, poses.frames, random);
   const double size_deg = log_uniform(random, 0.5, 8);
   for (std::size_t n = 0; n < poses.channels / 3; ++n) {
     const double own_deg = size_deg * portable::exp(0.5 * random.normal());
     for (std::size_t c = 3 * n; c < 3 * n + 3; ++c) {
       const std::size_t from = erring[random.below(erring.size())];
-      const double factor =
-          own_deg * (random.chance(0.5) ? 1 : -1) * random.uniform(0.3, 1) / sizes[from];
-      for (std::size_t f = 0; f < poses.frames; ++f) poses(f, c) += factor * played(f, from);
+      // Two draws in one expression would come in another order from another compiler.
+      const double sign = random.chance(0.5) ? 1 : -1;
+      const double factor = sign * own_deg * random.uniform(0.3, 1) / sizes[from];
+      for (std::size_t f = 0; f < poses.frames; ++f) poses(f, c) += factor * stretch(f, from);
     }
   }
 }
@@ -128,7 +100,7 @@ MotionSample random_rig_sample(const MotionSources& sources, std::size_t channel
   const RigMotion& motion = sources.rigs[random.below(sources.rigs.size())];
   const double rate_hz = random.chance(0.7) ? motion.rate_hz : random_rate_hz(random);
   const double pace = random_pace(random) * motion.rate_hz / rate_hz;
-  const PoseMatrix all = rig_stretch(motion, pace, sample_frames(sampling, rate_hz), random);
+  const PoseMatrix all = played(motion.values, pace, sample_frames(sampling, rate_hz), random);
   const std::vector<std::size_t> tracks = some_tracks(all, channels / 3, random);
   PoseMatrix truth(all.frames, 3 * tracks.size());
   MotionSample sample;

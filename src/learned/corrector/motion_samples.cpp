@@ -31,13 +31,8 @@ struct DamagedStretch {
   }
 
   bool add_noise(bool has_slow, Random& random) {
-    std::vector<double> strengths(poses.channels, log_uniform(random, 0.15, 6));
-    if (random.chance(0.55)) {
-      const double share = log_uniform(random, 0.08, 1);
-      strengths = deviations_of(poses);
-      for (double& strength : strengths) strength *= share;
-    }
-    return add_random_noise(poses, rate_hz, std::move(strengths), has_slow, random);
+    return add_random_noise(poses, rate_hz, random_strengths(poses, 0.55, random), has_slow,
+                            random);
   }
 
   void lower_rate(Random& random) {
@@ -82,11 +77,7 @@ struct DamagedStretch {
     lose_samples(random);
     bridge_lost(poses, observed);
     if (rate_hz >= 100 && random.chance(0.15)) lower_rate(random);
-    if (sampling.has_slow_noise && random.chance(0.3)) {
-      const double cutoff_hz = random.uniform(3, 12);
-      low_pass(poses, 1 + static_cast<int>(random.below(3)), cutoff_hz, rate_hz);
-      is_slow = true;
-    }
+    if (sampling.has_slow_noise && low_pass_at_random(poses, rate_hz, 0.3, random)) is_slow = true;
     return is_slow ? SampleDamage::slow : SampleDamage::quick;
   }
 };
@@ -106,14 +97,7 @@ PoseMatrix calibrated_at_random(const PoseMatrix& poses, double rate_hz, const B
 }
 
 void turn_axes(PoseMatrix& poses, Random& random) {
-  for (std::size_t track = 0; track < poses.channels / 3; ++track) {
-    const Quat turn = random_turn(random);
-    for (std::size_t f = 0; f < poses.frames; ++f) {
-      double* const v = &poses(f, 3 * track);
-      const Vec3 turned = rotate(turn, Vec3{v[0], v[1], v[2]});
-      v[0] = turned.x, v[1] = turned.y, v[2] = turned.z;
-    }
-  }
+  for (std::size_t track = 0; track < poses.channels / 3; ++track) turn_track(poses, track, random);
 }
 
 template <class Value>

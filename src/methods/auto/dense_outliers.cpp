@@ -71,8 +71,8 @@ class RobustCurve {
 
  private:
   static std::size_t frames_of(double seconds, double rate_hz) {
-    // Of a side: a quadratic has three unknowns, and with fewer samples about it it can be drawn
-    // through most samples of a shake.
+    // Frames of a side: a quadratic has three unknowns, and with fewer samples about it it can be
+    // drawn through most samples of a shake.
     constexpr std::size_t fewest = 5;
     return std::max<std::size_t>(fewest, static_cast<std::size_t>(std::lround(seconds * rate_hz)));
   }

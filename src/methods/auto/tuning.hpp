@@ -72,7 +72,7 @@ struct SpikeTuning {
   double smallest_share = 0.4;   ///< of that, below which an error is none
 };
 
-/// Of `dense_outliers`. Errors are in degrees.
+/// The numbers of `dense_outliers`. Errors are in degrees.
 struct DenseTuning {
   double least_share = 0.04;        ///< of the samples of a track, from which outliers are dense
   double least_error = 6;           ///< of an outlier
@@ -87,7 +87,7 @@ struct DenseTuning {
   std::size_t fewest_outliers = 5;  ///< of a track
 };
 
-/// Of `agreement_of`.
+/// The numbers of `agreement_of`.
 struct AgreementTuning {
   double lowest_rate_hz = 50;     ///< from which noise is quicker than any motion
   double shortest_s = 4;          ///< of takes whose quiet moments tell motion from noise
