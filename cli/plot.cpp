@@ -90,6 +90,7 @@ std::string picture(const Take& before, const Take* other, const Drawing& drawin
     frames = frames_of(*drawing.range, before.frame_count(), before.frame_rate_hz,
                        first_frame_number(before));
   if (drawing.what == "strip") return film_strip_svg(before, other, frames, drawing.poses);
+  if (drawing.what == "motion") return moving_picture_svg(before, other, frames);
   if (drawing.what == "gaps") return gap_chart_svg(before, other);
   const TrackCurves curves = chosen_curves(before, after, two, drawing);
   if (drawing.what == "spectrum") return spectrum_svg(curves, !two);
@@ -149,8 +150,10 @@ Command plot_command() {
   command.name = "plot";
   command.summary = "draw a take, or two over each other, as SVG";
   command.description =
-      "Draws curves of a joint or marker (--what curves), poses along the time (strip), power over "
-      "frequency (spectrum), or when which track is missing (gaps). With OTHER both takes are "
+      "Draws curves of a joint or marker (--what curves), poses along the time (strip), the body "
+      "in "
+      "motion (motion, which browsers play), power over frequency (spectrum), or when which track "
+      "is missing (gaps). With OTHER both takes are "
       "drawn: TAKE as the one before, OTHER as the one after.\n\n"
       "Where no --track is named it is the one that differs most between the two, or of one take "
       "the one that moves most.";
@@ -158,7 +161,7 @@ Command plot_command() {
                          {"OTHER", "the same take after something was done", 0, 1, {}}};
   Flag what = text_flag("what", "", "Drawing", "what to draw");
   what.spec.default_value = std::string("curves");
-  what.spec.choices = {"curves", "strip", "spectrum", "gaps"};
+  what.spec.choices = {"curves", "strip", "motion", "spectrum", "gaps"};
   what.has_default = true;
   command.flags = {
       output_flag("where to write; - is standard output"),
@@ -168,12 +171,14 @@ Command plot_command() {
       switch_flag("root_position", "Drawing", "curves of the root's position, not of a rotation"),
       text_flag("range", "FIRST:LAST", "Drawing",
                 "draw frames 121:240, as the file numbers them, or seconds 1s:2.5s",
-                "Of curves and strip. Either end may be left out."),
+                "For curves, strip and motion. Either end may be left out."),
       whole_flag("poses", 9, 1, 60, "Drawing", "poses of a strip")};
   append(command.flags, reading_flags("what needs a repair becomes an error"));
   command.examples = {
       {"kinemend plot raw.bvh clean.bvh -o curves.svg --track LeftForeArm", "before and after"},
       {"kinemend plot walk.bvh -o strip.svg --what strip", "the motion on one line"},
+      {"kinemend plot raw.bvh clean.bvh -o walk.svg --what motion --range 1s:4s",
+       "both in motion, side by side"},
       {"kinemend plot trial.c3d filled.c3d -o gaps.svg --what gaps", "what was filled"}};
   command.run = run_plot;
   return command;

@@ -70,6 +70,10 @@ endfunction()
 
 # The bundle in web/dist becomes part of a room.
 function(kinemend_embed_page room)
+  kinemend_is_imported(kinemend_${room} imported)
+  if(imported)
+    return()
+  endif()
   set(folder ${PROJECT_SOURCE_DIR}/web/dist)
   set(output ${PROJECT_BINARY_DIR}/embedded_page.cpp)
   set(script ${PROJECT_SOURCE_DIR}/cmake/embed_page.cmake)

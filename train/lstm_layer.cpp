@@ -9,7 +9,6 @@ namespace kinemend::train {
 
 namespace {
 
-using torch::Tensor;
 using torch::autograd::AutogradContext;
 using torch::autograd::tensor_list;
 
@@ -66,18 +65,19 @@ void gates_adjoint(const Moment& m, const float* cell_before, const float* d_hid
 
 class LstmFunction : public torch::autograd::Function<LstmFunction> {
  public:
-  static Tensor forward(AutogradContext* context, const Tensor& given, const Tensor& input_weight,
-                        const Tensor& state_weight, const Tensor& bias, bool is_backward) {
-    const Tensor x = given.contiguous();
+  static torch::Tensor forward(AutogradContext* context, const torch::Tensor& given,
+                               const torch::Tensor& input_weight, const torch::Tensor& state_weight,
+                               const torch::Tensor& bias, bool is_backward) {
+    const torch::Tensor x = given.contiguous();
     const std::int64_t steps = x.size(0), rows = x.size(1), units = state_weight.size(1);
-    Tensor gates = torch::addmm(bias, x.view({steps * rows, -1}), input_weight.t());
+    torch::Tensor gates = torch::addmm(bias, x.view({steps * rows, -1}), input_weight.t());
     gates = gates.view({steps, rows, 4 * units});
-    Tensor cell = torch::empty({steps, rows, units}), squashed = torch::empty_like(cell),
-           hidden = torch::empty_like(cell);
-    const Tensor transposed = state_weight.t().contiguous();
+    torch::Tensor cell = torch::empty({steps, rows, units}), squashed = torch::empty_like(cell),
+                  hidden = torch::empty_like(cell);
+    const torch::Tensor transposed = state_weight.t().contiguous();
     for (std::int64_t i = 0; i < steps; ++i) {
       const std::int64_t t = is_backward ? steps - 1 - i : i, before = is_backward ? t + 1 : t - 1;
-      Tensor own = gates[t];
+      torch::Tensor own = gates[t];
       if (i > 0) own.addmm_(hidden[before], transposed);
       run_gates(moment(gates, cell, squashed, hidden, t),
                 i > 0 ? cell.data_ptr<float>() + before * rows * units : nullptr);
@@ -89,37 +89,38 @@ class LstmFunction : public torch::autograd::Function<LstmFunction> {
 
   static tensor_list backward(AutogradContext* context, const tensor_list& derivatives) {
     const auto saved = context->get_saved_variables();
-    const Tensor &x = saved[0], &input_weight = saved[1], &state_weight = saved[2],
-                 &gates = saved[3], &cell = saved[4], &squashed = saved[5], &hidden = saved[6];
+    const torch::Tensor &x = saved[0], &input_weight = saved[1], &state_weight = saved[2],
+                        &gates = saved[3], &cell = saved[4], &squashed = saved[5],
+                        &hidden = saved[6];
     const bool is_backward = context->saved_data["is_backward"].toBool();
     const std::int64_t steps = x.size(0), rows = x.size(1), units = state_weight.size(1);
-    const Tensor derivative = derivatives[0].contiguous();
-    Tensor d_gates = torch::empty_like(gates), d_cell = torch::zeros({rows, units});
+    const torch::Tensor derivative = derivatives[0].contiguous();
+    torch::Tensor d_gates = torch::empty_like(gates), d_cell = torch::zeros({rows, units});
     for (std::int64_t i = steps - 1; i >= 0; --i) {
       const std::int64_t t = is_backward ? steps - 1 - i : i;
       const std::int64_t before = is_backward ? t + 1 : t - 1, after = is_backward ? t - 1 : t + 1;
-      Tensor d_hidden = derivative[t];
+      torch::Tensor d_hidden = derivative[t];
       if (i + 1 < steps) d_hidden = torch::addmm(d_hidden, d_gates[after], state_weight);
       gates_adjoint(moment(gates, cell, squashed, hidden, t),
                     i > 0 ? cell.data_ptr<float>() + before * rows * units : nullptr,
                     d_hidden.data_ptr<float>(), d_cell.data_ptr<float>(),
                     d_gates.data_ptr<float>() + t * rows * 4 * units);
     }
-    const Tensor flat = d_gates.view({steps * rows, 4 * units});
+    const torch::Tensor flat = d_gates.view({steps * rows, 4 * units});
     // The states that the first frame of each direction did not have are zeros.
-    const Tensor later =
+    const torch::Tensor later =
         is_backward ? d_gates.narrow(0, 0, steps - 1) : d_gates.narrow(0, 1, steps - 1);
-    const Tensor earlier =
+    const torch::Tensor earlier =
         is_backward ? hidden.narrow(0, 1, steps - 1) : hidden.narrow(0, 0, steps - 1);
-    const Tensor d_state =
+    const torch::Tensor d_state =
         torch::mm(later.reshape({-1, 4 * units}).t(), earlier.reshape({-1, units}));
     return {torch::mm(flat, input_weight).view(x.sizes()),
-            torch::mm(flat.t(), x.view({steps * rows, -1})), d_state, flat.sum(0), Tensor()};
+            torch::mm(flat.t(), x.view({steps * rows, -1})), d_state, flat.sum(0), torch::Tensor()};
   }
 
  private:
-  static Moment moment(const Tensor& gates, const Tensor& cell, const Tensor& squashed,
-                       const Tensor& hidden, std::int64_t t) {
+  static Moment moment(const torch::Tensor& gates, const torch::Tensor& cell,
+                       const torch::Tensor& squashed, const torch::Tensor& hidden, std::int64_t t) {
     const std::int64_t rows = cell.size(1), units = cell.size(2), at = t * rows * units;
     return {rows,
             units,

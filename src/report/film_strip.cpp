@@ -4,17 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <optional>
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/experimental/pictures.hpp"
 #include "kinemend/experimental/svg.hpp"
 #include "report/inks.hpp"
+#include "report/pose_points.hpp"
 #include "rotation/component.hpp"
 
 namespace kinemend {
@@ -26,71 +24,11 @@ using Point = Svg::Point;
 // Chosen by hand.
 constexpr double strip_width = 960, height = 240, ground = 206, tallest = 176;  // pixels
 
-/// Points of a pose, none for one that is missing, and which of them are joined.
-struct Poses {
-  std::vector<std::vector<std::optional<Vec3>>> moments;
-  std::vector<std::pair<std::size_t, std::size_t>> bones;
-};
-
-Poses poses_of_joints(const Take& clip, const std::vector<std::size_t>& frames) {
-  Poses poses;
-  const Skeleton& skeleton = clip.skeleton;
-  for (std::size_t j = 1; j < skeleton.joint_count(); ++j) {
-    if (skeleton.parents[j] >= 0)
-      poses.bones.emplace_back(static_cast<std::size_t>(skeleton.parents[j]), j);
-  }
-  for (std::size_t e = 0; e < skeleton.end_sites.size(); ++e) {
-    poses.bones.emplace_back(static_cast<std::size_t>(skeleton.end_sites[e].parent),
-                             skeleton.joint_count() + e);
-  }
-  for (const std::size_t frame : frames) {
-    const Pose pose = forward_kinematics(clip, frame);
-    auto& points = poses.moments.emplace_back(pose.positions.begin(), pose.positions.end());
-    for (const EndSite& end : skeleton.end_sites) {
-      const auto parent = static_cast<std::size_t>(end.parent);
-      points.emplace_back(pose.positions[parent] + rotate(pose.rotations[parent], end.offset));
-    }
-  }
-  return poses;
-}
-
-Poses poses_of(const Take& clip, const std::vector<std::size_t>& frames) {
-  if (clip.has_joints()) return poses_of_joints(clip, frames);
-  Poses poses;
-  for (const std::size_t frame : frames) {
-    auto& points = poses.moments.emplace_back();
-    for (std::size_t m = 0; m < clip.marker_count(); ++m) {
-      const bool is_seen = clip.is_observed(frame, m) && clip.holds_positions(m);
-      points.push_back(is_seen ? std::optional(clip.position(frame, m)) : std::nullopt);
-    }
-  }
-  return poses;
-}
-
 /// The plane that is drawn, and how large.
 struct View {
   std::size_t across = 0, up = 1;
   double floor = 0, scale = 1;
 };
-
-struct Range {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-  void add(double value) {
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  double size() const { return low <= high ? high - low : 0; }
-  double middle() const { return low <= high ? (low + high) / 2 : 0; }
-};
-
-Range range_of(const std::vector<std::optional<Vec3>>& points, std::size_t axis) {
-  Range range;
-  for (const auto& point : points) {
-    if (point) range.add(component(*point, axis));
-  }
-  return range;
-}
 
 View view_of(const Poses& poses, std::size_t up, double slot) {
   View view;

@@ -118,6 +118,26 @@ TEST(Pictures, OfPosesStandInARow) {
   EXPECT_EQ(test::count_of(dots, "<circle"), 2u) << "one of three is missing";
 }
 
+TEST(Pictures, MovingOnesHaveAPoseForEveryThirtiethOfASecond) {
+  const Take clip = synthesize({.duration_s = 2, .frame_rate_hz = 120});
+  const std::string both = moving_picture_svg(clip, &clip, all_frames);
+  expect_svg(both);
+  EXPECT_EQ(test::count_of(both, "<animate "), 2u);
+  EXPECT_THAT(both, HasSubstr("dur=\"2.000s\""));
+  const std::string part = moving_picture_svg(clip, nullptr, {0, 119});
+  EXPECT_EQ(test::count_of(part, "<animate "), 1u);
+  EXPECT_EQ(test::count_of(part, ";"), 29u) << "thirty poses";
+  const std::string dots = moving_picture_svg(gapped_markers(), nullptr, {30, 30});
+  EXPECT_EQ(test::count_of(dots, "h0"), 2u * 2)
+      << "two of three markers, as drawn first and in motion";
+}
+
+TEST(Pictures, MovingOnesSayWhenTheyWouldBeTooLong) {
+  const Take clip = synthesize({.duration_s = 61, .frame_rate_hz = 30});
+  EXPECT_THROW(moving_picture_svg(clip, nullptr, all_frames), Error);
+  EXPECT_NO_THROW(moving_picture_svg(clip, nullptr, {0, 1799}));
+}
+
 TEST(Pictures, AreDrawnOfTakesWithNothingInThem) {
   const Take clip = synthesize({.duration_s = 1, .frame_rate_hz = 60});
   const Take none = slice(clip, 0, 0);
@@ -126,9 +146,12 @@ TEST(Pictures, AreDrawnOfTakesWithNothingInThem) {
   expect_svg(spectrum_svg(rotation_curves(none, none, 0)));
   const Take unseen = make_marker_take({"A"}, 3, 100);
   expect_svg(film_strip_svg(unseen, nullptr, all_frames));
+  expect_svg(moving_picture_svg(unseen, nullptr, all_frames));
+  EXPECT_THAT(moving_picture_svg(none, nullptr, all_frames), HasSubstr("no frames"));
   expect_svg(gap_chart_svg(unseen, nullptr));
   expect_svg(gap_chart_svg(Take(make_marker_take({}, 0, 100)), nullptr));
   EXPECT_THROW(film_strip_svg(clip, &none, all_frames), Error);
+  EXPECT_THROW(moving_picture_svg(clip, &none, all_frames), Error);
 }
 
 TEST(Pictures, OfOneTakeHaveNoDifference) {

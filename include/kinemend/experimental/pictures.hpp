@@ -22,6 +22,12 @@ using FrameSpanToDraw = std::pair<std::size_t, std::size_t>;
 std::string film_strip_svg(const Take& before, const Take* after, FrameSpanToDraw frames,
                            std::size_t poses = 9);
 
+/// The take in motion, as an animation (SMIL) that browsers play over and over: from the side along
+/// which it reaches farthest, by a camera that stands still, at up to 30 poses a second. With
+/// `after` the two move side by side. Errors: `ErrorKind::usage` for takes of different length, and
+/// for more than 1800 poses (a minute).
+std::string moving_picture_svg(const Take& before, const Take* after, FrameSpanToDraw frames);
+
 /// When each track is missing: a row a track, a bar a gap, and how much is missing of each. A
 /// second take's gaps are drawn below those of the first. Tracks without gaps are counted, not
 /// drawn.

@@ -1,0 +1,39 @@
+// Points and bones of poses, as drawings of bodies need them.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "kinemend/take.hpp"
+
+namespace kinemend {
+
+/// Points of a pose, none for one that is missing, and which of them are joined.
+struct Poses {
+  std::vector<std::vector<std::optional<Vec3>>> moments;
+  std::vector<std::pair<std::size_t, std::size_t>> bones;
+};
+
+/// The joints with their end sites, or the markers, at these frames, in the take's unit.
+Poses poses_of(const Take& clip, const std::vector<std::size_t>& frames);
+
+/// From the lowest to the highest of some numbers; empty where there are none.
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  void add(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  double size() const { return low <= high ? high - low : 0; }
+  double middle() const { return low <= high ? (low + high) / 2 : 0; }
+};
+
+/// How far the points of a pose reach along an axis, 0 to 2; missing points are left out.
+Range range_of(const std::vector<std::optional<Vec3>>& points, std::size_t axis);
+
+}  // namespace kinemend
