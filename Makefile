@@ -80,7 +80,7 @@ web-app: wasm ## kinemend.html, the page of `view` in one file that needs no pro
 	@cmake --preset wasm -DKINEMEND_WEB=ON >/dev/null
 	cmake --build --preset wasm -j $(JOBS) --target kinemend_app
 
-npm-package: wasm ## the npm package of the module: build/wasm/wasm/npm/kinemend-0.1.0.tgz
+npm-package: wasm ## the npm package of the module: build/wasm/wasm/npm/kinemend-0.2.0.tgz
 	$(need) page
 	wasm/npm/make_package $(BUILD)/wasm/wasm $(BUILD)/wasm_tools/zlib
 
@@ -94,7 +94,7 @@ wasm-test: build web-app npm-package ## the module in Node, the app and the pack
 	cd $(BUILD)/wasm/web && node $(CURDIR)/wasm/npm/package_test.mjs $(CURDIR)/$(RELEASE)/cli/kinemend $$(command -v chromium) ../wasm/npm/kinemend-*.tgz $(CURDIR)/examples/takes
 	tools/compare_programs $(RELEASE)/cli/kinemend tools/wasm_program --methods bilateral,nonlocal,gaussian,butterworth,median,kalman,wavelet,learned
 
-blender-addon: ## the Blender add-on: build/blender/kinemend_blender-0.1.0.zip
+blender-addon: ## the Blender add-on: build/blender/kinemend_blender-0.2.0.zip
 	@tools/make_blender_addon
 
 blender-test: $(RELEASE)/.built ## run the add-on within Blender, without a window and in one on no screen

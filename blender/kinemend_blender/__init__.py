@@ -4,7 +4,7 @@
 bl_info = {
     "name": "Kinemend",
     "author": "The Kinemend authors",
-    "version": (0, 1, 0),
+    "version": (0, 2, 0),
     "blender": (3, 4, 0),
     "location": "3D View > Sidebar > Kinemend; Dope Sheet > Key",
     "description": "Cleans motion capture: jitter, spikes, sliding feet",

@@ -1,9 +1,8 @@
 """Cleans human motion capture: jitter, spikes, gaps and sliding feet.
 
 >>> import kinemend
->>> take = kinemend.read("walk.bvh")
->>> result = kinemend.clean(take)
->>> kinemend.write(result.take, "walk.clean.bvh")
+>>> result = kinemend.clean("walk.bvh")
+>>> kinemend.write(result.take, "walk.clean.bvh", overwrite=True)
 >>> result.report.verdict
 'noisy: ... jitter on 31 joints, ... spikes'
 

@@ -11,6 +11,8 @@ from typing import Literal
 
 from . import _core
 from ._core import Model, Take
+from ._files import _GivenTake, taken
+from ._shown import Shown
 from ._tables import Cleaner, _GivenOption, damages, methods, plain_options, trainings
 from .reports import Contact, DamageReport, Report
 
@@ -23,7 +25,7 @@ def _report(core: _core.CoreReport) -> Report:
     return Report.from_dict(json.loads(core.to_json()))
 
 
-@dataclass
+@dataclass(repr=False)
 class Result:
     """A take, and the report of what was done to it. It can be unpacked: `take, report = ...`.
 
@@ -32,8 +34,8 @@ class Result:
     """
 
     take: Take
-    _core: _core.CoreReport = field(repr=False)
-    _report: Report | None = field(default=None, repr=False)
+    _core: _core.CoreReport
+    _report: Report | None = None
 
     @property
     def report(self) -> Report:
@@ -50,6 +52,9 @@ class Result:
         """The report as the program prints it with --verbose."""
         return self._core.to_text()
 
+    def __repr__(self) -> str:
+        return f"<kinemend.Result: {self.report.verdict}; take={self.take!r}>"
+
     def __iter__(self) -> Iterator[Take | Report]:
         yield self.take
         yield self.report
@@ -61,7 +66,7 @@ def _from_zero(take: Take, contacts: Sequence[Contact]) -> list[tuple[str, str, 
 
 
 def clean(
-    take: Take,
+    take: _GivenTake,
     method: str | Cleaner = "learned",
     *,
     strength: float = 1.0,
@@ -93,8 +98,8 @@ def clean(
 
     Parameters
     ----------
-    take : Take
-        Joints or markers.
+    take : Take or path
+        Joints or markers; of a path the file is read.
     method : str or Cleaner, default "learned"
         How to clean; the methods and their options are listed below.
     strength : float, default 1
@@ -150,10 +155,13 @@ def clean(
     Raises
     ------
     Error
-        A setting is out of range, or the method does not work on this kind of take.
+        A setting is out of range, the method does not work on this kind of take, or the file cannot
+        be read.
 
     Examples
     --------
+    >>> kinemend.clean("walk.bvh").report.method
+    'learned'
     >>> take = kinemend.read("walk.bvh")
     >>> result = kinemend.clean(take, "butterworth", cutoff_hz=6)
     >>> result.report.method, result.report.options["cutoff_hz"]
@@ -166,6 +174,7 @@ def clean(
     cleaner = method if isinstance(method, Cleaner) else Cleaner(method, options, **more)
     if isinstance(method, Cleaner) and (options or more):
         raise TypeError("options go into the Cleaner")
+    take = taken(take)
     cleaned, report = _core.clean(
         take,
         cleaner._core,
@@ -208,7 +217,7 @@ def _noise(noise: Literal["auto", "white"] | Report) -> tuple[float, dict[str, f
 
 
 def fill(
-    take: Take,
+    take: _GivenTake,
     method: str = "auto",
     *,
     names: Iterable[str] = (),
@@ -226,8 +235,8 @@ def fill(
 
     Parameters
     ----------
-    take : Take
-        Joints or markers.
+    take : Take or path
+        Joints or markers; of a path the file is read.
     method : str, default "auto"
         An entry of `fill_methods()`. "auto" tests methods on artificial gaps and leaves a gap open
         when none is reliable.
@@ -263,7 +272,7 @@ def fill(
     """
     return Result(
         *_core.fill(
-            take,
+            taken(take),
             method=method,
             names=names,
             donor=donor,
@@ -279,8 +288,8 @@ def fill(
     )
 
 
-@dataclass(frozen=True, kw_only=True)
-class RobotLimits:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class RobotLimits(Shown):
     """What a take has to keep to if a robot or a simulated body imitates it.
 
     None is the limit that `kinemend check --robot` has (docs/check-robot.md).
@@ -319,7 +328,7 @@ class RobotLimits:
 
 
 def check(
-    take: Take,
+    take: _GivenTake,
     *,
     up: Literal["x", "y", "z"] | None = None,
     metres_per_unit: float | None = None,
@@ -331,8 +340,8 @@ def check(
 
     Parameters
     ----------
-    take : Take
-        Joints or markers.
+    take : Take or path
+        Joints or markers; of a path the file is read.
     up : {"x", "y", "z"}, optional
         The vertical axis. Default: found from the body.
     metres_per_unit : float, optional
@@ -355,7 +364,7 @@ def check(
     limits = robot if isinstance(robot, RobotLimits) else RobotLimits()
     return _report(
         _core.check(
-            take,
+            taken(take),
             up=up,
             metres_per_unit=metres_per_unit,
             feet_names=feet_names or {},
@@ -366,7 +375,7 @@ def check(
     )
 
 
-def contacts(take: Take, *, feet_names: Mapping[str, str] | None = None) -> Report:
+def contacts(take: _GivenTake, *, feet_names: Mapping[str, str] | None = None) -> Report:
     """Find when heels and toes stand, and which slides `clean(feet="auto")` would take out.
 
     `report.feet.contacts` lists them; `contact_masks` gives them as arrays.
@@ -377,18 +386,18 @@ def contacts(take: Take, *, feet_names: Mapping[str, str] | None = None) -> Repo
     >>> sorted({contact.side for contact in report.feet.contacts})
     ['left', 'right']
     """
-    return _report(_core.contacts(take, feet_names=feet_names or {}))
+    return _report(_core.contacts(taken(take), feet_names=feet_names or {}))
 
 
 def compare(
-    reference: Take,
-    other: Take,
+    reference: _GivenTake,
+    other: _GivenTake,
     *,
     psnr_peak: float = math.pi / 2,
     metres_per_unit: float | None = None,
     up: Literal["x", "y", "z"] = "y",
     fit: Literal["none", "rigid", "gain-offset"] = "none",
-    fit_to: Take | None = None,
+    fit_to: _GivenTake | None = None,
     lag_frames: int = 0,
     least_motion: float = 0.0,
 ) -> Report:
@@ -396,7 +405,7 @@ def compare(
 
     Parameters
     ----------
-    reference, other : Take
+    reference, other : Take or path
         Both of joints, or both of markers, with the same number of frames.
     psnr_peak : float, default pi / 2
         Of `figures.psnr_db`.
@@ -406,7 +415,7 @@ def compare(
         The vertical axis, for `figures.foot_slide`.
     fit : {"none", "rigid", "gain-offset"}, default "none"
         Of markers: how the reference is brought to `fit_to` first.
-    fit_to : Take, optional
+    fit_to : Take or path, optional
         Of markers. Default: `other`.
     lag_frames : int, default 0
         Of markers: frames by which `other` comes behind the reference.
@@ -421,13 +430,13 @@ def compare(
     """
     return _report(
         _core.compare(
-            reference,
-            other,
+            taken(reference),
+            taken(other),
             psnr_peak=psnr_peak,
             metres_per_unit=metres_per_unit,
             up=up,
             fit=fit,
-            fit_to=fit_to,
+            fit_to=None if fit_to is None else taken(fit_to),
             lag_frames=lag_frames,
             least_motion=least_motion,
         )
@@ -435,7 +444,7 @@ def compare(
 
 
 def corrupt(
-    take: Take,
+    take: _GivenTake,
     damage: str | Sequence[tuple[str, Mapping[str, _GivenOption]]],
     *,
     seed: int = 1,
@@ -448,8 +457,8 @@ def corrupt(
 
     Parameters
     ----------
-    take : Take
-        It is not changed.
+    take : Take or path
+        It is not changed; of a path the file is read.
     damage : str, or list of (str, mapping)
         A damage, listed below; or several with their options, one after the other.
     seed : int, default 1
@@ -476,7 +485,7 @@ def corrupt(
     wanted = [(damage, plain_options(options, more))] if isinstance(damage, str) else [
         (name, plain_options(values, {})) for name, values in damage
     ]
-    damaged, reports = _core.corrupt(take, wanted, seed)
+    damaged, reports = _core.corrupt(taken(take), wanted, seed)
     return damaged, [DamageReport(**report) for report in reports]
 
 

@@ -1,7 +1,9 @@
-"""The one exception of the package, with the place in the file that it is about."""
+"""The exception of the package, with the place in the file that it is about."""
 
 from __future__ import annotations
 
+import errno
+import os
 import re
 from typing import Literal
 
@@ -15,6 +17,9 @@ _FILE = re.compile(r"(?P<file>.+?): ", re.DOTALL)
 
 class Error(Exception):
     """What went wrong, as one line for people.
+
+    Where the system refuses a file, the error is also a `FileNotFoundError`, `PermissionError`,
+    `FileExistsError` or `IsADirectoryError`.
 
     Attributes
     ----------
@@ -47,4 +52,52 @@ class Error(Exception):
                 return
 
     def __reduce__(self) -> tuple[type[Error], tuple[str, ErrorKind]]:
-        return (Error, (str(self), self.kind))
+        return (error_of, (str(self), self.kind))
+
+
+class _SystemError(Error):
+    """What the classes below share: the message of the library, and the attributes of `OSError`."""
+
+    _number = 0
+
+    def __init__(self, message: str, kind: ErrorKind) -> None:
+        super().__init__(message, kind)
+        self.errno = self._number
+        self.strerror = os.strerror(self._number)
+        self.filename = self.file
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+class FileNotFound(_SystemError, FileNotFoundError):
+    _number = errno.ENOENT
+
+
+class FileDenied(_SystemError, PermissionError):
+    _number = errno.EACCES
+
+
+class FileExists(_SystemError, FileExistsError):
+    _number = errno.EEXIST
+
+
+class FileIsFolder(_SystemError, IsADirectoryError):
+    _number = errno.EISDIR
+
+
+# The end of the library's message, as the system words it; `exists already` is the library's own.
+_BY_WORDS: dict[str, type[Error]] = {
+    os.strerror(kind._number): kind for kind in (FileNotFound, FileDenied, FileExists, FileIsFolder)
+}
+
+
+def error_of(message: str, kind: ErrorKind) -> Error:
+    """The error of the class that fits the message of the library."""
+    error = Error(message, kind)
+    if error.file is None:
+        return error
+    words = message[len(error.file) + 2 :]
+    if kind == "cannot_write" and words.startswith("exists already"):
+        return FileExists(message, kind)
+    return _BY_WORDS.get(words, Error)(message, kind)

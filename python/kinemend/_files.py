@@ -10,6 +10,13 @@ from ._core import Take
 from .reports import Diagnostic
 
 _Path = str | os.PathLike[str]
+# Where a function needs a take, the path of its file will do.
+_GivenTake = Take | str | os.PathLike[str]
+
+
+def taken(take: _GivenTake) -> Take:
+    """The take, read first where a path was given."""
+    return take if isinstance(take, Take) else read(take)
 
 
 def read(
@@ -51,12 +58,13 @@ def read(
     Raises
     ------
     Error
-        The file cannot be read; `line` or `byte` says where.
+        The file cannot be read; `line` or `byte` says where. A missing file is also a
+        `FileNotFoundError`, and one that may not be read a `PermissionError`.
 
     Examples
     --------
     >>> kinemend.read("walk.bvh")
-    <kinemend.Take: 960 frames of 31 joints at 120 Hz>
+    <kinemend.Take walk.bvh: 960 frames of 31 joints at 120 Hz>
     """
     if isinstance(source, bytes):
         return _core.read_bytes(source, name, format, strict, skeleton, fps, animation, progress)
@@ -81,7 +89,8 @@ def write(take: Take, path: _Path, *, format: str = "", overwrite: bool = False)
     Raises
     ------
     Error
-        The file exists, cannot be written, or its format cannot hold the take.
+        The file exists (also a `FileExistsError`), cannot be written, or its format cannot hold the
+        take.
     """
     _core.write_path(take, path, format, overwrite)
 

@@ -11,10 +11,11 @@ import numpy.typing as npt
 
 from . import _core
 from ._core import Take
+from ._files import _GivenTake, taken
 from ._tables import Cleaner, _GivenOption
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class LiveFrame:
     """One cleaned frame.
 
@@ -32,6 +33,10 @@ class LiveFrame:
     positions: npt.NDArray[np.float64]
     observed: npt.NDArray[np.bool_]
 
+    def __repr__(self) -> str:
+        shapes = f"rotations {self.rotations.shape}, positions {self.positions.shape}"
+        return f"<kinemend.LiveFrame: {shapes}, {self.observed.sum()} of {self.observed.size} observed>"
+
 
 class LiveFilter:
     """Cleans one stream: frame t goes in, frame t - `latency_frames` comes out.
@@ -40,7 +45,7 @@ class LiveFilter:
 
     Parameters
     ----------
-    like : Take
+    like : Take or path
         A take with the skeleton or markers and the frame rate of the stream. Its frames are ignored.
     method : str or Cleaner, default "median"
         A method that runs live: `methods()` says which do.
@@ -72,7 +77,7 @@ class LiveFilter:
 
     def __init__(
         self,
-        like: Take,
+        like: _GivenTake,
         method: str | Cleaner = "median",
         *,
         body_height: float = 0.0,
@@ -81,7 +86,10 @@ class LiveFilter:
         **more: _GivenOption,
     ) -> None:
         self.cleaner = method if isinstance(method, Cleaner) else Cleaner(method, options, **more)
-        self._stream = _core.CoreStream(self.cleaner._core, like, body_height, source)
+        self._stream = _core.CoreStream(self.cleaner._core, taken(like), body_height, source)
+
+    def __repr__(self) -> str:
+        return f"<kinemend.LiveFilter {self.latency_frames} frames behind: {self.cleaner!r}>"
 
     @property
     def latency_frames(self) -> int:

@@ -15,7 +15,8 @@ import numpy.typing as npt
 
 from ._commands import contacts
 from ._core import Take
-from ._errors import Error
+from ._errors import Error, error_of
+from ._files import _GivenTake, taken
 
 _Path = str | os.PathLike[str]
 _Doubles = npt.NDArray[np.float64]
@@ -23,7 +24,6 @@ _Doubles = npt.NDArray[np.float64]
 NPZ_FORMAT = "kinemend-1"
 # What NumPy and zipfile raise at archives that are none, or hold other arrays.
 _BROKEN = (
-    OSError,
     EOFError,
     KeyError,
     ValueError,
@@ -109,7 +109,7 @@ def global_matrices(take: Take) -> _Doubles:
 
 
 def contact_masks(
-    take: Take, *, feet_names: Mapping[str, str] | None = None
+    take: _GivenTake, *, feet_names: Mapping[str, str] | None = None
 ) -> tuple[list[str], npt.NDArray[np.bool_]]:
     """When heels and toes stand, as arrays.
 
@@ -126,6 +126,7 @@ def contact_masks(
     >>> names
     ['left heel', 'left toe', 'right heel', 'right toe']
     """
+    take = taken(take)
     feet = contacts(take, feet_names=feet_names).feet
     found = [] if feet is None or feet.contacts is None else feet.contacts
     names = sorted({f"{contact.side} {contact.part}" for contact in found})
@@ -212,6 +213,9 @@ def from_npz(path: _Path) -> Take:
             return _take_of({key: archive[key] for key in archive.files}, name)
     except Error as error:
         raise Error(f"{name}: {error}", "unreadable_input") from None
+    except OSError as error:
+        words = os.strerror(error.errno) if error.errno else str(error)
+        raise error_of(f"{name}: {words}", "unreadable_input") from None
     except _BROKEN as error:
         words = str(error).strip("'\"")
         problem = f"the array {words} is missing" if isinstance(error, KeyError) else words

@@ -10,9 +10,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from ._shown import Shown
 
-@dataclass(frozen=True, kw_only=True)
-class Diagnostic:
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Diagnostic(Shown):
     """A repair that the reader made.
 
     Attributes
@@ -41,8 +43,8 @@ class Diagnostic:
         return cls(**data)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Noise:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Noise(Shown):
     """What the noise of a take is like.
 
     Attributes
@@ -81,8 +83,8 @@ class Noise:
         return cls(**data)
 
 
-@dataclass(frozen=True, kw_only=True)
-class FallBackTrack:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class FallBackTrack(Shown):
     """A track that another method cleaned.
 
     Attributes
@@ -102,8 +104,8 @@ class FallBackTrack:
         return cls(**data)
 
 
-@dataclass(frozen=True, kw_only=True)
-class FallBack:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class FallBack(Shown):
     """Where another method cleaned in place of the one that was asked for.
 
     Attributes
@@ -128,8 +130,8 @@ class FallBack:
         return cls(**values)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Leftover:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Leftover(Shown):
     """Something wrong that cleaning left as it was.
 
     Attributes
@@ -149,8 +151,8 @@ class Leftover:
         return cls(**data)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Subject:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Subject(Shown):
     """One of several people in a take of markers.
 
     Attributes
@@ -176,8 +178,8 @@ class Subject:
         return cls(**data)
 
 
-@dataclass(frozen=True, kw_only=True)
-class FeetFigures:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class FeetFigures(Shown):
     """How feet stand.
 
     Attributes
@@ -203,8 +205,8 @@ class FeetFigures:
         return cls(**data)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Contact:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Contact(Shown):
     """A time in which a part of a foot stands.
 
     Attributes
@@ -235,8 +237,8 @@ class Contact:
         return cls(**data)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Feet:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Feet(Shown):
     """What was found of feet, and done to them.
 
     Attributes
@@ -273,8 +275,8 @@ class Feet:
         return cls(**values)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Figures:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Figures(Shown):
     """Numbers about the whole take; None where the command does not give them.
 
     Attributes
@@ -487,8 +489,8 @@ class Figures:
         return cls(**data)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Finding:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Finding(Shown):
     """A span in which something was wrong, and what was done about it.
 
     Attributes
@@ -540,8 +542,8 @@ class Finding:
         return cls(**data)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Track:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Track(Shown):
     """Figures of one joint or marker; None where the command does not give them.
 
     Attributes
@@ -651,8 +653,8 @@ class Track:
         return cls(**data)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Standing:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Standing(Shown):
     """A time in which a heel or a toe stands.
 
     Attributes
@@ -677,8 +679,8 @@ class Standing:
         return cls(**data)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Robot:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Robot(Shown):
     """What only `check --robot` finds.
 
     Attributes
@@ -698,8 +700,8 @@ class Robot:
         return cls(**values)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Report:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Report(Shown):
     """What a command found in a take, or did to it.
 
     Attributes
@@ -831,8 +833,8 @@ class Report:
         return cls(**values)
 
 
-@dataclass(frozen=True, kw_only=True)
-class DamageReport:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class DamageReport(Shown):
     """What a damage did, as in the JSON of `kinemend corrupt --json`.
 
     Attributes

@@ -29,9 +29,9 @@ void translate(std::exception_ptr thrown) {
   try {
     std::rethrow_exception(thrown);
   } catch (const Error& error) {
-    const py::object type = py::module_::import("kinemend._errors").attr("Error");
-    const py::object raised = type(error.what(), kind_name(error.kind()));
-    PyErr_SetObject(type.ptr(), raised.ptr());
+    const py::object make = py::module_::import("kinemend._errors").attr("error_of");
+    const py::object raised = make(error.what(), kind_name(error.kind()));
+    PyErr_SetObject(py::type::of(raised).ptr(), raised.ptr());
   }
 }
 

@@ -255,11 +255,14 @@ py::tuple forward(const HeldTake& held) {
   return py::make_tuple(rotations, positions);
 }
 
-std::string words_of(const HeldTake& held) {
+py::str words_of(const HeldTake& held) {
   const Take& take = held.take;
   const char* const owners = take.has_joints() ? "joints" : "markers";
-  return fmt::format("<kinemend.Take: {} frames of {} {} at {:g} Hz>", take.frame_count(),
-                     take.owner_count(), owners, take.frame_rate_hz);
+  const std::string name = take.source.name.empty() ? "" : " " + take.source.name;
+  const std::string unit = take.unit.empty() ? "" : " in " + take.unit;
+  return text_of(fmt::format("<kinemend.Take{}: {} frames of {} {}{} at {:g} Hz>", name,
+                             take.frame_count(), take.owner_count(), owners, unit,
+                             take.frame_rate_hz));
 }
 
 void bind_making(py::class_<HeldTake, HeldTakePtr>& type) {

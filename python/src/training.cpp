@@ -1,4 +1,5 @@
 // Models, and their training on takes in memory or in files.
+#include <fmt/format.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -68,6 +69,12 @@ ModelPtr train(const std::string& method, const std::vector<TrainingTake>& takes
 
 py::bytes model_bytes(const Model& model) { return write_model(model); }
 
+py::str model_words(const Model& model) {
+  return text_of(fmt::format("<kinemend.Model for {}: {} {}, {:.0f} s of motion at {:g} Hz>",
+                             model.method, model.layout.names.size(), to_string(model.layout.kind),
+                             model.seconds, model.rate_hz));
+}
+
 void bind_model(py::module_& module) {
   py::class_<Model, ModelPtr> type(module, "Model",
                                    "What a method knows of human motion, as `train` makes it.");
@@ -85,6 +92,7 @@ void bind_model(py::module_& module) {
       "kind", [](const Model& model) { return std::string(to_string(model.layout.kind)); },
       "\"joints\" or \"markers\".");
   type.def("to_bytes", model_bytes, "The bytes of its file.");
+  type.def("__repr__", model_words);
   type.def(
       "write",
       [](const Model& model, const fs::path& path, bool overwrite) {

@@ -5,7 +5,7 @@
 
 namespace kinemend {
 
-/// "0.1.0"
+/// As "1.2.3": major, minor and patch version.
 std::string_view version() noexcept;
 
 }  // namespace kinemend
