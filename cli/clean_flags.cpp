@@ -172,7 +172,8 @@ std::vector<Flag> cleaning_flags() {
                 "Frames as the file numbers them. For formats that cannot hold a gap. The name * "
                 "means all."),
       seed_flag("seed of the methods that draw random numbers")};
-  std::vector<Flag> joints = joints_flags("joints or markers that may change (default all)");
+  std::vector<Flag> joints =
+      joints_flags("Where", "joints or markers that may change (default all)");
   joints.front().configurable = true;
   const auto exclude = std::find_if(list.begin(), list.end(),
                                     [](const Flag& flag) { return flag.spec.name == "exclude"; });

@@ -48,6 +48,8 @@ void fill_job(const TakeJob& job, const FillRun& run, const Arguments& arguments
   options.all = run.verbose;
   options.colours = Colours::of_out().on();
   outcome.text = to_text(filled.report, options);
+  // Of several takes the first line of each is shown, as clean does.
+  if (!options.details) outcome.text.resize(outcome.text.find('\n') + 1);
   if (run.json || run.reports.with_json()) outcome.json = outcome.report = to_json(filled.report);
   if (with_page)
     outcome.page =
@@ -101,7 +103,8 @@ Flag fill_file_flag(std::string name, std::string group, std::string help, std::
 }
 
 std::vector<Flag> fill_flags() {
-  std::vector<Flag> joints = joints_flags("joints or markers to fill (default all)", "names");
+  std::vector<Flag> joints =
+      joints_flags("Work", "joints or markers to fill (default all)", "names");
   Flag longest = number_flag("longest_gap", "s", 0, 0, 100000, "Work",
                              "longest gap to fill, instead of the method's own rule");
   longest.has_default = false;

@@ -148,9 +148,9 @@ int run_plot(const Arguments& arguments) {
 }  // namespace
 
 Command plot_command() {
-  std::vector<Flag> joints = joints_flags("joint or marker of curves and spectrum", "track");
+  std::vector<Flag> joints =
+      joints_flags("Drawing", "joint or marker of curves and spectrum", "track");
   for (Flag& flag : joints) {
-    flag.group = "Drawing";
     flag.value_name = "NAME";
     flag.details.clear();
   }

@@ -218,8 +218,8 @@ std::vector<Flag> stream_flags() {
                         "those on this machine.");
   bind.spec.default_value = std::string("127.0.0.1");
   bind.has_default = true;
-  Flag joints = joints_flags("with --vmc: bones to clean (default all)", "bones").front();
-  joints.group = "Cleaning";
+  Flag joints =
+      joints_flags("Cleaning", "with --vmc: bones to clean (default all)", "bones").front();
   joints.details =
       "Names are those of the messages, such as Head, or root. Others pass unchanged, with the "
       "same "

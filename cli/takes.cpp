@@ -314,13 +314,14 @@ Flag verbose_flag(std::string help, std::string details) {
   return flag;
 }
 
-std::vector<Flag> joints_flags(std::string help, const std::string& older) {
-  Flag joints = text_flag("joints", "A,B,...", "Where", std::move(help),
+std::vector<Flag> joints_flags(const std::string& group, std::string help,
+                               const std::string& older) {
+  Flag joints = text_flag("joints", "A,B,...", group, std::move(help),
                           "Names or patterns in which * is any text and ? any character; quote "
                           "them.");
   joints.takes = Takes::list;
   if (!older.empty()) joints.older_names = {older};
-  Flag markers = text_flag("markers", "A,B,...", "Where", "the same as --joints");
+  Flag markers = text_flag("markers", "A,B,...", group, "the same as --joints");
   markers.takes = Takes::list;
   return {std::move(joints), std::move(markers)};
 }

@@ -87,7 +87,8 @@ Flag quiet_flag(std::string details = {});
 /// -v, --verbose: everything is listed.
 Flag verbose_flag(std::string help, std::string details = {});
 /// --joints and --markers, which are one list. `older`: an earlier name of it, or empty.
-std::vector<Flag> joints_flags(std::string help, const std::string& older = {});
+std::vector<Flag> joints_flags(const std::string& group, std::string help,
+                               const std::string& older = {});
 /// The names of both, in the order of --joints, then --markers.
 std::vector<std::string> joints_of(const Arguments& arguments);
 /// --unlabelled, of the commands that fill gaps.

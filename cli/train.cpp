@@ -318,7 +318,8 @@ std::vector<Flag> train_flags() {
   list.completion = Completion::file;
   Flag card = text_flag("card", "FILE", "Output", "also write the card of the model, as Markdown");
   card.completion = Completion::file;
-  std::vector<Flag> joints = joints_flags("joints or markers to learn (default: joints that move)");
+  std::vector<Flag> joints =
+      joints_flags("Work", "joints or markers to learn (default: joints that move)");
   std::vector<Flag> all = {
       output_flag("where to write the model; - is standard output"),
       force_flag(),

@@ -32,9 +32,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
-// The edits that may lie between a name and what it was meant to be: one in three letters of the
-// longer one, and one in two or three letters. A slip of the finger is one edit; with more of them
-// most words of few letters would be near each other, such as "on" and "off", "undo" and "info".
+// The most edits between a name and its suggestion: a third of the letters of the longer one, and
+// one in a shorter name. Two thirds of the letters then agree. Two edits in words of up to five
+// letters would make unrelated words near, such as "on" and "off", or "undo" and "info".
 std::size_t most_edits(std::string_view a, std::string_view b) {
   const std::size_t length = std::max(a.size(), b.size());
   return length < 2 ? 0 : std::max<std::size_t>(1, length / 3);
