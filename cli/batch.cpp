@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
 #include <mutex>
 #include <numeric>
 #include <optional>
@@ -79,6 +82,8 @@ struct Done {
 /// run.
 std::string options_text(const Arguments& arguments) {
   std::string text = settings_text(*arguments.command, merged_settings(arguments), "");
+  if (!arguments.flag("clean")) text += "clean: false\n";
+  if (arguments.given("to")) text += fmt::format("to: {}\n", arguments.text("to"));
   for (const Flag& flag : cleaning_flags()) {
     const std::string& name = flag.spec.name;
     if (name == "config" || name == "preset" || flag.configurable) continue;
@@ -218,9 +223,15 @@ Done clean_item(const BatchItem& item, const std::string& output, const Batch& b
   return done;
 }
 
+/// Where the result goes.
+std::string result_of(const BatchItem& item, const Batch& batch) {
+  const std::string output = (fs::path(batch.folder) / item.name).string();
+  if (batch.plan.to != nullptr) return output;
+  return with_right_ending(output, item.input, batch.plan.reading.format);
+}
+
 Done do_item(const BatchItem& item, const Batch& batch) {
-  const std::string output = with_right_ending((fs::path(batch.folder) / item.name).string(),
-                                               item.input, batch.plan.reading.format);
+  const std::string output = result_of(item, batch);
   if (item.is_copied) return copy_skeleton(item, output, batch);
   const BatchKey key{input_hash(item), batch.options_hash, std::string(version())};
   // What is refused leaves neither a folder nor a record.
@@ -279,7 +290,7 @@ class Sayer {
 
   void say_of(const Done& done) {
     const std::lock_guard lock(mutex_);
-    const bool warns = batch_.verbose && !batch_.quiet && !done.warnings.empty();
+    const bool warns = batch_.verbose && !done.warnings.empty();
     const bool fails = !done.error.empty() && (++failed_ <= most || batch_.verbose);
     if (!fails && !warns) return;
     bar_.clear();
@@ -420,6 +431,92 @@ void plan_index(const Arguments& arguments, const std::vector<std::string>& inpu
   batch.plan.page->command = "clean";
 }
 
+/// Leaves every track as it is, so that a batch can do the other steps alone.
+class NoCleaner : public Cleaner {
+ public:
+  std::string_view name() const override { return "none"; }
+  CleanTrace clean(const TakeView&, const TrackSink&,
+                   const std::function<void(double)>&) const override {
+    return {};
+  }
+};
+
+// --no-clean and --to.
+void plan_steps(const Arguments& arguments, CleanPlan& plan) {
+  if (const std::string to = arguments.text("to"); !to.empty()) plan.to = &known_format(to);
+  plan.cleans = arguments.flag("clean");
+  if (plan.cleans) return;
+  if (arguments.given("method") || !arguments.group_texts.empty())
+    throw Error(ErrorKind::usage,
+                "batch: --no-clean cannot be combined with --method or its "
+                "options");
+  if (!plan.settings.fill && !plan.settings.feet && !plan.fix_swaps && plan.to == nullptr)
+    throw Error(ErrorKind::usage,
+                "batch: --no-clean leaves nothing to do; add --fill auto, --feet auto, --fix-swaps "
+                "or --to FORMAT");
+  plan.cleaner = std::make_unique<NoCleaner>();
+}
+
+// Names the results of --to after their format. Skeletons are part of the results of AMC alone.
+void name_by_format(const Format& to, std::vector<BatchItem>& items) {
+  std::erase_if(items, [](const BatchItem& item) { return item.is_copied; });
+  std::map<std::string, std::string> taken;
+  for (BatchItem& item : items) {
+    item.name = fs::path(item.name).replace_extension(to.extensions.front()).generic_string();
+    const auto [known, is_new] = taken.emplace(item.name, item.input);
+    if (is_new) continue;
+    throw Error(ErrorKind::usage, fmt::format("batch: {} and {} would both be written to {}",
+                                              known->second, item.input, item.name));
+  }
+}
+
+/// The words of `--dry-run` for one file: what a run would do with it.
+std::string planned_text(const BatchItem& item, const Batch& batch, Done& done) {
+  const std::string output = result_of(item, batch);
+  const std::string names = fmt::format("{} -> {}", printable(item.input), printable(output));
+  try {
+    const BatchKey key{item.is_copied ? std::string() : input_hash(item), batch.options_hash,
+                       std::string(version())};
+    check_is_ours(item, output, key, batch);
+    if (item.is_copied) return "copy     " + names;
+    check_skeletons_are_ours(item, batch);
+    const auto record = read_record(batch.folder, item.name);
+    std::error_code ignored;
+    const bool has_page =
+        batch.index.empty() || fs::is_regular_file(page_path(batch, item), ignored);
+    if (record && has_page && is_done(*record, key, output)) return "done     " + names;
+    done.is_new = true;
+    return (batch.plan.cleans          ? "clean    "
+            : batch.plan.settings.fill ? "fill     "
+            : batch.plan.to != nullptr ? "convert  "
+                                       : "change   ") +
+           names;
+  } catch (const Error& error) {
+    done.code = static_cast<int>(error.kind());
+    return fmt::format("refuse   {} ({})", printable(item.input), error.what());
+  }
+}
+
+/// Lists what a run would do, and writes nothing. Returns the exit code of what would be refused.
+int list_plan(const std::vector<BatchItem>& items, const Batch& batch) {
+  std::size_t to_do = 0, kept = 0, refused = 0;
+  int code = 0;
+  std::string text;
+  for (const BatchItem& item : items) {
+    Done done;
+    text += planned_text(item, batch, done) + "\n";
+    code = std::max(code, done.code);
+    refused += done.code != 0 ? 1 : 0;
+    to_do += done.is_new ? 1 : 0;
+    kept += done.code == 0 && !done.is_new && !item.is_copied ? 1 : 0;
+  }
+  if (batch.quiet) return code;
+  write_out(text + fmt::format("{} to do, {} done already, {} refused; nothing written "
+                               "(--dry-run)\n",
+                               counted(to_do, "take"), grouped(kept), grouped(refused)));
+  return code;
+}
+
 // No result may overwrite a take or another file that this run reads, not even with --force.
 void check_outputs(const Arguments& arguments, const std::vector<BatchItem>& items,
                    const Batch& batch) {
@@ -437,9 +534,12 @@ int run_batch(const Arguments& arguments) {
   batch.folder = arguments.text("output_dir");
   if (batch.folder.empty())
     throw Error(ErrorKind::usage, "batch: --output-dir is missing (see kinemend batch -h)");
+  if (arguments.flag("dry_run") && arguments.flag("json"))
+    throw Error(ErrorKind::usage, "batch: --dry-run prints a list, no JSON");
   if (arguments.flag("merge")) return merge_batch(arguments);
   const std::vector<std::string> inputs = inputs_of(arguments);
   batch.plan = make_cleaning(arguments);
+  plan_steps(arguments, batch.plan);
   plan_index(arguments, inputs, batch);
   batch.quiet = arguments.flag("quiet");
   batch.verbose = arguments.flag("verbose");
@@ -447,12 +547,14 @@ int run_batch(const Arguments& arguments) {
   if (const std::string shard = arguments.text("shard"); !shard.empty())
     batch.shard = parse_shard(shard);
 
-  const std::vector<BatchItem> all = find_items(inputs, batch.folder, arguments.text("files"));
+  std::vector<BatchItem> all = find_items(inputs, batch.folder, arguments.text("files"));
   const int empty_code = refuse_empty(inputs, all, arguments);
+  if (batch.plan.to != nullptr) name_by_format(*batch.plan.to, all);
   std::vector<BatchItem> mine;
   std::copy_if(all.begin(), all.end(), std::back_inserter(mine),
                [&](const BatchItem& item) { return in_shard(item.name, batch.shard); });
   check_outputs(arguments, all, batch);
+  if (arguments.flag("dry_run")) return std::max(list_plan(mine, batch), empty_code);
   const std::vector<fs::path> missing = missing_folders(batch.folder);
   make_folder(batch.folder);
   remove_leftovers(batch.folder);
@@ -489,10 +591,29 @@ int run_batch(const Arguments& arguments) {
   return std::max(counts.exit_code, empty_code);
 }
 
+Flag batch_format_flag() {
+  Flag to = text_flag("to", "", "Output", "format of the results (default that of each take)",
+                      "As kinemend convert writes it: joints become markers in a format of "
+                      "markers.");
+  to.spec.choices = written_formats();
+  return to;
+}
+
+Flag clean_switch() {
+  Flag flag =
+      switch_flag("clean", "Work", "clean the takes",
+                  "--no-clean leaves that out: gaps are filled (--fill), feet held (--feet), "
+                  "labels swapped back (--fix-swaps) and takes converted (--to) only.");
+  flag.spec.default_value = true;
+  return flag;
+}
+
 std::vector<Flag> batch_flags() {
   Flag folder = text_flag("output_dir", "DIR", "Output",
                           "folder for the results, with the tree of the inputs");
   folder.letter = 'o';
+  // Every other command calls -o --output.
+  folder.older_names = {"output"};
   folder.completion = Completion::folder;
   Flag list =
       text_flag("list", "FILE", "Input", "file with more takes and folders, one per line",
@@ -501,14 +622,17 @@ std::vector<Flag> batch_flags() {
   std::vector<Flag> flags = {
       std::move(folder),
       force_flag(),
+      switch_flag("dry_run", "Output", "list what would be done, and write nothing"),
+      batch_format_flag(),
+      clean_switch(),
       report_flag(
           "also write a page for a browser, FILE.html: the takes, worst first",
           "It links to a page for each take, in the folder FILE.takes beside it. Takes that "
           "an earlier run cleaned without a page are cleaned again."),
       json_flag("print the merged summary as JSON instead of text"),
-      switch_flag("quiet", "Output", "print errors only"),
-      switch_flag("verbose", "Output", "print every error and every warning",
-                  "Otherwise the first ten errors are printed, and the number of the others."),
+      quiet_flag("Warnings about takes are printed with --verbose only."),
+      verbose_flag("print every error and every warning",
+                   "Otherwise the first ten errors are printed, and the number of the others."),
       std::move(list),
       text_flag("files", "PATTERN", "Input",
                 "in folders, clean only files whose name matches PATTERN",
@@ -523,10 +647,6 @@ std::vector<Flag> batch_flags() {
                   "nothing.")};
   append(flags, cleaning_flags());
   flags.push_back(jobs_flag());
-  for (Flag& flag : flags) {
-    if (flag.spec.name == "quiet") flag.letter = 'q';
-    if (flag.spec.name == "verbose") flag.letter = 'v';
-  }
   return flags;
 }
 
@@ -559,6 +679,8 @@ Command batch_command() {
   command.groups_are_flags = true;
   command.examples = {
       {"kinemend batch raw -o clean", "clean every take below raw, to the same place below clean"},
+      {"kinemend batch raw -o filled --no-clean --fill auto", "fill gaps, and nothing else"},
+      {"kinemend batch raw -o trc --no-clean --to trc", "convert a tree of takes"},
       {"kinemend batch raw -o clean --shard 3/8", "the third of eight jobs on a cluster"},
       {"kinemend batch --merge clean/rows.*-of-8.jsonl -o clean", "rows and totals of all eight"},
       {"find raw -name '*.c3d' | kinemend batch --list - -o clean", "clean a list of takes"}};

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 #include <variant>
 #include <vector>
 
+#include "batch_list.hpp"
 #include "commands.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/gaps.hpp"
@@ -60,8 +62,24 @@ Checked check_file(const std::string& input, const Arguments& arguments) {
   return {std::move(read.take), {std::move(facts), std::move(report)}};
 }
 
-ReportFiles checked_outputs(const Arguments& arguments) {
-  const std::vector<std::string>& inputs = arguments.positionals;
+/// The files given, and the takes below the folders given.
+std::vector<std::string> takes_to_check(const Arguments& arguments) {
+  std::vector<std::string> takes = takes_below(arguments.positionals);
+  if (!takes.empty()) return takes;
+  throw Error(ErrorKind::unreadable_input,
+              fmt::format("{}: holds no take", arguments.positionals.front()));
+}
+
+/// How the takes of a folder that was checked are cleaned.
+void say_how_to_clean(const Arguments& arguments) {
+  for (const std::string& input : arguments.positionals) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(input, ignored))
+      say(fmt::format("to clean the takes in {0} use: kinemend batch {0} -o OUT", input));
+  }
+}
+
+ReportFiles checked_outputs(const Arguments& arguments, const std::vector<std::string>& inputs) {
   const std::string gaps_out = arguments.text("gaps_out");
   const bool force = arguments.flag("force");
   ReportFiles reports = report_files(arguments, inputs.size());
@@ -82,8 +100,10 @@ ReportFiles checked_outputs(const Arguments& arguments) {
 
 int run_check(const Arguments& arguments) {
   const bool json = arguments.flag("json"), force = arguments.flag("force");
+  const bool quiet = arguments.flag("quiet");
   const std::string gaps_out = arguments.text("gaps_out");
-  const ReportFiles reports = checked_outputs(arguments);
+  const std::vector<std::string> inputs = takes_to_check(arguments);
+  const ReportFiles reports = checked_outputs(arguments, inputs);
   TextOptions options;
   options.all = arguments.flag("verbose");
   options.colours = Colours::of_out().on();
@@ -97,20 +117,21 @@ int run_check(const Arguments& arguments) {
     }
     if (reports.with_page()) page = report_page(report, take, nullptr, page_settings(arguments));
     if (json || reports.with_json()) takes.push_back(to_json(report));
-    if (!json && gaps_out != "-" && !reports.on_out()) {
+    if (!json && !quiet && gaps_out != "-" && !reports.on_out()) {
       write_out(to_text(report, options));
     }
     return say_passed_limits(report, check_figures(), arguments);
   };
   std::size_t failed = 0;
-  const int code = for_each_input(arguments.positionals, visit, [&](std::string entry) {
+  const int code = for_each_input(inputs, visit, [&](std::string entry) {
     takes.push_back(std::move(entry));
     ++failed;
   });
   const std::string document = report_document("check", takes);
   // Bad input leaves nothing behind.
-  if (failed < arguments.positionals.size()) reports.write(document, page, force);
+  if (failed < inputs.size()) reports.write(document, page, force);
   if (json) write_out(document);
+  if (!json && !quiet) say_how_to_clean(arguments);
   return code;
 }
 
@@ -147,7 +168,8 @@ std::vector<Flag> check_flags() {
   up.spec.choices = {"x", "y", "z"};
   std::vector<Flag> list = {
       json_flag("print JSON instead of text"),
-      switch_flag("verbose", "Output", "list every finding and every track"),
+      verbose_flag("list every finding and every track"),
+      quiet_flag("Limits that are exceeded are errors."),
       gaps_out,
       reports_flag("also write what was found: FILE.json, or FILE.html as a page for a browser",
                    "A page shows one take, with its motion."),
@@ -159,7 +181,7 @@ std::vector<Flag> check_flags() {
   append(list, robot_flags());
   list.push_back(of_checks(source_flag()));
   list.push_back(map_flag());
-  append(list, reading_flags("a repair becomes an error"));
+  append(list, reading_flags());
   for (const FigureRule& entry : check_figures()) {
     list.push_back(without_default(
         number_flag(std::string(entry.limit), std::string(entry.unit), 0, 0, infinity, "Limits",
@@ -184,10 +206,12 @@ Command check_command() {
       "finding is printed. A figure that the take does not have (the slide, without ground "
       "contact) exceeds no limit. --map gives the names of feet that the program does not know. In "
       "a file with several people (Ann:LTOE, Bob:LTOE) each person is checked separately.";
-  command.positionals = {{"FILE", "take to check; - is standard input", 1, 1000000, {}}};
+  command.positionals = {
+      {"FILE", "take, or folder with takes, to check; - is standard input", 1, 1000000, {}}};
   command.flags = check_flags();
   command.examples = {
       {"kinemend check walk.c3d", "what is wrong with it"},
+      {"kinemend check raw", "every take in a folder and below it"},
       {"kinemend check *.bvh --max-spikes 0 --max-gap-s 0.2", "as a check in a script"},
       {"kinemend check walk.bvh --gaps-out gaps.csv", "frozen and bridged spans as a side file"},
       {"kinemend check walk.bvh --robot --max-jumps 0", "before a robot learns from it"}};

@@ -4,12 +4,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "config.hpp"
 #include "kinemend/fill.hpp"
 #include "method_options.hpp"
 #include "page_report.hpp"
+#include "take_jobs.hpp"
 #include "takes.hpp"
 
 namespace kinemend::cli {
@@ -21,8 +23,9 @@ Flag configurable(Flag flag) {
   return flag;
 }
 
-Flag list_flag(std::string name, std::string help, std::string details) {
-  Flag flag = text_flag(std::move(name), "A,B,...", "Where", std::move(help), std::move(details));
+Flag exclude_flag() {
+  Flag flag =
+      text_flag("exclude", "A,B,...", "Where", "exceptions to --joints", "Written like --joints.");
   flag.takes = Takes::list;
   return configurable(flag);
 }
@@ -32,15 +35,10 @@ Flag with_group(std::string group, Flag flag) {
   return flag;
 }
 
-Flag markers_flag() {
-  Flag flag = list_flag("markers", "the same as --joints", {});
-  flag.configurable = false;
-  return flag;
-}
-
 Flag method_flag() {
   Flag flag = text_flag("method", "NAME", "Cleaning", "how to clean; kinemend methods lists all",
                         "The options of a method are valid with that method only.");
+  flag.letter = 'm';
   flag.spec.default_value = std::string(default_method);
   flag.spec.choices = method_names();
   flag.has_default = true;
@@ -117,79 +115,70 @@ Flag root_position_flag() {
   return configurable(flag);
 }
 
-// The letters of the flags that have one.
-std::vector<Flag> with_letters(std::vector<Flag> list) {
-  for (Flag& flag : list) {
-    if (flag.spec.name == "verbose") flag.letter = 'v';
-    if (flag.spec.name == "quiet") flag.letter = 'q';
-    if (flag.spec.name == "method") flag.letter = 'm';
-  }
-  return list;
-}
-
 }  // namespace
 
 std::vector<Flag> clean_output_flags() {
-  return with_letters(
-      {output_flag("where to write one take; - is standard output"),
-       file_flag("output_dir", "DIR", "Output", "folder for the results, under the inputs' names",
-                 "Created if it does not exist. Several takes are cleaned in parallel.",
-                 Completion::folder),
-       force_flag(),
-       switch_flag("dry_run", "Output", "clean and report, but write no take",
-                   "A --report is still written."),
-       reports_flag("also write what was done: FILE.json, or FILE.html as a page for a browser",
-                    "JSON lists every span of samples that changed. The page shows one take: the "
-                    "body before and after, curves, and everything that was found and done."),
-       json_flag("print the summary as JSON instead of text"),
-       switch_flag("verbose", "Output", "list every joint or marker that changed"),
-       switch_flag("quiet", "Output", "print warnings and errors only")});
+  return {
+      output_flag("where to write: a file for one take, or a folder; - is standard output"),
+      output_dir_flag(),
+      force_flag(),
+      switch_flag("dry_run", "Output", "clean and report, but write no take",
+                  "A --report is still written."),
+      reports_flag("also write what was done: FILE.json, or FILE.html as a page for a browser",
+                   "JSON lists every span of samples that changed. The page shows one take: the "
+                   "body before and after, curves, and everything that was found and done."),
+      json_flag("print the summary as JSON instead of text"),
+      verbose_flag("list every joint or marker that changed"),
+      quiet_flag()};
 }
 
 std::vector<Flag> cleaning_flags() {
-  std::vector<Flag> list = with_letters(
-      {method_flag(),
-       configurable(number_flag("strength", "", 1, 0, 1, "Cleaning",
-                                "how far to go from the input (0) to the cleaned motion (1)",
-                                "Typical: 0.5 to 1. Any strength above 0 repairs spikes and gaps "
-                                "in full.")),
-       configurable(number_flag("max_change_deg", "deg", 180, 0, 180, "Cleaning",
-                                "largest change of a rotation, for joints",
-                                "Typical: 5 to 30 against jitter alone; spikes need more.")),
-       configurable(number_flag("max_change", "", 0, 0, 1e12, "Cleaning",
-                                "largest change of a marker, in file units; 0: no limit",
-                                "Typical: 5 to 20 mm against jitter alone; spikes need more.")),
-       configurable(source_flag()),
-       noise_flag(),
-       fill_flag(),
-       configurable(
-           switch_flag("fill_all", "Cleaning", "fill every gap, also those that --fill refuses")),
-       feet_flag(),
-       configurable(switch_flag("fix_swaps", "Cleaning", "undo swapped marker labels first",
-                                "As kinemend check finds them. For markers.")),
-       configurable(number_flag("peak_loss_limit", "", 0.1, 0, 1, "Cleaning",
-                                "share of a peak speed that may be lost without a warning",
-                                "Typical: 0.05 for impacts to 0.2 for slow motion.")),
-       configurable(with_group("Cleaning", unlabelled_flag())),
-       preset_flag(),
-       file_flag("config", "FILE", "Cleaning", "settings from a TOML file; they override --preset"),
-       switch_flag("print_config", "Cleaning",
-                   "print the settings as a commented TOML file, then exit"),
-       list_flag("joints", "joints or markers that may change (default all)",
-                 "Names or patterns in which * is any text and ? any character; quote them."),
-       markers_flag(),
-       list_flag("exclude", "exceptions to --joints", "Written like --joints."),
-       root_position_flag(),
-       text_flag(
-           "range", "FIRST:LAST", "Where",
-           "what may change: frames 121:240, as the file numbers them, or seconds 1s:2.5s",
-           "Either end may be omitted. The method sees the whole take; the result is blended in "
-           "over 0.1 s."),
-       file_flag("gaps", "FILE", "Input", "samples to treat as missing: lines name,first,last",
-                 "Frames as the file numbers them. For formats that cannot hold a gap. The name * "
-                 "means all."),
-       seed_flag("seed of the methods that draw random numbers")});
-  append(list, reading_flags("a repair or a warning becomes an error"));
+  std::vector<Flag> list = {
+      method_flag(),
+      configurable(number_flag("strength", "", 1, 0, 1, "Cleaning",
+                               "how far to go from the input (0) to the cleaned motion (1)",
+                               "Typical: 0.5 to 1. Any strength above 0 repairs spikes and gaps "
+                               "in full.")),
+      configurable(number_flag("max_change_deg", "deg", 180, 0, 180, "Cleaning",
+                               "largest change of a rotation, for joints",
+                               "Typical: 5 to 30 against jitter alone; spikes need more.")),
+      configurable(number_flag("max_change", "", 0, 0, 1e12, "Cleaning",
+                               "largest change of a marker, in file units; 0: no limit",
+                               "Typical: 5 to 20 mm against jitter alone; spikes need more.")),
+      configurable(source_flag()),
+      noise_flag(),
+      fill_flag(),
+      configurable(
+          switch_flag("fill_all", "Cleaning", "fill every gap, also those that --fill refuses")),
+      feet_flag(),
+      configurable(switch_flag("fix_swaps", "Cleaning", "undo swapped marker labels first",
+                               "As kinemend check finds them. For markers.")),
+      configurable(number_flag("peak_loss_limit", "", 0.1, 0, 1, "Cleaning",
+                               "share of a peak speed that may be lost without a warning",
+                               "Typical: 0.05 for impacts to 0.2 for slow motion.")),
+      configurable(with_group("Cleaning", unlabelled_flag())),
+      preset_flag(),
+      file_flag("config", "FILE", "Cleaning", "settings from a TOML file; they override --preset"),
+      switch_flag("print_config", "Cleaning",
+                  "print the settings as a commented TOML file, then exit"),
+      exclude_flag(),
+      root_position_flag(),
+      text_flag(
+          "range", "FIRST:LAST", "Where",
+          "what may change: frames 121:240, as the file numbers them, or seconds 1s:2.5s",
+          "Either end may be omitted. The method sees the whole take; the result is blended in "
+          "over 0.1 s."),
+      file_flag("gaps", "FILE", "Input", "samples to treat as missing: lines name,first,last",
+                "Frames as the file numbers them. For formats that cannot hold a gap. The name * "
+                "means all."),
+      seed_flag("seed of the methods that draw random numbers")};
+  std::vector<Flag> joints =
+      joints_flags("Where", "joints or markers that may change (default all)");
+  joints.front().configurable = true;
+  const auto exclude = std::find_if(list.begin(), list.end(),
+                                    [](const Flag& flag) { return flag.spec.name == "exclude"; });
+  list.insert(exclude, joints.begin(), joints.end());
+  append(list, reading_flags());
   for (Flag& flag : list) {
     if (flag.spec.name == "strict") flag.configurable = true;
   }

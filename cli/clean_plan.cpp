@@ -4,8 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <map>
+#include <utility>
 
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/gaps.hpp"
@@ -18,15 +17,6 @@
 namespace kinemend::cli {
 
 namespace {
-
-namespace fs = std::filesystem;
-
-/// Beside the input, or in another folder under the input's name.
-std::string output_of(const std::string& input, const std::string& folder,
-                      const std::string& from) {
-  if (folder.empty()) return output_beside(input, "clean", from);
-  return with_right_ending((fs::path(folder) / fs::path(input).filename()).string(), input, from);
-}
 
 /// Whose form is right; whether the frames are those of a take turns out there.
 std::pair<std::string, std::string> read_gaps(const std::string& path) {
@@ -57,31 +47,6 @@ std::string map_path(const Arguments& arguments, const OptionValues& options) {
   return option == options.end() ? std::string() : std::get<std::string>(option->second);
 }
 
-std::vector<CleanJob> make_jobs(const Arguments& arguments) {
-  const std::vector<std::string>& inputs = arguments.positionals;
-  const std::string output = arguments.text("output");
-  const std::string folder = arguments.text("output_dir");
-  if (!output.empty() && !folder.empty())
-    throw Error(ErrorKind::usage, "clean: --output and --output-dir cannot be combined");
-  if (!output.empty() && inputs.size() > 1)
-    throw Error(ErrorKind::usage, "clean: --output is for one take; use --output-dir for several");
-  std::vector<CleanJob> jobs;
-  std::map<std::string, std::string> taken;
-  for (const std::string& input : inputs) {
-    if (is_stream(input) && !folder.empty())
-      throw Error(ErrorKind::usage, "clean: standard input has no name for --output-dir");
-    std::string target = output;
-    if (target.empty()) target = output_of(input, folder, arguments.text("from"));
-    const auto [known, is_new] = taken.emplace(target, input);
-    if (!is_new) {
-      throw Error(ErrorKind::usage, fmt::format("clean: {} and {} would both be written to {}",
-                                                known->second, input, target));
-    }
-    jobs.push_back({input, target, false});
-  }
-  return jobs;
-}
-
 Settings command_line_settings(const Arguments& arguments) {
   Settings settings;
   for (const Flag& flag : arguments.command->flags) {
@@ -92,11 +57,9 @@ Settings command_line_settings(const Arguments& arguments) {
     if (const auto list = arguments.lists.find(name); list != arguments.lists.end())
       settings.lists[name] = list->second;
   }
-  // --markers says --joints in the words of marker files.
-  if (const auto markers = arguments.lists.find("markers"); markers != arguments.lists.end()) {
-    std::vector<std::string>& names = settings.lists["joints"];
-    names.insert(names.end(), markers->second.begin(), markers->second.end());
-  }
+  // --markers is --joints in the words of marker files.
+  if (std::vector<std::string> names = joints_of(arguments); !names.empty())
+    settings.lists["joints"] = std::move(names);
   return settings;
 }
 
@@ -227,8 +190,8 @@ namespace {
 RunFiles files_of(const CleanPlan& plan, const Arguments& arguments) {
   RunFiles files = files_read(plan, arguments);
   files.reads("--contacts", arguments.text("contacts"));
-  const char* const option = plan.folder.empty() ? "--output" : "--output-dir";
-  for (const CleanJob& job : plan.jobs) {
+  const char* const option = result_option(plan.takes);
+  for (const TakeJob& job : plan.takes.jobs) {
     files.reads("IN", job.input);
     if (plan.dry_run)
       files.would_write(option, job.output);
@@ -243,17 +206,16 @@ RunFiles files_of(const CleanPlan& plan, const Arguments& arguments) {
 
 CleanPlan make_clean_plan(const Arguments& arguments) {
   CleanPlan plan = make_cleaning(arguments);
-  plan.jobs = make_jobs(arguments);
+  plan.takes = plan_take_jobs(arguments, arguments.positionals, {"clean"});
   if (const std::string path = arguments.text("contacts"); !path.empty()) {
-    if (plan.jobs.size() > 1)
+    if (plan.takes.jobs.size() > 1)
       throw Error(ErrorKind::usage, "clean: --contacts is for one take; clean several one by one");
     plan.contacts.emplace(read_file(path), input_name(path));
   }
-  plan.folder = arguments.text("output_dir");
   for (const Flag& flag : arguments.command->flags) {
     if (arguments.given(flag.spec.name)) plan.asked.push_back(flag.spec.name);
   }
-  plan.reports = report_files(arguments, plan.jobs.size());
+  plan.reports = report_files(arguments, plan.takes.jobs.size());
   if (plan.reports.with_page()) plan.page = page_settings(arguments);
   plan.all_takes = arguments.flag("all_takes");
   if (plan.all_takes && (plan.page || arguments.given("take"))) {
@@ -265,7 +227,7 @@ CleanPlan make_clean_plan(const Arguments& arguments) {
   plan.verbose = arguments.flag("verbose");
   plan.quiet = arguments.flag("quiet");
   files_of(plan, arguments).check(plan.json);
-  check_take_ending(arguments.text("output"));
+  if (plan.takes.folder.empty()) check_take_ending(arguments.text("output"));
   return plan;
 }
 

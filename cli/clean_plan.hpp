@@ -15,20 +15,13 @@
 #include "kinemend/io.hpp"
 #include "page_report.hpp"
 #include "run_files.hpp"
+#include "take_jobs.hpp"
 
 namespace kinemend::cli {
 
-/// One take on its way.
-struct CleanJob {
-  std::string input;
-  std::string output;
-  bool may_replace = false;  ///< also without --force
-  std::string row_name{};    ///< of its row in a batch; empty: none is made
-};
-
 /// All that `clean` was asked for, checked.
 struct CleanPlan {
-  std::vector<CleanJob> jobs;
+  TakeJobs takes;
   std::string method;
   OptionValues options;  ///< every option of the method with its value
   std::unique_ptr<Cleaner> cleaner;
@@ -38,9 +31,11 @@ struct CleanPlan {
   /// Of --gaps and --contacts: bytes and name. Names and frames are those of a take.
   std::optional<std::pair<std::string, std::string>> gaps, contacts;
   bool fix_swaps = false;
+  bool cleans = true;  ///< false in a `batch --no-clean`, whose cleaner does nothing
+  /// Of `batch`: the format of the results; null: that of each input.
+  const Format* to = nullptr;
   bool all_takes = false;              ///< of `clean`: every take of a file that holds several
   std::vector<std::string> asked{};    ///< of `clean`: flags that the command line itself gives
-  std::string folder;                  ///< --output-dir; made where it does not exist
   ReportFiles reports{};               ///< of `clean`
   std::optional<PageSettings> page{};  ///< where a page is made of each take
   bool strict = false;

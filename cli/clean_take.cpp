@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
-#include <new>
 #include <utility>
 
 #include "clean_leftovers.hpp"
+#include "fit_format.hpp"
 #include "kinemend/check.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/pictures.hpp"
@@ -26,15 +26,6 @@ namespace kinemend::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-void write_result(const CleanJob& job, const Take& take, const std::string& format,
-                  const CleanPlan& plan) {
-  std::error_code error;
-  if (!plan.folder.empty()) fs::create_directories(plan.folder, error);
-  if (error)
-    throw Error(ErrorKind::cannot_write, fmt::format("{}: {}", plan.folder, error.message()));
-  write_take_output(job.output, take, format, plan.force || job.may_replace);
-}
 
 void refuse_warnings(const std::string& name, const std::vector<std::string>& warnings) {
   if (warnings.empty()) return;
@@ -78,15 +69,6 @@ bool is_unchanged(const CleanOutcome& outcome) {
                      [](const TrackSummary& track) { return track.frames_changed == 0; });
 }
 
-void refuse_folder(const std::string& input) {
-  std::error_code ignored;
-  if (!fs::is_directory(input, ignored)) return;
-  throw Error(ErrorKind::unreadable_input,
-              fmt::format("{0}: this is a directory; to clean a tree of takes use: kinemend batch "
-                          "{0} -o OUT",
-                          input));
-}
-
 // Cleans the take in place.
 CleanOutcome clean_in_place(Take& take, const std::string& input, const CleanPlan& plan,
                             const TakeProgress& progress) {
@@ -99,7 +81,7 @@ CleanOutcome clean_in_place(Take& take, const std::string& input, const CleanPla
   run_isolated([&] { result = clean_take(std::move(take), *plan.cleaner, settings); });
   take = std::move(result.take);
   outcome.report = std::move(result.report);
-  if (is_reported(plan) && is_unchanged(outcome)) {
+  if (plan.cleans && is_reported(plan) && is_unchanged(outcome)) {
     std::vector<Leftover> reasons = reasons_unchanged(take, outcome.report, plan, input);
     std::move(reasons.begin(), reasons.end(), std::back_inserter(outcome.leftovers));
   }
@@ -117,9 +99,9 @@ auto as_stage(const TakeProgress& progress, std::string_view name, const Work& w
 }
 
 // What is left of a take: words. A file may hold several takes.
-void tell(const Report& report, const CleanJob& job, const CleanPlan& plan, Outcome& outcome) {
+void tell(const Report& report, const TakeJob& job, const CleanPlan& plan, Outcome& outcome) {
   TextOptions options;
-  options.details = plan.jobs.size() == 1 || plan.verbose;
+  options.details = plan.takes.jobs.size() == 1 || plan.verbose;
   options.all = plan.verbose;
   options.colours = Colours::of_out().on();
   const auto add = [](std::string& entries, const std::string& entry) {
@@ -139,13 +121,17 @@ std::string picture_of(const Take& take) {
 }
 
 // Cleans what was read, in place, and tells of it. Returns the format to write.
-std::string clean_one(TakeResult& read, const CleanJob& job, const CleanPlan& plan,
+std::string clean_one(TakeResult& read, const TakeJob& job, const CleanPlan& plan,
                       const TakeProgress& progress, Outcome& outcome) {
   const std::string name = input_name(job.input);
   for (const Diagnostic& entry : read.diagnostics.entries())
     outcome.warnings.push_back(diagnostic_line(read.take.source, entry));
-  std::string format = format_for(job.output, read.take.source);
-  check_can_hold(name, read.take, format);
+  const std::string format =
+      plan.to != nullptr ? std::string(plan.to->name) : format_for(job.output, read.take.source);
+  if (plan.to == nullptr)
+    check_can_hold(name, read.take, format);
+  else
+    check_can_fit(read.take, *plan.to);
   const std::vector<std::string> meaningless = meaningless_flags(read.take, plan);
   if (plan.strict) refuse_warnings(name, meaningless);
   for (const std::string& line : meaningless)
@@ -158,13 +144,17 @@ std::string clean_one(TakeResult& read, const CleanJob& job, const CleanPlan& pl
   if (plan.strict) refuse_warnings(name, warnings);
   for (const std::string& warning : warnings)
     outcome.warnings.push_back(fmt::format("{}: {}", name, warning));
-  for (std::string& line : loss_lines(name, read.take, format, plan.strict))
+  std::optional<Take> converted;
+  if (plan.to != nullptr) converted = fitted(read.take, *plan.to, {}, outcome.notes);
+  for (std::string& line :
+       loss_lines(name, converted ? *converted : read.take, format, plan.strict))
     outcome.warnings.push_back(std::move(line));
   Report report{facts_of(read.take, job.input, std::move(read.diagnostics)), std::move(cleaned)};
   if (!plan.dry_run) report.take.output = job.output;
   tell(report, job, plan, outcome);
   if (plan.page) outcome.page = report_page(report, *before, &read.take, *plan.page);
   if (plan.page && !job.row_name.empty()) outcome.picture = picture_of(read.take);
+  if (converted) read.take = std::move(*converted);
   return format;
 }
 
@@ -177,16 +167,16 @@ std::vector<std::string> other_takes(const SourceInfo& source, const CleanPlan& 
   return names;
 }
 
-void check_keeps_format(const CleanJob& job, const SourceInfo& source) {
+void check_keeps_format(const TakeJob& job, const SourceInfo& source) {
   if (format_for(job.output, source) == source.format) return;
   throw Error(ErrorKind::usage, fmt::format("{}: --all-takes writes the format of the input, {}",
                                             input_name(job.input), source.format));
 }
 
-void clean_job(const CleanJob& job, const CleanPlan& plan, const TakeProgress& progress,
+void clean_job(const TakeJob& job, const CleanPlan& plan, const TakeProgress& progress,
                Outcome& outcome) {
-  refuse_folder(job.input);
-  if (!plan.dry_run) check_free(job.output, plan.force || job.may_replace);
+  refuse_folder(job.input, "clean", "");
+  if (!plan.dry_run) check_result(job, plan.takes, plan.force);
   ReadOptions options = plan.reading;
   TakeResult read = as_stage(progress, "reading", [&](const auto& tell) {
     if (progress) options.progress = tell;
@@ -202,31 +192,17 @@ void clean_job(const CleanJob& job, const CleanPlan& plan, const TakeProgress& p
     clean_one(read, job, plan, progress, outcome);
   }
   if (!plan.dry_run)
-    as_stage(progress, "writing", [&](const auto&) { write_result(job, read.take, format, plan); });
+    as_stage(progress, "writing",
+             [&](const auto&) { write_result(job, plan.takes, read.take, format, plan.force); });
 }
 
 }  // namespace
 
-Outcome try_take(const CleanJob& job, const CleanPlan& plan, const TakeProgress& progress) {
-  Outcome outcome;
-  try {
-    clean_job(job, plan, progress, outcome);
-    return outcome;
-  } catch (const Error& error) {
-    outcome.code = static_cast<int>(error.kind());
-    outcome.error = error.what();
-    // What the library says of settings does not name the take.
-    if (error.kind() == ErrorKind::usage && !outcome.error.starts_with(input_name(job.input)))
-      outcome.error = fmt::format("{}: {}", input_name(job.input), error.what());
-  } catch (const std::bad_alloc&) {
-    outcome.code = static_cast<int>(ErrorKind::unreadable_input);
-    outcome.error = input_name(job.input) + ": out of memory";
-  } catch (const std::exception& error) {
-    outcome.code = static_cast<int>(ErrorKind::unreadable_input);
-    outcome.error = fmt::format("{}: internal error: {}", input_name(job.input), error.what());
-  }
-  outcome.json = outcome.report = failure_json(job.input, outcome.error, outcome.code);
-  if (!job.row_name.empty())
+Outcome try_take(const TakeJob& job, const CleanPlan& plan, const TakeProgress& progress) {
+  // The library's errors about settings do not name the take.
+  Outcome outcome =
+      outcome_of(job.input, true, [&](Outcome& result) { clean_job(job, plan, progress, result); });
+  if (outcome.code != 0 && !job.row_name.empty())
     outcome.row =
         failed_row(job.row_name, job.input, outcome.error, outcome.code, outcome.warnings);
   return outcome;

@@ -91,6 +91,18 @@ std::string value_name(const Flag& flag) {
   return "TEXT";
 }
 
+namespace {
+
+/// As short as it is exact; 0.667 for two thirds, whose digits have no end.
+std::string shown_default(const OptionValue& value) {
+  constexpr std::size_t most_characters = 8;
+  std::string text = kinemend::to_string(value);
+  const double* number = std::get_if<double>(&value);
+  return number != nullptr && text.size() > most_characters ? fmt::format("{:.3g}", *number) : text;
+}
+
+}  // namespace
+
 std::string range_text(const OptionSpec& spec, bool has_default) {
   const bool is_number = std::holds_alternative<double>(spec.default_value) ||
                          std::holds_alternative<std::int64_t>(spec.default_value);
@@ -106,7 +118,7 @@ std::string range_text(const OptionSpec& spec, bool has_default) {
       text = "in " + spec.unit;
     }
   }
-  const std::string value = kinemend::to_string(spec.default_value);
+  const std::string value = shown_default(spec.default_value);
   if (!has_default || value.empty()) return text;
   return fmt::format("{}{}default {}", text, text.empty() ? "" : "; ", value);
 }

@@ -34,7 +34,9 @@ struct Flag {
   std::string details;     ///< more sentences for the long help
   Completion completion = Completion::none;
   bool configurable = false;  ///< allowed in a configuration file
-  bool has_default = true;    ///< false: no default is shown and none applies
+  /// Earlier spellings, which scripts may use; the parser accepts them and nothing else shows them.
+  std::vector<std::string> older_names{};
+  bool has_default = true;  ///< false: no default is shown and none applies
   /// Of the choices those that help and shells list; empty: all. The command itself refuses the
   /// others, and says why.
   std::vector<std::string> offered;

@@ -25,7 +25,9 @@ namespace {
 std::string parser_names(const Flag& flag) {
   const std::string name = dashed(flag.spec.name);
   if (is_on_by_default(flag)) return fmt::format("--{0},!--no-{0}", name);
-  return flag.letter ? fmt::format("-{},--{}", flag.letter, name) : fmt::format("--{}", name);
+  std::string names = flag.letter ? fmt::format("-{},--{}", flag.letter, name) : "--" + name;
+  for (const std::string& older : flag.older_names) names += ",--" + dashed(older);
+  return names;
 }
 
 bool is_switch(const OptionSpec& spec) { return std::holds_alternative<bool>(spec.default_value); }
@@ -73,22 +75,28 @@ bool is_stray_name(const Command& command, const std::string& word) {
 }
 
 /// `--joints A B`: without this check B would be reported as a missing input.
+void refuse_names_beside(const Command& command, const std::vector<std::string>& words,
+                         const std::string& name) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool is_joined = words[i].starts_with(name + "=");
+    const std::size_t value = is_joined ? i : i + 1;
+    const std::size_t next = value + 1;
+    if ((words[i] != name && !is_joined) || next >= words.size() || is_option(words[next]))
+      continue;
+    if (!is_stray_name(command, words[next])) continue;
+    const std::string first = is_joined ? words[i].substr(name.size() + 1) : words[value];
+    refuse(command, fmt::format("{1} after {0} is neither a file nor part of the list; separate "
+                                "names by commas, as in {0} {2},{1}",
+                                name, words[next], first));
+  }
+}
+
 void refuse_names_beside_lists(const Command& command, const std::vector<std::string>& words) {
   for (const Flag& flag : command.flags) {
     if (flag.takes != Takes::list) continue;
-    const std::string name = "--" + dashed(flag.spec.name);
-    for (std::size_t i = 0; i < words.size(); ++i) {
-      const bool is_joined = words[i].starts_with(name + "=");
-      const std::size_t value = is_joined ? i : i + 1;
-      const std::size_t next = value + 1;
-      if ((words[i] != name && !is_joined) || next >= words.size() || is_option(words[next]))
-        continue;
-      if (!is_stray_name(command, words[next])) continue;
-      const std::string first = is_joined ? words[i].substr(name.size() + 1) : words[value];
-      refuse(command, fmt::format("{1} after {0} is neither a file nor part of the list; separate "
-                                  "names by commas, as in {0} {2},{1}",
-                                  name, words[next], first));
-    }
+    refuse_names_beside(command, words, "--" + dashed(flag.spec.name));
+    for (const std::string& older : flag.older_names)
+      refuse_names_beside(command, words, "--" + dashed(older));
   }
 }
 

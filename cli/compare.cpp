@@ -165,12 +165,18 @@ int run_compare(const Arguments& arguments) {
       reports.with_page() ? comparison_page(both, page_settings(arguments)) : std::string(), force);
   if (json) {
     write_out(document);
-  } else if (!reports.on_out()) {
+  } else if (!reports.on_out() && !arguments.flag("quiet")) {
     TextOptions options;
-    options.all = arguments.flag("per_joint");
+    options.all = arguments.flag("verbose");
     write_out(to_text(report, options));
   }
   return say_passed_limits(report, comparison_figures(), arguments);
+}
+
+Flag list_every_flag() {
+  Flag flag = verbose_flag("also list every joint or marker");
+  flag.older_names = {"per_joint"};
+  return flag;
 }
 
 Flag number_without_default(std::string name, std::string unit, double minimum, double maximum,
@@ -198,7 +204,8 @@ std::vector<Flag> compare_flags() {
   fit_to.completion = Completion::file;
   std::vector<Flag> list = {
       json_flag("print JSON instead of text"),
-      switch_flag("per_joint", "Output", "also list every joint or marker"),
+      list_every_flag(),
+      quiet_flag("Limits that are exceeded are errors."),
       fit,
       fit_to,
       whole_flag("lag", 0, -1e6, 1e6, "Markers", "frames by which OTHER is behind REFERENCE",
@@ -214,7 +221,7 @@ std::vector<Flag> compare_flags() {
       number_without_default("psnr_peak", "rad", 1e-9, 1e6, "Figures",
                              "peak of psnr_db (default pi / 2)"),
       up};
-  append(list, reading_flags("a repair becomes an error"));
+  append(list, reading_flags());
   for (const FigureRule& entry : comparison_figures()) {
     Flag limit =
         number_without_default(std::string(entry.limit), std::string(entry.unit),
@@ -252,7 +259,7 @@ Command compare_command() {
   command.examples = {{"kinemend compare truth.bvh cleaned.bvh", "all figures"},
                       {"kinemend compare truth.bvh cleaned.bvh --max-geodesic-rms-deg 1.2",
                        "as a check in a script"},
-                      {"kinemend compare optical.c3d video.trc --fit gain-offset --per-joint",
+                      {"kinemend compare optical.c3d video.trc --fit gain-offset --verbose",
                        "one motion seen by two systems: error by frequency, velocity, lag"}};
   command.run = run_compare;
   return command;

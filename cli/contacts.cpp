@@ -50,6 +50,7 @@ int run_contacts(const Arguments& arguments) {
   for (const std::string& warning : report.warnings)
     say_warning(fmt::format("{}: {}", input_name(input), warning));
   const std::string text = contacts_text(clip, report);
+  if (!output.empty()) write_output(output, text, force);
   if (json) {
     Report about{take_facts(clip), report};
     about.take.input = input;
@@ -59,7 +60,6 @@ int run_contacts(const Arguments& arguments) {
   } else if (output.empty()) {
     write_out(text);
   }
-  if (!output.empty()) write_output(output, text, force);
   return 0;
 }
 
@@ -77,7 +77,7 @@ Command contacts_command() {
   command.positionals = {{"IN", "take of joints; - is standard input", 1, 1, {}}};
   command.flags = {output_flag("where to write; default: standard output"), force_flag(),
                    json_flag("print the contacts as JSON instead of text"), map_flag()};
-  append(command.flags, reading_flags("a repair becomes an error"));
+  append(command.flags, reading_flags());
   command.examples = {
       {"kinemend contacts dance.bvh -o dance.contacts", "to look at and edit"},
       {"kinemend contacts rig.bvh --map names.csv -o rig.contacts",

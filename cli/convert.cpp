@@ -3,19 +3,21 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "clean_flags.hpp"
 #include "commands.hpp"
+#include "fit_format.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/experimental/normalise.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/io.hpp"
 #include "run_files.hpp"
+#include "take_jobs.hpp"
 #include "takes.hpp"
-#include "terminal.hpp"
 
 namespace kinemend::cli {
 
@@ -23,30 +25,63 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const Format& format_named(std::string_view name) {
-  for (const Format& format : formats()) {
-    if (format.name == name) return format;
-  }
-  throw Error(ErrorKind::usage, fmt::format("unknown format {}", name));
+/// The inputs, and where results go.
+struct Conversion {
+  TakeJobs takes;
+  const Format* to = nullptr;  ///< --to
+  bool force = false;
+};
+
+using Notes = std::vector<std::string>;
+
+/// `convert IN OUT`: two words name an input and an output, unless an option says where results go.
+/// With --to a file that exists and has the ending of another format is an input, as in
+/// `convert *.c3d --to trc`.
+bool is_in_and_out(const Arguments& arguments) {
+  const std::vector<std::string>& words = arguments.positionals;
+  if (words.size() != 2 || arguments.given("output_dir") || arguments.given("output")) return false;
+  if (!arguments.given("to")) return true;
+  std::error_code ignored;
+  const Format* const named = format_of_path(words[1]);
+  return !fs::is_regular_file(words[1], ignored) || named == nullptr ||
+         named->name == arguments.text("to");
 }
 
-/// OUT, or --output.
-std::string converted_output_of(const Arguments& arguments) {
-  std::string named = arguments.text("output");
-  if (arguments.positionals.size() == 1) {
-    if (!named.empty()) return named;
-    throw Error(ErrorKind::usage, "convert: OUT is missing (see kinemend convert -h)");
+void check_has_output(const Arguments& arguments) {
+  if (arguments.given("output_dir") || arguments.given("output") || arguments.given("to")) return;
+  const std::size_t inputs = arguments.positionals.size();
+  throw Error(ErrorKind::usage,
+              inputs == 1 ? "convert: OUT is missing (see kinemend convert -h)"
+                          : fmt::format("convert: {} takes need --output-dir DIR, or --to FORMAT, "
+                                        "which writes them beside the inputs",
+                                        inputs));
+}
+
+Conversion conversion_of(const Arguments& arguments) {
+  Conversion conversion;
+  conversion.force = arguments.flag("force");
+  if (const std::string to = arguments.text("to"); !to.empty()) conversion.to = &known_format(to);
+  if (is_in_and_out(arguments)) {
+    conversion.takes.jobs.push_back({arguments.positionals[0], arguments.positionals[1]});
+    return conversion;
   }
-  if (named.empty()) return arguments.positionals[1];
-  throw Error(ErrorKind::usage, fmt::format("convert: {} and --output {} are two outputs; give one",
-                                            arguments.positionals[1], named));
+  const std::vector<std::string>& words = arguments.positionals;
+  std::error_code ignored;
+  if (words.size() == 2 && arguments.given("output") && !fs::exists(words[1], ignored)) {
+    throw Error(ErrorKind::usage, fmt::format("convert: {} and --output {} are two outputs; give "
+                                              "one",
+                                              words[1], arguments.text("output")));
+  }
+  check_has_output(arguments);
+  conversion.takes = plan_take_jobs(arguments, words, {"", conversion.to});
+  return conversion;
 }
 
 /// --to, else by the ending of the output, else the format of the input.
-const Format& output_format(const Arguments& arguments, const std::string& output,
+const Format& output_format(const Conversion& conversion, const std::string& output,
                             const Take& take) {
-  if (const std::string format = arguments.text("to"); !format.empty()) return format_named(format);
-  return format_named(format_for(output, take.source));
+  if (conversion.to != nullptr) return *conversion.to;
+  return known_format(format_for(output, take.source));
 }
 
 Axis axis_named(const std::string& name) {
@@ -57,34 +92,35 @@ std::string_view axis_name(Axis axis) {
   return axis == Axis::x ? "x" : axis == Axis::y ? "y" : "z";
 }
 
-Take resampled(const Take& take, double frame_rate_hz) {
+Take resampled(const Take& take, double frame_rate_hz, Notes& notes) {
   if (const std::string contents = pointless_text(take); !contents.empty())
-    say(fmt::format("{}: {}: --fps has no effect", take.source.name, contents));
+    notes.push_back(fmt::format("{}: {}: --fps has no effect", take.source.name, contents));
   return resample(take, frame_rate_hz);
 }
 
 /// The old vertical axis is that of --from-up, else it is found from the motion and said.
-Take turned(const Take& take, const Arguments& arguments) {
+Take turned(const Take& take, const Arguments& arguments, Notes& notes) {
   const Axis to = axis_named(arguments.text("up"));
   const std::string stated = arguments.text("from_up");
   const Axis from = stated.empty() ? guess_up_axis(take) : axis_named(stated);
   if (stated.empty()) {
-    say(fmt::format("{}: {} is taken to be the vertical axis (set it with --from-up)",
-                    take.source.name, axis_name(from)));
+    notes.push_back(fmt::format("{}: {} is taken to be the vertical axis (set it with --from-up)",
+                                take.source.name, axis_name(from)));
   }
   return turn_axes(take, from, to);
 }
 
-void say_normalised(const Take& take, const Normalised& done, const Arguments& arguments) {
+void note_normalised(const Take& take, const Normalised& done, const Arguments& arguments,
+                     Notes& notes) {
   const std::string& name = take.source.name;
   const std::string unit = take.has_joints() ? unit_name(take.metres_per_unit) : take.unit;
   const std::string_view shown = unit.empty() ? "units" : std::string_view(unit);
   if (arguments.flag("floor_at_zero")) {
-    say(fmt::format("{}: moved by {} {} along {}: the feet stand at 0", name, figure(done.raised),
-                    shown, axis_name(done.up)));
+    notes.push_back(fmt::format("{}: moved by {} {} along {}: the feet stand at 0", name,
+                                figure(done.raised), shown, axis_name(done.up)));
   }
   if (arguments.flag("face_forward")) {
-    say(fmt::format(
+    notes.push_back(fmt::format(
         "{}: turned by {} deg about {}, then moved by {}, {}, {} {}: the first frame "
         "is at the origin and faces {}",
         name, figure(done.turned_deg), axis_name(done.up), figure(done.moved.x),
@@ -92,68 +128,14 @@ void say_normalised(const Take& take, const Normalised& done, const Arguments& a
   }
 }
 
-void normalise_take(Take& take, const Arguments& arguments) {
+void normalise_take(Take& take, const Arguments& arguments, Notes& notes) {
   NormaliseSettings settings;
   settings.floor_at_zero = arguments.flag("floor_at_zero");
   settings.face_forward = arguments.flag("face_forward");
   if (!settings.floor_at_zero && !settings.face_forward) return;
   settings.names = names_of_map(arguments.text("map"));
   if (arguments.given("up")) settings.up = axis_named(arguments.text("up"));
-  say_normalised(take, normalise(take, settings), arguments);
-}
-
-/// 0 where nothing tells. A guess is said, so ask once a take.
-double metres_per_unit_of(const Take& take) {
-  const double metres = likely_metres_per_unit(take);
-  const bool is_guess = take.has_joints() && !(take.metres_per_unit > 0) && metres > 0;
-  if (is_guess) {
-    say(fmt::format("{}: the unit is taken to be {}: the skeleton then has the size of a person",
-                    take.source.name, guess_length_unit(take.skeleton)->name));
-  }
-  return metres;
-}
-
-/// `metres`: in the unit of the take; 0 where it is unknown.
-Take in_unit(const Take& take, const std::string& unit, double metres) {
-  if (metres == 0) {
-    throw Error(ErrorKind::usage, fmt::format("{}: the unit of its lengths is unknown, so they "
-                                              "cannot be converted to {}",
-                                              take.source.name, unit));
-  }
-  const double factor = metres / metres_per_unit(unit);
-  if (!take.has_joints()) return scale_lengths(take, factor, unit);
-  Take scaled = scale_lengths(take, factor);
-  scaled.metres_per_unit = metres_per_unit(unit);
-  return scaled;
-}
-
-/// The joint positions as markers, in millimetres where the unit is known.
-Take as_markers(const Take& take, const Arguments& arguments) {
-  const bool with_end_sites = arguments.flag("end_sites");
-  const double metres = arguments.given("unit") ? 0 : metres_per_unit_of(take);
-  if (metres == 0) return joint_markers(take, with_end_sites);
-  return joint_markers(in_unit(take, "mm", metres), with_end_sites);
-}
-
-/// The take in the form that the format can hold.
-Take fitted(Take take, const Format& format, const Arguments& arguments) {
-  const bool joints = take.has_joints();
-  if (joints && (format.write == nullptr || arguments.flag("positions"))) {
-    return as_markers(take, arguments);
-  }
-  if (const std::string contents = pointless_text(take);
-      !contents.empty() && format.name != take.source.format) {
-    throw Error(ErrorKind::usage, fmt::format("{}: {}; {} files hold markers only",
-                                              take.source.name, contents, format.name));
-  }
-  check_can_hold(take.source.name, take, format.name);
-  // BVH has no rest rotations.
-  if (joints && format.name == "bvh") {
-    for (const Quat rest : take.skeleton.rest_rotations) {
-      if (!(rest == Quat{})) return without_rest_rotations(take);
-    }
-  }
-  return take;
+  note_normalised(take, normalise(take, settings), arguments, notes);
 }
 
 /// Treats angles, forces, moments and powers as markers.
@@ -166,38 +148,59 @@ void check_has_place(const Take& take, const Format& format, const std::string& 
               "convert: AMC needs a skeleton file beside it; name an output file");
 }
 
-int run_convert(const Arguments& arguments) {
-  const std::string input = arguments.positionals[0];
-  const std::string output = converted_output_of(arguments);
-  const bool force = arguments.flag("force");
-  RunFiles()
-      .reads("IN", input)
-      .reads("--asf", arguments.text("asf"))
-      .reads("--map", arguments.text("map"))
-      .writes("OUT", output, input)
-      .check();
-  if (!arguments.given("to")) check_take_ending(output);
-  check_free(output, force);
-  TakeResult read = read_take(fs::path(input), read_options(arguments));
-  warn_of_repairs(read.take.source, read.diagnostics);
-  Take take = std::move(read.take);
-  const Format& format = output_format(arguments, output, take);
+/// The take as the options ask for it, in a form that the format can hold.
+Take converted(Take take, const Format& format, const Arguments& arguments, Notes& notes) {
   if (arguments.flag("plain")) drop_layout(take.source);
   if (arguments.flag("all_points")) take_all_points(take);
-  if (arguments.given("fps")) take = resampled(take, arguments.number("fps"));
-  if (arguments.given("up")) take = turned(take, arguments);
+  if (arguments.given("fps")) take = resampled(take, arguments.number("fps"), notes);
+  if (arguments.given("up")) take = turned(take, arguments, notes);
   if (arguments.given("unit")) {
-    const double metres = metres_per_unit_of(take);
+    const double metres = metres_per_unit_of(take, notes);
     take = in_unit(take, arguments.text("unit"), metres);
   }
-  normalise_take(take, arguments);
-  check_has_place(take, format, output);
-  take = fitted(std::move(take), format, arguments);
-  for (const std::string& line :
-       loss_lines(input_name(input), take, format.name, arguments.flag("strict")))
-    say_warning(line);
-  write_take_output(output, take, std::string(format.name), force);
-  return 0;
+  normalise_take(take, arguments, notes);
+  FitSettings settings;
+  settings.positions = arguments.flag("positions");
+  settings.end_sites = arguments.flag("end_sites");
+  settings.keeps_unit = arguments.given("unit");
+  return fitted(std::move(take), format, settings, notes);
+}
+
+void convert_job(const TakeJob& job, const Conversion& conversion, const Arguments& arguments,
+                 Outcome& outcome) {
+  refuse_folder(job.input, "convert", " --no-clean --to FORMAT");
+  check_result(job, conversion.takes, conversion.force);
+  TakeResult read = read_take(fs::path(job.input), read_options(arguments));
+  for (const Diagnostic& entry : read.diagnostics.entries())
+    outcome.warnings.push_back(diagnostic_line(read.take.source, entry));
+  const Format& format = output_format(conversion, job.output, read.take);
+  check_has_place(read.take, format, job.output);
+  const Take take = converted(std::move(read.take), format, arguments, outcome.notes);
+  for (std::string& line :
+       loss_lines(input_name(job.input), take, format.name, arguments.flag("strict")))
+    outcome.warnings.push_back(std::move(line));
+  write_result(job, conversion.takes, take, std::string(format.name), conversion.force);
+}
+
+int run_convert(const Arguments& arguments) {
+  const Conversion conversion = conversion_of(arguments);
+  const TakeJobs& takes = conversion.takes;
+  RunFiles files;
+  files.reads("--asf", arguments.text("asf")).reads("--map", arguments.text("map"));
+  const char* const option = is_in_and_out(arguments) ? "OUT" : result_option(takes);
+  for (const TakeJob& job : takes.jobs)
+    files.reads("IN", job.input).writes(option, job.output, job.input);
+  files.check();
+  if (conversion.to == nullptr && takes.folder.empty())
+    check_take_ending(takes.jobs.front().output);
+  const ReportFiles no_reports;
+  TakeRun run{"convert", no_reports};
+  run.quiet = arguments.flag("quiet");
+  run.threads = static_cast<int>(arguments.whole("jobs"));
+  return run_take_jobs(takes, run, [&](const TakeJob& job, const TakeProgress&) {
+    return outcome_of(job.input, takes.jobs.size() > 1,
+                      [&](Outcome& outcome) { convert_job(job, conversion, arguments, outcome); });
+  });
 }
 
 std::vector<Flag> change_flags() {
@@ -229,10 +232,7 @@ std::vector<Flag> change_flags() {
 
 Command convert_command() {
   Flag to = text_flag("to", "", "Output", "format to write, whatever the ending of the output");
-  for (const Format& format : formats()) {
-    if (format.write != nullptr || format.write_markers != nullptr)
-      to.spec.choices.emplace_back(format.name);
-  }
+  to.spec.choices = written_formats();
   Command command;
   command.name = "convert";
   command.summary = "write a take in another format, or rewrite it in its own";
@@ -247,11 +247,20 @@ Command convert_command() {
       "axes and units change only on request. Analog channels, force plates and events are kept "
       "where the format can hold them; a warning names each that is lost, which --strict makes an "
       "error.\n\n"
+      "Several takes need --output-dir, or --to, which writes walk.trc beside walk.c3d. Takes that "
+      "an earlier run wrote there are skipped. If one take cannot be read, the others are still "
+      "converted; the exit code is the highest of all.\n\n"
       "In a format of markers (c3d, trc, tsv), joints become markers at their positions. The "
       "skeleton of an AMC file is written beside it, as an ASF file of the same name.";
   command.positionals = {{"IN", "take to read; - is standard input", 1, 1, {}},
-                         {"OUT", "file to write; - is standard output", 0, 1, {}}};
-  command.flags = {output_flag("the same as OUT"), to};
+                         {"OUT",
+                          "file to write; - is standard output; or more takes, with --to or "
+                          "--output-dir",
+                          0,
+                          1000000,
+                          {}}};
+  command.flags = {output_flag("where to write: a file for one take, or a folder"),
+                   output_dir_flag(), to};
   append(command.flags, change_flags());
   command.flags.push_back(switch_flag("positions", "Change",
                                       "write the positions of joints as markers",
@@ -266,13 +275,16 @@ Command convert_command() {
       switch_flag("plain", "Output", "write in the program's own layout, not that of the source",
                   "The content is kept: a C3D file keeps analog channels and parameters."));
   command.flags.push_back(force_flag());
-  append(command.flags, reading_flags("make every repair, and everything that is lost, an error"));
+  command.flags.push_back(quiet_flag());
+  command.flags.push_back(jobs_flag());
+  append(command.flags, reading_flags("What the format cannot hold counts, too."));
   command.examples = {
       {"kinemend convert odd.bvh plain.bvh --plain",
        "a file that other programs cannot read, in the plainest form"},
       {"kinemend convert 35_01.amc 35_01.bvh", "the skeleton is 35.asf in the same folder"},
       {"kinemend convert walk.c3d walk.trc --up y --unit m", "for OpenSim"},
       {"kinemend convert walk.bvh walk.glb", "for viewers and game engines"},
+      {"kinemend convert *.c3d --to trc --output-dir trc", "many takes in parallel"},
       {"kinemend convert walk.bvh home.bvh --floor-at-zero --face-forward",
        "feet at height 0, start at the origin"}};
   command.run = run_convert;

@@ -153,6 +153,8 @@ int run_corrupt(const Arguments& arguments) {
                          {"output", output},
                          {"seed", arguments.whole("seed")},
                          {"damages", std::move(list)}}));
+  } else if (arguments.flag("quiet")) {
+    return 0;
   } else if (output == "-") {
     write_err(text_of_damages(reports));
   } else {
@@ -175,13 +177,16 @@ Command corrupt_command() {
       "seed gives the same bytes on every machine. A calibration pose at the start is not "
       "changed.";
   command.positionals = {{"IN", "take to read; - is standard input", 1, 1, {}}};
-  command.flags = {output_flag("where to write; - is standard output"), force_flag(),
-                   json_flag("print the summary as JSON instead of text"), damage,
+  command.flags = {output_flag("where to write; - is standard output"),
+                   force_flag(),
+                   json_flag("print the summary as JSON instead of text"),
+                   quiet_flag(),
+                   damage,
                    seed_flag("seed of the random number generator")};
-  append(command.flags, reading_flags("treat repairs of the input as errors"));
+  append(command.flags, reading_flags("What the format cannot hold counts, too."));
   for (const Damage& entry : damages()) {
     command.groups.push_back({entry.name, entry.summary, entry.paper, entry.options});
-    command.flags[3].spec.choices.push_back(entry.name);
+    command.flags[4].spec.choices.push_back(entry.name);
   }
   command.group_heading = "Options of --damage %";
   command.examples = {

@@ -6,11 +6,14 @@
 
 #include <vector>
 
+#include "clean_flags.hpp"
 #include "commands.hpp"
 #include "fill_take.hpp"
 #include "kinemend/experimental/text.hpp"
+#include "kinemend/experimental/threads.hpp"
 #include "kinemend/report.hpp"
 #include "page_report.hpp"
+#include "take_jobs.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -18,52 +21,59 @@ namespace kinemend::cli {
 
 namespace {
 
-void say_filling(const Report& report, const FillRun& run, const std::string& document) {
-  if (run.json) return write_out(document);
-  if (run.quiet) return;
-  const bool out_is_taken =
-      (run.output == "-" && !run.dry_run) || run.reports.on_out() || run.plan_out_path == "-";
-  TextOptions options;
-  options.all = run.verbose;
-  options.colours = Colours::of_out().on();
-  const std::string text = to_text(report, options);
-  out_is_taken ? write_err(text) : write_out(text);
-}
-
-int run_fill(const Arguments& arguments) {
-  const FillRun run = fill_run_of(arguments);
-  const std::string name = input_name(run.input);
+void fill_job(const TakeJob& job, const FillRun& run, const Arguments& arguments,
+              Outcome& outcome) {
+  refuse_folder(job.input, "fill", " --no-clean --fill auto");
+  if (!run.dry_run) check_result(job, run.takes, run.force);
+  const std::string name = input_name(job.input);
   const bool with_page = run.reports.with_page();
-  FilledTake filled = fill_take(run, with_page);
-  for (const std::string& warning : filled.warnings) say_warning(warning);
-
+  FilledTake filled;
+  run_isolated([&] { filled = fill_take(run, job, with_page); });
+  outcome.warnings = filled.warnings;
   const std::size_t refused = filled.refused();
   const bool failed = run.strict && refused > 0;
-  const std::string format = format_for(run.output, filled.after.source);
+  const std::string format = format_for(job.output, filled.after.source);
   if (!failed) {
-    for (const std::string& line : loss_lines(name, filled.after, format, run.strict))
-      say_warning(line);
+    for (std::string& line : loss_lines(name, filled.after, format, run.strict))
+      outcome.warnings.push_back(std::move(line));
   }
   if (!run.dry_run && !failed) {
-    filled.report.take.output = run.output;
-    write_take_output(run.output, filled.after, format, run.force);
+    filled.report.take.output = job.output;
+    write_result(job, run.takes, filled.after, format, run.force);
   }
   if (!run.plan_out_path.empty() && !failed)
     write_output(run.plan_out_path, filled.plan_text, run.force);
-  const std::vector<std::string> takes = {to_json(filled.report)};
-  const std::string document = report_document("fill", takes);
-  if (run.reports.on_out() || !failed) {
-    run.reports.write(document,
-                      with_page ? report_page(filled.report, filled.before, &filled.after,
-                                              page_settings(arguments))
-                                : std::string(),
-                      run.force);
-  }
-  say_filling(filled.report, run, document);
-  if (!failed) return 0;
-  say_error(fmt::format("{}: {} refused, which --strict does not allow; nothing is written", name,
-                        counted(refused, "gap")));
-  return static_cast<int>(ErrorKind::quality_limit);
+  TextOptions options;
+  options.details = run.takes.jobs.size() == 1 || run.verbose;
+  options.all = run.verbose;
+  options.colours = Colours::of_out().on();
+  outcome.text = to_text(filled.report, options);
+  // Of several takes the first line of each is shown, as clean does.
+  if (!options.details) outcome.text.resize(outcome.text.find('\n') + 1);
+  if (run.json || run.reports.with_json()) outcome.json = outcome.report = to_json(filled.report);
+  if (with_page)
+    outcome.page =
+        report_page(filled.report, filled.before, &filled.after, page_settings(arguments));
+  if (!failed) return;
+  outcome.code = static_cast<int>(ErrorKind::quality_limit);
+  outcome.error = fmt::format("{}: {} refused, which --strict does not allow; nothing is written",
+                              name, counted(refused, "gap"));
+}
+
+int run_fill(const Arguments& arguments) {
+  const FillRun filling = fill_run_of(arguments);
+  const TakeJobs& takes = filling.takes;
+  TakeRun run{"fill", filling.reports};
+  run.out_is_taken = (takes.jobs.front().output == "-" && !filling.dry_run) ||
+                     filling.reports.on_out() || filling.plan_out_path == "-";
+  run.quiet = filling.quiet;
+  run.json = filling.json;
+  run.force = filling.force;
+  run.threads = filling.threads;
+  return run_take_jobs(takes, run, [&](const TakeJob& job, const TakeProgress&) {
+    return outcome_of(job.input, takes.jobs.size() > 1,
+                      [&](Outcome& outcome) { fill_job(job, filling, arguments, outcome); });
+  });
 }
 
 Flag fill_method_flag() {
@@ -92,15 +102,9 @@ Flag fill_file_flag(std::string name, std::string group, std::string help, std::
   return flag;
 }
 
-Flag lettered(char letter, Flag flag) {
-  flag.letter = letter;
-  return flag;
-}
-
 std::vector<Flag> fill_flags() {
-  Flag names = text_flag("names", "NAME,...", "Work", "joints or markers to fill (default all)",
-                         "Names and patterns (* any text, ? any character); quote them.");
-  names.takes = Takes::list;
+  std::vector<Flag> joints =
+      joints_flags("Work", "joints or markers to fill (default all)", "names");
   Flag longest = number_flag("longest_gap", "s", 0, 0, 100000, "Work",
                              "longest gap to fill, instead of the method's own rule");
   longest.has_default = false;
@@ -115,16 +119,20 @@ std::vector<Flag> fill_flags() {
                                    "the same for rotations of joints");
   max_error_deg.has_default = false;
   std::vector<Flag> flags = {
-      output_flag("where to write (default walk.filled.bvh beside walk.bvh); - is standard output"),
+      output_flag(
+          "where to write: a file for one take, or a folder (default walk.filled.bvh beside "
+          "walk.bvh); - is standard output"),
+      output_dir_flag(),
       force_flag(),
       switch_flag("dry_run", "Output", "report, but write no take", "A --report is still written."),
       reports_flag("also write what was done: FILE.json, or FILE.html as a page for a browser",
                    "The page shows the motion before and after."),
       json_flag("print what was done as JSON"),
-      lettered('v', switch_flag("verbose", "Output", "list every gap")),
-      lettered('q', switch_flag("quiet", "Output", "print warnings and errors only")),
+      verbose_flag("list every gap"),
+      quiet_flag(),
       fill_method_flag(),
-      names,
+      std::move(joints[0]),
+      std::move(joints[1]),
       text_flag(
           "range", "FIRST:LAST", "Work",
           "fill gaps within frames 121:240, as the file numbers them, or seconds 1s:2.5s",
@@ -153,7 +161,8 @@ std::vector<Flag> fill_flags() {
                      "learned: another network than the one that is included."),
       fill_file_flag("map", "Work", "names in the take for those of --model",
                      "Lines NAME IN THE MODEL,NAME IN THE TAKE.")};
-  append(flags, reading_flags("a repair or a refused gap becomes an error"));
+  flags.push_back(jobs_flag());
+  append(flags, reading_flags("A refused gap counts, too."));
   return flags;
 }
 
@@ -162,7 +171,7 @@ std::vector<Flag> fill_flags() {
 Command fill_command() {
   Command command;
   command.name = "fill";
-  command.summary = "fill the gaps of a take from the take itself";
+  command.summary = "fill the gaps of takes, each from the take itself";
   command.description =
       "Fills missing markers, and rotations and positions of joints, without a trained model "
       "(except --method recurrent and learned). A filled span joins its neighbours in value and "
@@ -173,8 +182,10 @@ Command fill_command() {
       "and stays missing (BVH and AMC cannot hold gaps: they keep the values of the file), unless "
       "--fill-all is given. --max-error-mm and --max-error-deg also refuse fills whose expected "
       "error is too large. The report lists the longest filled gaps and the refused ones; "
-      "--verbose lists all.";
-  command.positionals = {{"TAKE", "take to read; - is standard input", 1, 1, {}}};
+      "--verbose lists all.\n\n"
+      "Of several takes, those named *.filled.* are results of an earlier run and are skipped. If "
+      "one take cannot be read, the others are still filled; the exit code is the highest of all.";
+  command.positionals = {{"TAKE", "take to read; - is standard input", 1, 1000000, {}}};
   command.flags = fill_flags();
   for (const FillMethod& method : fill_methods()) {
     const std::string_view of = method.joints && method.markers ? "joints, markers"
@@ -191,9 +202,10 @@ Command fill_command() {
       {"kinemend fill walk.c3d", "each gap by the best method, into walk.filled.c3d"},
       {"kinemend fill walk.c3d --dry-run --plan-out plan.csv",
        "a plan with one row for each gap, without filling"},
+      {"kinemend fill *.c3d --output-dir filled", "many takes in parallel"},
       {"kinemend fill walk.c3d --plan plan.csv", "fill by the edited plan"},
       {"kinemend fill dance.bvh --gaps gaps.csv -o filled.bvh", "gaps listed in a side file"},
-      {"kinemend fill walk.c3d -o filled.c3d --method pattern --donor RTHI --names RKNE",
+      {"kinemend fill walk.c3d -o filled.c3d --method pattern --donor RTHI --markers RKNE",
        "one marker, with the movement of its neighbour"}};
   command.run = run_fill;
   return command;

@@ -30,7 +30,7 @@ void mark_given_gaps(Take& take, const FillRun& run) {
 FillSettings settings_of(const Arguments& arguments) {
   FillSettings settings;
   settings.method = arguments.text("method");
-  settings.names = arguments.list("names");
+  settings.names = joints_of(arguments);
   settings.donor = arguments.text("donor");
   settings.longest_gap_s = arguments.given("longest_gap") ? arguments.number("longest_gap") : 0;
   settings.fill_all = arguments.flag("fill_all");
@@ -69,8 +69,8 @@ FillModels models_of(const Arguments& arguments) {
 /// A plan says these of each gap.
 void check_plan_alone(const Arguments& arguments) {
   if (!arguments.given("plan")) return;
-  for (const char* name : {"method", "names", "range", "donor", "longest_gap", "fill_all",
-                           "max_error_mm", "max_error_deg", "unlabelled"}) {
+  for (const char* name : {"method", "joints", "markers", "range", "donor", "longest_gap",
+                           "fill_all", "max_error_mm", "max_error_deg", "unlabelled"}) {
     if (!arguments.given(name)) continue;
     throw Error(
         ErrorKind::usage,
@@ -89,7 +89,7 @@ double max_error_in_file_units(const Take& clip, const FillRun& run) {
   throw Error(ErrorKind::usage,
               fmt::format("{}: the unit of its lengths is not known, so that --max-error-mm cannot "
                           "be applied; kinemend convert --unit states it",
-                          input_name(run.input)));
+                          clip.source.name));
 }
 
 /// Limits of rotations mean nothing for markers.
@@ -140,14 +140,16 @@ FillOutcome fill_in_place(Take& take, const FillRun& run, const FillCheck& check
 
 FillRun fill_run_of(const Arguments& arguments) {
   FillRun run;
-  run.input = arguments.positionals[0];
-  run.output = arguments.text("output");
-  check_take_ending(run.output);
-  if (run.output.empty()) run.output = output_beside(run.input, "filled", arguments.text("from"));
+  run.takes = plan_take_jobs(arguments, arguments.positionals, {"filled"});
+  if (run.takes.folder.empty()) check_take_ending(arguments.text("output"));
+  const std::vector<TakeJob>& jobs = run.takes.jobs;
   const std::string gap_file = arguments.text("gaps"), plan_file = arguments.text("plan");
-  run.reports = report_files(arguments, 1);
+  run.reports = report_files(arguments, jobs.size());
   check_plan_alone(arguments);
   run.plan_out_path = arguments.text("plan_out");
+  if (jobs.size() > 1 && (!plan_file.empty() || !run.plan_out_path.empty()))
+    throw Error(ErrorKind::usage,
+                "fill: --plan and --plan-out are for one take; fill several one by one");
   run.preview = arguments.flag("preview");
   if (run.preview && run.plan_out_path.empty())
     throw Error(ErrorKind::usage, "fill: --preview needs --plan-out FILE");
@@ -168,18 +170,20 @@ FillRun fill_run_of(const Arguments& arguments) {
   run.strict = arguments.flag("strict");
   run.quiet = arguments.flag("quiet");
   run.verbose = arguments.flag("verbose");
+  run.threads = static_cast<int>(arguments.whole("jobs"));
   RunFiles files;
-  files.reads("TAKE", run.input);
   for (const char* flag : {"gaps", "plan", "model", "map", "asf"})
     files.reads(fmt::format("--{}", flag), arguments.text(flag));
-  if (run.dry_run)
-    files.would_write("--output", run.output);
-  else
-    files.writes("--output", run.output, run.input);
+  for (const TakeJob& job : jobs) {
+    files.reads("TAKE", job.input);
+    if (run.dry_run)
+      files.would_write(result_option(run.takes), job.output);
+    else
+      files.writes(result_option(run.takes), job.output, job.input);
+  }
   files.writes("--plan-out", run.plan_out_path);
   run.reports.add_to(files);
   files.check(run.json);
-  if (!run.dry_run) check_free(run.output, run.force);
   if (!run.plan_out_path.empty()) check_free(run.plan_out_path, run.force);
   run.reports.check_free(run.force);
   if (!gap_file.empty()) run.gaps.emplace(read_file(gap_file), input_name(gap_file));
@@ -187,14 +191,15 @@ FillRun fill_run_of(const Arguments& arguments) {
   return run;
 }
 
-FilledTake fill_take(const FillRun& run, bool with_before, const FillCheck& check) {
-  TakeResult read = read_take(std::filesystem::path(run.input), run.reading);
+FilledTake fill_take(const FillRun& run, const TakeJob& job, bool with_before,
+                     const FillCheck& check) {
+  TakeResult read = read_take(std::filesystem::path(job.input), run.reading);
   FilledTake filled;
   for (const Diagnostic& entry : read.diagnostics.entries())
     filled.warnings.push_back(diagnostic_line(read.take.source, entry));
-  check_can_hold(input_name(run.input), read.take, format_for(run.output, read.take.source));
+  check_can_hold(input_name(job.input), read.take, format_for(job.output, read.take.source));
   for (const std::string& line : meaningless_flags(read.take, run)) {
-    const std::string warning = fmt::format("{}: {}", input_name(run.input), line);
+    const std::string warning = fmt::format("{}: {}", input_name(job.input), line);
     if (run.strict) throw Error(ErrorKind::quality_limit, warning + " (an error under --strict)");
     filled.warnings.push_back(warning);
   }
@@ -202,15 +207,15 @@ FilledTake fill_take(const FillRun& run, bool with_before, const FillCheck& chec
   if (with_before) filled.before = read.take;
   FillOutcome outcome = fill_in_place(read.take, run, check, filled.plan_text);
   for (const std::string& warning : outcome.report.warnings)
-    filled.warnings.push_back(fmt::format("{}: {}", input_name(run.input), warning));
-  filled.report = {facts_of(read.take, run.input, std::move(read.diagnostics)), std::move(outcome)};
+    filled.warnings.push_back(fmt::format("{}: {}", input_name(job.input), warning));
+  filled.report = {facts_of(read.take, job.input, std::move(read.diagnostics)), std::move(outcome)};
   filled.after = std::move(read.take);
   return filled;
 }
 
 GapCurves gap_curves(const FillRun& run, std::size_t row, const FillCheck& check) {
   if (!run.plan) throw Error(ErrorKind::usage, "fill: there is no plan");
-  TakeResult read = read_take(std::filesystem::path(run.input), run.reading);
+  TakeResult read = read_take(std::filesystem::path(run.takes.jobs.front().input), run.reading);
   mark_given_gaps(read.take, run);
   const auto plan = parse_plan(run.plan->first, run.plan->second, read.take);
   return preview_curves(read.take, plan, row, check, run.settings.models);

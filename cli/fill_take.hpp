@@ -13,12 +13,14 @@
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"
 #include "page_report.hpp"
+#include "take_jobs.hpp"
 
 namespace kinemend::cli {
 
 /// All that `fill` was asked for, checked.
 struct FillRun {
-  std::string input, output, plan_out_path;
+  TakeJobs takes;
+  std::string plan_out_path;
   ReportFiles reports;
   /// Of --gaps and --plan: bytes and name. Names and frames are those of a take.
   std::optional<std::pair<std::string, std::string>> gaps, plan;
@@ -27,6 +29,7 @@ struct FillRun {
   std::optional<FrameRange> range;
   ReadOptions reading;
   bool preview = false;
+  int threads = 0;  ///< 0: as many as there are cores
   bool json = false, force = false, dry_run = false, strict = false, quiet = false, verbose = false;
 };
 
@@ -43,11 +46,12 @@ struct FilledTake {
   std::size_t refused() const { return std::get<FillOutcome>(report.result).report.refused(); }
 };
 
-/// Reads the take and fills its gaps; writes nothing. `before` is kept where `with_before` is set.
-/// What `check` throws ends it.
-FilledTake fill_take(const FillRun& run, bool with_before, const FillCheck& check = {});
-/// What every method would make of the gap of one row of the run's plan. Errors: as of
-/// `fill_take`; `ErrorKind::usage` for a run without a plan.
+/// Reads the take of a job and fills its gaps; writes nothing. `before` is kept where `with_before`
+/// is set. What `check` throws ends it.
+FilledTake fill_take(const FillRun& run, const TakeJob& job, bool with_before,
+                     const FillCheck& check = {});
+/// What every method would make, in the first take, of the gap of one row of the run's plan.
+/// Errors: as of `fill_take`; `ErrorKind::usage` for a run without a plan.
 GapCurves gap_curves(const FillRun& run, std::size_t row, const FillCheck& check);
 
 }  // namespace kinemend::cli

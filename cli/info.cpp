@@ -381,7 +381,7 @@ Command info_command() {
       switch_flag("noise", "Output", "also estimate the noise of each joint or marker",
                   "A dry run of the method auto gives the jitter per axis and the samples that it "
                   "would repair.")};
-  append(command.flags, reading_flags("make every repair an error"));
+  append(command.flags, reading_flags());
   command.examples = {{"kinemend info walk.bvh --tree", "with the skeleton"},
                       {"kinemend info trial.c3d", "markers, gaps, analog channels, events"},
                       {"kinemend info *.bvh --json", "as JSON, for programs"}};

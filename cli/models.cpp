@@ -101,7 +101,7 @@ std::vector<Flag> models_flags() {
   map.completion = Completion::file;
   std::vector<Flag> list = {output_flag("where to write the model or the map"), force_flag(),
                             json_flag("print the list as JSON instead of text"), exported, map};
-  append(list, reading_flags("treat repairs of the input as errors"));
+  append(list, reading_flags());
   return list;
 }
 

@@ -104,7 +104,10 @@ std::string picture(const Take& before, const Take* other, const Drawing& drawin
 Drawing drawing_of(const Arguments& arguments) {
   Drawing drawing;
   drawing.what = arguments.text("what");
-  drawing.track = arguments.text("track");
+  const std::vector<std::string> names = joints_of(arguments);
+  if (names.size() > 1)
+    throw Error(ErrorKind::usage, "plot: --joints and --markers take one name, of what is drawn");
+  if (!names.empty()) drawing.track = names.front();
   drawing.is_position = arguments.flag("root_position");
   drawing.poses = static_cast<std::size_t>(arguments.whole("poses"));
   if (const std::string range = arguments.text("range"); !range.empty())
@@ -146,6 +149,12 @@ int run_plot(const Arguments& arguments) {
 }  // namespace
 
 Command plot_command() {
+  std::vector<Flag> joints =
+      joints_flags("Drawing", "joint or marker of curves and spectrum", "track");
+  for (Flag& flag : joints) {
+    flag.value_name = "NAME";
+    flag.details.clear();
+  }
   Command command;
   command.name = "plot";
   command.summary = "draw a take, or two over each other, as SVG";
@@ -155,7 +164,7 @@ Command plot_command() {
       "motion (motion, which browsers play), power over frequency (spectrum), or when which track "
       "is missing (gaps). With OTHER both takes are "
       "drawn: TAKE as the one before, OTHER as the one after.\n\n"
-      "Where no --track is named it is the one that differs most between the two, or of one take "
+      "Where no --joints is named it is the one that differs most between the two, or of one take "
       "the one that moves most.";
   command.positionals = {{"TAKE", "take to draw; - is standard input", 1, 1, {}},
                          {"OTHER", "the same take after something was done", 0, 1, {}}};
@@ -167,15 +176,16 @@ Command plot_command() {
       output_flag("where to write; - is standard output"),
       force_flag(),
       what,
-      text_flag("track", "NAME", "Drawing", "joint or marker of curves and spectrum"),
+      std::move(joints[0]),
+      std::move(joints[1]),
       switch_flag("root_position", "Drawing", "curves of the root's position, not of a rotation"),
       text_flag("range", "FIRST:LAST", "Drawing",
                 "draw frames 121:240, as the file numbers them, or seconds 1s:2.5s",
                 "For curves, strip and motion. Either end may be left out."),
       whole_flag("poses", 9, 1, 60, "Drawing", "poses of a strip")};
-  append(command.flags, reading_flags("what needs a repair becomes an error"));
+  append(command.flags, reading_flags());
   command.examples = {
-      {"kinemend plot raw.bvh clean.bvh -o curves.svg --track LeftForeArm", "before and after"},
+      {"kinemend plot raw.bvh clean.bvh -o curves.svg --joints LeftForeArm", "before and after"},
       {"kinemend plot walk.bvh -o strip.svg --what strip", "the motion on one line"},
       {"kinemend plot raw.bvh clean.bvh -o walk.svg --what motion --range 1s:4s",
        "both in motion, side by side"},

@@ -135,7 +135,7 @@ VmcPlan vmc_plan_of(const Arguments& arguments) {
   plan.from.host = arguments.text("bind");
   plan.to = parse_address("--to-vmc", arguments.text("to_vmc"));
   if (plan.to.host.empty()) throw Error(ErrorKind::usage, "stream: --to-vmc needs HOST:PORT");
-  plan.options.bones = arguments.list("bones");
+  plan.options.bones = arguments.list("joints");
   plan.options.strength = arguments.number("strength");
   plan.options.feet = arguments.flag("feet");
   plan.options.source = parse_source(arguments.text("source"));
@@ -159,7 +159,7 @@ int run_stream(const Arguments& arguments) {
   const Method& method = find_method(arguments.text("method"));
   const auto cleaner = live_cleaner(method, parse_method_options(method, arguments.group_texts));
   if (source_option(arguments) == "vmc") return run_vmc_stream(arguments, method, *cleaner);
-  for (const char* const vmc : {"to_vmc", "bones"}) {
+  for (const char* const vmc : {"to_vmc", "joints"}) {
     if (arguments.given(vmc))
       throw Error(ErrorKind::usage, fmt::format("stream: --{} needs --vmc", dashed(vmc)));
   }
@@ -218,17 +218,18 @@ std::vector<Flag> stream_flags() {
                         "those on this machine.");
   bind.spec.default_value = std::string("127.0.0.1");
   bind.has_default = true;
-  Flag bones = text_flag("bones", "A,B,...", "Cleaning", "with --vmc: bones to clean (default all)",
-                         "Names are those of the messages, such as Head, or root. Others pass "
-                         "unchanged, with the same delay.");
-  bones.takes = Takes::list;
+  Flag joints =
+      joints_flags("Cleaning", "with --vmc: bones to clean (default all)", "bones").front();
+  joints.details =
+      "Names are those of the messages, such as Head, or root. Others pass unchanged, with the "
+      "same "
+      "delay.";
   Flag status =
       whole_flag("status", 0, 0, 65535, "Output", "serve a status page on 127.0.0.1 at this port",
                  "It shows latency, loss and noise by joint; /status.json has the same. "
                  "Port 0 takes any free port, which is printed.");
   status.has_default = false;
-  Flag quiet = switch_flag("quiet", "Output", "print warnings and errors only");
-  quiet.letter = 'q';
+  status.value_name = "PORT";
   return {
       endpoint_flag("tcp", "[HOST:]PORT", "Input",
                     "receive over TCP: PORT waits for a sender, HOST:PORT connects to one",
@@ -257,14 +258,14 @@ std::vector<Flag> stream_flags() {
       live_flag("source"),
       live_flag("strength"),
       live_flag("feet"),
-      bones,
+      joints,
       endpoint_flag("to_tcp", "HOST:PORT", "Output", "send cleaned frames to a TCP server"),
       endpoint_flag("to_udp", "HOST:PORT", "Output",
                     "send cleaned frames over UDP, one line per datagram"),
       endpoint_flag("to_vmc", "HOST:PORT", "Output", "with --vmc: where its datagrams go"),
       status,
       live_flag("format"),
-      quiet,
+      quiet_flag(),
       live_flag("longest_gap_s"),
       whole_flag("stall_ms", 1000, 0, 1e9, "Trouble",
                  "report when no frame arrives for so many milliseconds; 0: never"),

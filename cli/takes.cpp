@@ -127,12 +127,41 @@ void check_can_hold(const std::string& name, const Take& take, std::string_view 
                                 name, format));
 }
 
-void check_free(const std::string& output, bool force) {
+std::vector<std::string> written_formats() {
+  std::vector<std::string> names;
+  for (const Format& format : formats()) {
+    if (is_written(format)) names.emplace_back(format.name);
+  }
+  return names;
+}
+
+const Format& known_format(std::string_view name) {
+  if (const Format* const format = format_named(name)) return *format;
+  throw Error(ErrorKind::usage, fmt::format("unknown format {}", name));
+}
+
+void check_not_there(const std::string& output, bool force) {
   if (output == "-") check_out_is_open();
   std::error_code ignored;
   if (output == "-" || force || !std::filesystem::is_regular_file(output, ignored)) return;
   throw Error(ErrorKind::cannot_write,
               fmt::format("{}: exists already (--force overwrites it)", output));
+}
+
+void check_free(const std::string& output, bool force) {
+  check_not_there(output, force);
+  if (output == "-" || output.empty()) return;
+  std::error_code ignored;
+  if (fs::is_directory(output, ignored)) {
+    throw Error(ErrorKind::cannot_write,
+                fmt::format("{}: this is a directory; name a file", output));
+  }
+  const fs::path folder = fs::path(output).parent_path();
+  if (folder.empty() || fs::is_directory(folder, ignored)) return;
+  throw Error(ErrorKind::cannot_write, fs::exists(folder, ignored)
+                                           ? fmt::format("{}: Not a directory", folder.string())
+                                           : fmt::format("{}: there is no folder {}; make it first",
+                                                         output, folder.string()));
 }
 
 void write_output(const std::string& output, std::string_view bytes, bool force) {
@@ -267,9 +296,41 @@ Flag from_flag() {
   return flag;
 }
 
-Flag strict_flag(std::string help) {
-  return switch_flag("strict", "Input", std::move(help),
-                     "Without it, a damaged but usable file is read with a warning.");
+Flag strict_flag(const std::string& details) {
+  return switch_flag("strict", "Input", "a repair or a warning becomes an error",
+                     (details.empty() ? "" : details + " ") +
+                         "Without it, a damaged but usable file is read with a warning.");
+}
+
+Flag quiet_flag(std::string details) {
+  Flag flag = switch_flag("quiet", "Output", "print warnings and errors only", std::move(details));
+  flag.letter = 'q';
+  return flag;
+}
+
+Flag verbose_flag(std::string help, std::string details) {
+  Flag flag = switch_flag("verbose", "Output", std::move(help), std::move(details));
+  flag.letter = 'v';
+  return flag;
+}
+
+std::vector<Flag> joints_flags(const std::string& group, std::string help,
+                               const std::string& older) {
+  Flag joints = text_flag("joints", "A,B,...", group, std::move(help),
+                          "Names or patterns in which * is any text and ? any character; quote "
+                          "them.");
+  joints.takes = Takes::list;
+  if (!older.empty()) joints.older_names = {older};
+  Flag markers = text_flag("markers", "A,B,...", group, "the same as --joints");
+  markers.takes = Takes::list;
+  return {std::move(joints), std::move(markers)};
+}
+
+std::vector<std::string> joints_of(const Arguments& arguments) {
+  std::vector<std::string> names = arguments.list("joints");
+  const std::vector<std::string> markers = arguments.list("markers");
+  names.insert(names.end(), markers.begin(), markers.end());
+  return names;
 }
 
 Flag unlabelled_flag() {
@@ -310,7 +371,7 @@ Flag source_flag() {
   return flag;
 }
 
-std::vector<Flag> reading_flags(std::string strict_help) {
+std::vector<Flag> reading_flags(const std::string& strict_details) {
   Flag asf = text_flag("asf", "FILE", "Input", "skeleton of an AMC file",
                        "Without it, the ASF file that the AMC file names, or one in its folder.");
   asf.completion = Completion::file;
@@ -320,7 +381,7 @@ std::vector<Flag> reading_flags(std::string strict_help) {
   fps.has_default = false;
   Flag take = text_flag("take", "NAME", "Input", "which take of a file that holds several",
                         "Of FBX and glTF; kinemend info lists them. Without it, the active one.");
-  return {from_flag(), take, asf, fps, strict_flag(std::move(strict_help))};
+  return {from_flag(), take, asf, fps, strict_flag(strict_details)};
 }
 
 ReadOptions read_options(const Arguments& arguments) {

@@ -33,10 +33,17 @@ std::string with_right_ending(const std::string& name, const std::string& input,
 void check_take_ending(const std::string& output);
 /// Refuses any ending but this one (with its dot) and none. Errors: `ErrorKind::usage`.
 void check_only_ending(const std::string& output, std::string_view ending);
+/// The format called so. Errors: `ErrorKind::usage`.
+const Format& known_format(std::string_view name);
+/// The names of the formats that are written.
+std::vector<std::string> written_formats();
 /// Refuses a format that cannot hold the take, as a format of markers cannot hold joints. Errors:
 /// `ErrorKind::usage`.
 void check_can_hold(const std::string& name, const Take& take, std::string_view format);
-/// Refuses an output that exists, before work is spent on it. Errors: `ErrorKind::cannot_write`.
+/// Refuses an output that exists as a file, unless `force`. Errors: `ErrorKind::cannot_write`.
+void check_not_there(const std::string& output, bool force);
+/// The same, and refuses an output whose folder does not exist or that is a folder, before work is
+/// spent on it. Errors: `ErrorKind::cannot_write`.
 void check_free(const std::string& output, bool force);
 /// To a file, or to standard output for "-".
 void write_output(const std::string& output, std::string_view bytes, bool force);
@@ -73,7 +80,17 @@ Flag json_flag(std::string help);
 Flag output_flag(std::string help);
 Flag seed_flag(std::string help);
 Flag from_flag();
-Flag strict_flag(std::string help);
+/// --strict. `details`: what counts besides repairs and warnings.
+Flag strict_flag(const std::string& details = {});
+/// -q, --quiet: warnings and errors are all that is printed.
+Flag quiet_flag(std::string details = {});
+/// -v, --verbose: everything is listed.
+Flag verbose_flag(std::string help, std::string details = {});
+/// --joints and --markers, which are one list. `older`: an earlier name of it, or empty.
+std::vector<Flag> joints_flags(const std::string& group, std::string help,
+                               const std::string& older = {});
+/// The names of both, in the order of --joints, then --markers.
+std::vector<std::string> joints_of(const Arguments& arguments);
 /// --unlabelled, of the commands that fill gaps.
 Flag unlabelled_flag();
 /// --map, for feet whose names are not known.
@@ -83,7 +100,7 @@ KnownNames names_of_map(const std::string& path);
 /// --source, of the commands that clean or look for noise.
 Flag source_flag();
 /// All flags that `read_options` understands: --from, --asf, --from-fps, --strict.
-std::vector<Flag> reading_flags(std::string strict_help);
+std::vector<Flag> reading_flags(const std::string& strict_details = {});
 /// Appends `more` to `list`.
 void append(std::vector<Flag>& list, std::vector<Flag> more);
 /// The reading options that the flags of the command set.

@@ -60,7 +60,7 @@ const std::vector<Topic>& topics() {
        "Times "
        "(--range 1s:2.5s) are measured from the first frame, which is at 0 s."},
       {"names", "how joints and markers are named",
-       "--joints, --markers, --exclude and --names take names and patterns, separated by commas. "
+       "--joints, --markers and --exclude take names and patterns, separated by commas. "
        "In a "
        "pattern * stands for any text and ? for any character; quote patterns. The subject may be "
        "omitted: LASI means Ann:LASI. If no name matches exactly, matching ignores case.\n\n"
@@ -72,7 +72,7 @@ const std::vector<Topic>& topics() {
       {"gaps", "the side file of gaps, for --gaps",
        "Each line is NAME,FIRST,LAST: a joint or marker, and its first and last missing frame. "
        "NAME is "
-       "a name or pattern as in --names; * means all. A header line, # comments, blank lines and "
+       "a name or pattern as in --joints; * means all. A header line, # comments, blank lines and "
        "quoted names are allowed. kinemend check --gaps-out writes such a file."},
       {"live", "live frames, for kinemend stream",
        "The sender sends the hierarchy of a BVH file, MOTION, Frames: and Frame Time:, and then "

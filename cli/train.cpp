@@ -50,7 +50,7 @@ struct Training {
 
 Take read_training_take(const Training& training, const std::string& path) {
   TakeResult read = read_take(std::filesystem::path(path), training.reading);
-  if (!training.quiet) warn_of_repairs(read.take.source, read.diagnostics);
+  warn_of_repairs(read.take.source, read.diagnostics);
   return std::move(read.take);
 }
 
@@ -189,9 +189,7 @@ Training training_of(const Arguments& arguments) {
   if (!training.card.empty()) check_free(training.card, training.force);
   if (const std::string fill = arguments.text("fill"); fill != "off") training.fill = fill;
   training.reading = read_options(arguments);
-  training.settings.names = arguments.list("joints");
-  const std::vector<std::string> markers = arguments.list("markers");
-  training.settings.names.insert(training.settings.names.end(), markers.begin(), markers.end());
+  training.settings.names = joints_of(arguments);
   training.settings.seed = static_cast<std::uint64_t>(arguments.whole("seed"));
   const std::string command = arguments.text("command");
   training.settings.card = {
@@ -301,14 +299,6 @@ int run_train(const Arguments& arguments) {
   return 0;
 }
 
-Flag names_flag(std::string name, std::string help) {
-  Flag flag = text_flag(std::move(name), "A,B,...", "Work", std::move(help),
-                        "Names or patterns: * stands for any text, ? for any character. Quote "
-                        "them.");
-  flag.takes = Takes::list;
-  return flag;
-}
-
 Flag train_fill_flag() {
   Flag flag = text_flag("fill", "METHOD", "Work", "fill gaps in the takes first",
                         "Gaps that the method refuses stay open and are not learned from.");
@@ -328,17 +318,16 @@ std::vector<Flag> train_flags() {
   list.completion = Completion::file;
   Flag card = text_flag("card", "FILE", "Output", "also write the card of the model, as Markdown");
   card.completion = Completion::file;
-  Flag quiet =
-      switch_flag("quiet", "Output", "print only errors, and warnings about skipped takes");
-  quiet.letter = 'q';
+  std::vector<Flag> joints =
+      joints_flags("Work", "joints or markers to learn (default: joints that move)");
   std::vector<Flag> all = {
       output_flag("where to write the model; - is standard output"),
       force_flag(),
       card,
       json_flag("print the summary as JSON instead of text"),
-      quiet,
-      names_flag("joints", "joints to learn (default: all that move)"),
-      names_flag("markers", "markers to learn (default: all)"),
+      quiet_flag(),
+      std::move(joints[0]),
+      std::move(joints[1]),
       train_fill_flag(),
       seed_flag("seed of the random number generator"),
       jobs_flag(),
@@ -353,7 +342,7 @@ std::vector<Flag> train_flags() {
       switch_flag("resume", "Output", "continue a training that was stopped",
                   "Reads the checkpoint beside the output. Use the same takes and options; the "
                   "result has the same bytes as without the stop. Takes are read again.")};
-  append(all, reading_flags("treat repairs of the input as errors"));
+  append(all, reading_flags());
   return all;
 }
 

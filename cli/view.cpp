@@ -134,6 +134,8 @@ Command view_command() {
       "no other file is read or written.";
   command.positionals = {{"TAKE", "take to look at", 1, 1, {}},
                          {"OTHER", "take to compare it with", 0, 1, {}}};
+  Flag port = whole_flag("port", 0, 0, 65535, "Page", "port of 127.0.0.1; 0: a free one");
+  port.value_name = "PORT";
   Flag open = switch_flag("open", "Page", "open the address in the browser");
   open.spec.default_value = true;
   command.flags = {
@@ -144,9 +146,9 @@ Command view_command() {
                      "where to save contacts (default walk.contacts); read if it exists"),
       view_file_flag("plan", "where to save the gap plan (default walk.plan.csv)"),
       force_flag(),
-      whole_flag("port", 0, 0, 65535, "Page", "port of 127.0.0.1; 0: a free one"),
+      port,
       open};
-  append(command.flags, reading_flags("make every repair and every warning an error"));
+  append(command.flags, reading_flags());
   command.examples = {
       {"kinemend view walk.bvh", "opens the browser"},
       {"kinemend view walk.bvh walk.clean.bvh", "compare two takes at the same time"},

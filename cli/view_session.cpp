@@ -40,7 +40,8 @@ constexpr std::array cleaning_flags = {
     "method", "source",   "strength", "max_change_deg", "max_change",
     "fill",   "fill_all", "feet",     "fix_swaps",      "peak_loss_limit",
     "joints", "exclude",  "range",    "root_position",  "preset"};
-constexpr std::array filling_flags = {"method", "names",       "range",
+/// The page calls the joints to fill "names", as the option was called before.
+constexpr std::array filling_flags = {"method", "joints",      "names",   "range",
                                       "donor",  "longest_gap", "fill_all"};
 
 /// The method that these flags choose: named, of the preset, or the default.
@@ -351,7 +352,7 @@ std::string ViewSession::clean_page(const ViewAsked& asked, const Turn& turn) {
   plan.page->command_line = line_of(words);
   plan.page->is_served = true;
   plan.page->check = [&] { tell(turn, "drawing", 0); };
-  Outcome outcome = try_take(plan.jobs.front(), plan,
+  Outcome outcome = try_take(plan.takes.jobs.front(), plan,
                              [&](std::string_view stage, double done) { tell(turn, stage, done); });
   turn.check();
   if (outcome.code != 0) throw Error(ErrorKind::usage, outcome.error);
@@ -373,7 +374,8 @@ std::string ViewSession::fill_page(const ViewAsked& asked, const Turn& turn) {
   run.plan_out_path = "plan.json";
   run.preview = asked.preview;
   run.reading.progress = [&](double done) { tell(turn, "reading", done); };
-  const FilledTake filled = fill_take(run, true, [&] { tell(turn, "filling", 0); });
+  const FilledTake filled =
+      fill_take(run, run.takes.jobs.front(), true, [&] { tell(turn, "filling", 0); });
   PageSettings settings;
   settings.command = "fill";
   settings.command_line = line_of(words_of(asked));
@@ -435,18 +437,20 @@ ViewReply ViewSession::save(const ViewAsked& asked) {
   if (plan && fills) {
     FillRun run = fill_run(asked);
     run.plan_out_path = side;
-    write_side(side, fill_take(run, false).plan_text, asked, written);
+    write_side(side, fill_take(run, run.takes.jobs.front(), false).plan_text, asked, written);
   }
   if (may_replace(output, asked)) words.emplace_back("--force");
   const Arguments arguments = parsed(words);
   if (fills) {
     const FillRun run = fill_run_of(arguments);
-    const FilledTake filled = fill_take(run, false);
-    write_take_output(run.output, filled.after, format_for(run.output, filled.after.source),
+    const TakeJob& job = run.takes.jobs.front();
+    if (!run.dry_run) check_result(job, run.takes, run.force);
+    const FilledTake filled = fill_take(run, job, false);
+    write_take_output(job.output, filled.after, format_for(job.output, filled.after.source),
                       run.force);
   } else {
     CleanPlan plan_of_take = make_clean_plan(arguments);
-    const Outcome outcome = try_take(plan_of_take.jobs.front(), plan_of_take);
+    const Outcome outcome = try_take(plan_of_take.takes.jobs.front(), plan_of_take);
     if (outcome.code != 0) throw Error(ErrorKind::usage, outcome.error);
   }
   written_.insert(output);

@@ -267,7 +267,7 @@ class VmcSession::Work {
       return;
     named_.push_back(printable);
     notes_.push_back(fmt::format(
-        "bone {} is not in Unity's humanoid and passes unchanged; name it with --bones to clean it",
+        "bone {} is not in Unity's humanoid and passes unchanged; name it with --joints to clean it",
         printable));
   }
 

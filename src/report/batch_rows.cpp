@@ -168,9 +168,10 @@ std::string to_text(const BatchCounts& counts, const BatchSums& sums,
   if (counts.with_warnings > 0)
     text += fmt::format(", {} with warnings", grouped(counts.with_warnings));
   if (counts.parts > 1) text += fmt::format(" (part {} of {})", counts.part, counts.parts);
-  text += fmt::format("\nall parts: {} of {} done, {} failed, {} to do; {:.1f} minutes of motion\n",
-                      grouped(sums.cleaned), counted(sums.takes, "take"), grouped(sums.failed),
-                      grouped(sums.to_do), sums.duration_s / 60);
+  text += fmt::format("\n{}: {} of {} done, {} failed, {} to do; {:.1f} minutes of motion\n",
+                      counts.parts > 1 ? "all parts" : "in total", grouped(sums.cleaned),
+                      counted(sums.takes, "take"), grouped(sums.failed), grouped(sums.to_do),
+                      sums.duration_s / 60);
   if (worst.empty()) return text;
   text += worst.size() == 1 ? "needs review:\n" : "needs review, worst first:\n";
   for (const BatchRow& row : worst) {

@@ -148,5 +148,16 @@ TEST(ParseOption, ReadsWhatToStringWrites) {
   EXPECT_EQ(to_string(OptionValue(std::string("a b"))), "a b");
 }
 
+TEST(NearestName, IsOneEditAwayOrOneForEveryThreeLetters) {
+  EXPECT_EQ(nearest_name("of", {"off", "auto", "force"}), "off");
+  EXPECT_EQ(nearest_name("on", {"off", "auto", "force"}), "");
+  EXPECT_EQ(nearest_name("undo", {"info", "clean"}), "");
+  EXPECT_EQ(nearest_name("inof", {"info", "clean"}), "info") << "neighbours are swapped";
+  EXPECT_EQ(nearest_name("claen", {"info", "clean"}), "clean");
+  EXPECT_EQ(nearest_name("buterwort", {"butterworth", "bilateral"}), "butterworth");
+  EXPECT_EQ(nearest_name("x", {"y", "z"}), "");
+  EXPECT_EQ(nearest_name("one", {"one-euro", "auto"}), "one-euro") << "the beginning of a name";
+}
+
 }  // namespace
 }  // namespace kinemend

@@ -95,7 +95,7 @@ TEST_F(CommandLine, NamesBehindAListAreToldFromInputs) {
        std::vector<std::pair<std::string, std::string>>{{"clean", "--joints"},
                                                         {"clean", "--exclude"},
                                                         {"clean", "--markers"},
-                                                        {"fill", "--names"},
+                                                        {"fill", "--joints"},
                                                         {"batch", "--joints"},
                                                         {"train", "--joints"}}) {
     const Ran ran = run({command, "a.bvh", flag, "LeftArm", "LeftFinger2"});

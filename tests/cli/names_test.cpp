@@ -12,7 +12,7 @@ using testing::HasSubstr;
 std::vector<std::vector<std::string>> commands_of(const std::string& name) {
   return {{"clean", "a.bvh", "-m", "gaussian", "--joints", name, "-o", "out.bvh", "--force"},
           {"clean", "a.bvh", "-m", "gaussian", "--exclude", name, "-o", "out.bvh", "--force"},
-          {"fill", "a.bvh", "--gaps", "gaps.csv", "--names", name, "-o", "out.bvh", "--force"},
+          {"fill", "a.bvh", "--gaps", "gaps.csv", "--joints", name, "-o", "out.bvh", "--force"},
           {"corrupt", "a.bvh", "--damage", "gaussian:joints=" + name, "-o", "out.bvh", "--force"}};
 }
 
@@ -95,7 +95,7 @@ TEST_F(Names, OfMarkersAreKnownWithoutTheirSubjectEverywhere) {
   const std::vector<std::vector<std::string>> commands{
       {"clean", "a.trc", "-m", "gaussian", "--markers", "NAME"},
       {"clean", "a.trc", "-m", "gaussian", "--exclude", "NAME"},
-      {"fill", "a.trc", "--gaps", "gaps.csv", "--names", "NAME"}};
+      {"fill", "a.trc", "--gaps", "gaps.csv", "--joints", "NAME"}};
   for (const auto& words : commands) {
     EXPECT_EQ(result(words, "LB"), result(words, "Ann:LB")) << words[0] << words[2];
     EXPECT_EQ(result(words, "L[AB]"), result(words, "Ann:L[AB]")) << words[0] << words[2];

@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -45,6 +46,7 @@ struct Setting {
   std::string in;   ///< text for standard input
   fs::path out_to;  ///< file or device that standard output is opened on
   std::vector<std::pair<std::string, std::string>> environment;
+  long most_file_bytes = 0;  ///< largest file that may be written; 0: no limit
 };
 
 class Program : public testing::Test {
@@ -126,6 +128,13 @@ class Program : public testing::Test {
     for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
     for (const auto& [name, value] : setting.environment) setenv(name.c_str(), value.c_str(), 1);
+    if (setting.most_file_bytes > 0) {
+      const rlimit limit{static_cast<rlim_t>(setting.most_file_bytes),
+                         static_cast<rlim_t>(setting.most_file_bytes)};
+      setrlimit(RLIMIT_FSIZE, &limit);
+      // An ignored signal turns the limit into an error of the write.
+      signal(SIGXFSZ, SIG_IGN);
+    }
     if (chdir(folder.c_str()) == 0) execv(KINEMEND_PROGRAM, arguments.data());
     _exit(127);
   }

@@ -45,12 +45,14 @@ TEST_F(RunFiles, AnOutputNeverReplacesASideFileThatTheRunReads) {
 
 TEST_F(RunFiles, ATakeMayBeCleanedInPlaceButNotOverAnotherTakeOfTheRun) {
   noisy("walk.bvh", "1");
-  synth("walk.clean.bvh", "walk", "1");
-  const std::string before = contents(folder / "walk.clean.bvh");
-  const Ran over = run({"clean", "walk.bvh", "walk.clean.bvh", "--force"});
+  fs::create_directory(folder / "other");
+  synth("other/walk.bvh", "walk", "1");
+  fs::create_symlink("walk.bvh", folder / "link.bvh");
+  const std::string before = contents(folder / "walk.bvh");
+  const Ran over = run({"clean", "link.bvh", "other/walk.bvh", "--output-dir", ".", "--force"});
   EXPECT_EQ(over.code, 2);
-  EXPECT_THAT(over.err, HasSubstr("walk.clean.bvh is also read by this run (IN)"));
-  EXPECT_EQ(contents(folder / "walk.clean.bvh"), before);
+  EXPECT_THAT(over.err, HasSubstr("walk.bvh is also read by this run (IN)"));
+  EXPECT_EQ(contents(folder / "walk.bvh"), before);
   const std::string noisy_take = contents(folder / "walk.bvh");
   EXPECT_EQ(run({"clean", "walk.bvh", "-o", "walk.bvh", "--force"}).code, 0);
   EXPECT_NE(contents(folder / "walk.bvh"), noisy_take);

@@ -111,7 +111,7 @@ TEST_F(VmcCommand, GoesOnThroughGarbageAndSendersThatStartAgain) {
 
 TEST_F(VmcCommand, NamesTheBonesThatItCleans) {
   const Socket receiver = Socket::listening(SOCK_DGRAM);
-  const auto program = relay(receiver, {"--bones", "Head,Neck"});
+  const auto program = relay(receiver, {"--joints", "Head,Neck"});
   const Socket sender = Socket::connected(SOCK_DGRAM, program->port());
   for (std::size_t f = 0; f < 10; ++f) {
     const VmcBody body = vmc_noisy(f);

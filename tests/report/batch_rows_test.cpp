@@ -86,7 +86,7 @@ TEST(BatchRows, AddUp) {
   counts.add(plain_row("d.asf", "copied"), true, 0);
   EXPECT_EQ(counts.exit_code, 3);
   EXPECT_THAT(to_text(counts, sums, {}),
-              HasSubstr("1 cleaned, 0 done already, 1 failed, 1 skeleton copied\nall parts: 1 of 3 "
+              HasSubstr("1 cleaned, 0 done already, 1 failed, 1 skeleton copied\nin total: 1 of 3 "
                         "takes done, 1 failed, 1 to do; 0.0 minutes of motion\n"));
 }
 
