@@ -39,8 +39,10 @@ Flag markers_flag() {
 }
 
 Flag method_flag() {
-  Flag flag = text_flag("method", "NAME", "Cleaning", "how to clean; kinemend methods lists all",
-                        "The options of a method are valid with that method only.");
+  Flag flag =
+      text_flag("method", "NAME", "Cleaning", "how to clean; kinemend methods lists all",
+                "The options of a method are valid with that method only; kinemend help NAME lists "
+                "them.");
   flag.spec.default_value = std::string(default_method);
   flag.spec.choices = method_names();
   flag.has_default = true;
@@ -49,13 +51,10 @@ Flag method_flag() {
 
 Flag preset_flag() {
   Flag flag = text_flag("preset", "", "Cleaning", "settings for a kind of motion");
-  std::vector<std::string> summaries;
-  for (const Preset& preset : presets()) {
-    flag.spec.choices.emplace_back(preset.name);
-    summaries.push_back(fmt::format("{} ({})", preset.name, preset_summary(preset)));
-  }
-  flag.details = fmt::format("--config and the command line override it. Presets: {}.",
-                             fmt::join(summaries, "; "));
+  for (const Preset& preset : presets()) flag.spec.choices.emplace_back(preset.name);
+  flag.details =
+      "They change the default method's settings, or choose another method and say so. --config "
+      "and the command line override them. kinemend help presets describes each.";
   return flag;
 }
 
