@@ -18,14 +18,15 @@ namespace kinemend::cli {
 
 namespace {
 
-constexpr std::size_t help_column = 30;
+// Of a line: columns. Chosen by hand.
+constexpr std::size_t help_column = 30, text_width = 100;
 
 /// A name and its text beside it, or below it if the name is long.
 std::string entry(std::string_view name, std::string_view text, std::size_t column = help_column) {
   std::string line = fmt::format("  {}", name);
   const std::size_t width = display_width(line);
-  if (width + 2 > column) return line + "\n" + wrap(text, column);
-  return line + std::string(column - width, ' ') + wrap(text, column, 96, true);
+  if (width + 2 > column) return line + "\n" + wrap(text, column, text_width);
+  return line + std::string(column - width, ' ') + wrap(text, column, text_width, true);
 }
 
 std::string heading(std::string_view text) {
@@ -62,6 +63,13 @@ std::string flags_text(const Command& command, bool is_long) {
   text += heading("Help");
   text += entry("-h, --help", "-h prints this list, --help adds details and examples");
   return text;
+}
+
+/// On one line where it fits.
+std::string example_text(const Example& example) {
+  const std::string line = fmt::format("  {}  # {}", example.command, example.explanation);
+  if (display_width(line) <= text_width) return line + "\n";
+  return fmt::format("  {}\n{}", example.command, wrap(example.explanation, 6));
 }
 
 std::string group_title(const Command& command, std::string_view name) {
@@ -125,7 +133,7 @@ std::string description_text(const std::string& description) {
   while (begin < description.size()) {
     const std::size_t end = std::min(description.find("\n\n", begin), description.size());
     text += '\n';
-    text += wrap(description.substr(begin, end - begin), 0);
+    text += wrap(description.substr(begin, end - begin), 0, text_width);
     begin = end + 2;
   }
   return text;
@@ -276,8 +284,7 @@ std::string command_help(const Command& command, bool is_long) {
   text += group_names_text(command, is_long);
   if (is_long && !command.examples.empty()) {
     text += heading("Examples");
-    for (const Example& example : command.examples)
-      text += fmt::format("  {}\n{}", example.command, wrap(example.explanation, 6));
+    for (const Example& example : command.examples) text += example_text(example);
   }
   return text;
 }
