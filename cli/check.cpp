@@ -185,8 +185,7 @@ std::vector<Flag> check_flags() {
   for (const FigureRule& entry : check_figures()) {
     list.push_back(without_default(
         number_flag(std::string(entry.limit), std::string(entry.unit), 0, 0, infinity, "Limits",
-                    fmt::format("exit code 1 if {} {} above this", entry.label,
-                                entry.label.back() == 's' ? "are" : "is"))));
+                    fmt::format("limit; exit code 1 above it: {}", entry.label))));
   }
   return list;
 }

@@ -68,7 +68,7 @@ Command clean_command() {
   command.flags.push_back(contacts_flag());
   command.flags.push_back(switch_flag("all_takes", "Input",
                                       "clean every take of a file that holds several",
-                                      "Of FBX and glTF, in the format of the input."));
+                                      "FBX and glTF; the format of the input is kept."));
   command.flags.push_back(jobs_flag());
   command.group_heading = "With --method %";
   command.groups = method_groups();

@@ -36,8 +36,10 @@ Flag with_group(std::string group, Flag flag) {
 }
 
 Flag method_flag() {
-  Flag flag = text_flag("method", "NAME", "Cleaning", "how to clean; kinemend methods lists all",
-                        "The options of a method are valid with that method only.");
+  Flag flag =
+      text_flag("method", "NAME", "Cleaning", "how to clean; kinemend methods lists all",
+                "The options of a method are valid with that method only; kinemend help NAME lists "
+                "them.");
   flag.letter = 'm';
   flag.spec.default_value = std::string(default_method);
   flag.spec.choices = method_names();
@@ -47,13 +49,9 @@ Flag method_flag() {
 
 Flag preset_flag() {
   Flag flag = text_flag("preset", "", "Cleaning", "settings for a kind of motion");
-  std::vector<std::string> summaries;
-  for (const Preset& preset : presets()) {
-    flag.spec.choices.emplace_back(preset.name);
-    summaries.push_back(fmt::format("{} ({})", preset.name, preset_summary(preset)));
-  }
-  flag.details = fmt::format("--config and the command line override it. Presets: {}.",
-                             fmt::join(summaries, "; "));
+  for (const Preset& preset : presets()) flag.spec.choices.emplace_back(preset.name);
+  flag.details =
+      "kinemend help presets describes them. --config and the command line override them.";
   return flag;
 }
 
@@ -76,9 +74,8 @@ std::vector<std::string> fill_choices() {
 Flag noise_flag() {
   Flag flag = file_flag("noise", "white|auto|FILE", "Cleaning",
                         "what the noise is: measured in the take (auto), white, or as in a report",
-                        "FILE is a --report of clean or check as JSON, made from a take of the "
-                        "same capture system: its colour of the noise, and the strength for each "
-                        "joint or marker, are used. For auto and the learned methods.");
+                        "FILE is a --report of clean or check as JSON, of another take of the same "
+                        "capture system. For auto and the learned methods.");
   flag.spec.default_value = std::string("auto");
   flag.has_default = true;
   return flag;
@@ -88,8 +85,7 @@ Flag fill_flag() {
   Flag flag =
       text_flag("fill", "METHOD", "Cleaning", "fill gaps, from the cleaned motion around them",
                 "auto tests the methods on artificial gaps, picks one for each gap, and "
-                "leaves a gap open when none is reliable. Open gaps are listed and stay "
-                "missing in marker files.");
+                "leaves a gap open when none is reliable. kinemend fill -h lists the methods.");
   flag.spec.default_value = std::string("off");
   flag.spec.choices = fill_choices();
   flag.has_default = true;
@@ -99,10 +95,9 @@ Flag fill_flag() {
 Flag feet_flag() {
   Flag flag = text_flag(
       "feet", "", "Cleaning", "stop standing feet from sliding, as the last step",
-      "auto holds feet that slide by error and keeps intentional slides; force holds every foot "
-      "that stands. For joints. It moves the legs and lowers the root, and is off unless asked "
-      "for. If the names of the feet are not known, --map FILE gives them, in lines known "
-      "name,name in the take.");
+      "auto keeps intentional slides; force holds every foot that stands. For joints; it moves "
+      "the legs and lowers the root. --map FILE gives unknown names of feet, in lines KNOWN "
+      "NAME,NAME IN THE TAKE.");
   flag.spec.default_value = std::string("off");
   flag.spec.choices = {"off", "auto", "force"};
   flag.has_default = true;
@@ -125,8 +120,8 @@ std::vector<Flag> clean_output_flags() {
       switch_flag("dry_run", "Output", "clean and report, but write no take",
                   "A --report is still written."),
       reports_flag("also write what was done: FILE.json, or FILE.html as a page for a browser",
-                   "JSON lists every span of samples that changed. The page shows one take: the "
-                   "body before and after, curves, and everything that was found and done."),
+                   "JSON lists every span of samples that changed. A page shows one take, before "
+                   "and after."),
       json_flag("print the summary as JSON instead of text"),
       verbose_flag("list every joint or marker that changed"),
       quiet_flag()};
@@ -152,7 +147,7 @@ std::vector<Flag> cleaning_flags() {
           switch_flag("fill_all", "Cleaning", "fill every gap, also those that --fill refuses")),
       feet_flag(),
       configurable(switch_flag("fix_swaps", "Cleaning", "undo swapped marker labels first",
-                               "As kinemend check finds them. For markers.")),
+                               "kinemend check lists them. For markers.")),
       configurable(number_flag("peak_loss_limit", "", 0.1, 0, 1, "Cleaning",
                                "share of a peak speed that may be lost without a warning",
                                "Typical: 0.05 for impacts to 0.2 for slow motion.")),
@@ -163,14 +158,11 @@ std::vector<Flag> cleaning_flags() {
                   "print the settings as a commented TOML file, then exit"),
       exclude_flag(),
       root_position_flag(),
-      text_flag(
-          "range", "FIRST:LAST", "Where",
-          "what may change: frames 121:240, as the file numbers them, or seconds 1s:2.5s",
-          "Either end may be omitted. The method sees the whole take; the result is blended in "
-          "over 0.1 s."),
+      text_flag("range", "FIRST:LAST", "Where",
+                "what may change: frames 121:240, as the file numbers them, or seconds 1s:2.5s",
+                "Either end may be omitted. The method still sees the whole take."),
       file_flag("gaps", "FILE", "Input", "samples to treat as missing: lines name,first,last",
-                "Frames as the file numbers them. For formats that cannot hold a gap. The name * "
-                "means all."),
+                "For formats that cannot hold a gap; see kinemend help gaps."),
       seed_flag("seed of the methods that draw random numbers")};
   std::vector<Flag> joints =
       joints_flags("Where", "joints or markers that may change (default all)");

@@ -156,7 +156,9 @@ std::vector<Leftover> reasons_unchanged(const Take& take, const CleanReport& rep
     if (const Found found = found_of(check.findings, kind); found.count > 0)
       reasons.push_back({what(found), mend});
   };
-  Leftover noise = noise_left(report, check.metres_per_unit);
+  // A network judges noise by more than its strength: only noise that a check reports counts.
+  Leftover noise =
+      plan.method == "learned" ? Leftover{} : noise_left(report, check.metres_per_unit);
   if (noise.what.empty()) noise = noise_not_measured(check, report);
   if (!noise.what.empty() && reason.what.empty()) reasons.push_back(noise);
   add(

@@ -122,6 +122,20 @@ CleanSettings clean_settings(const Settings& settings) {
   return result;
 }
 
+/// A preset that names another method than the default must not do so silently. Empty if another
+/// setting overrides its choice.
+std::string preset_note(const Arguments& arguments, const Method& method) {
+  const std::string name = arguments.text("preset");
+  if (name.empty() || method.name == default_method || arguments.given("method")) return "";
+  const Settings preset =
+      parse_settings(*arguments.command, find_preset(name).text, "preset " + name);
+  const auto chosen = preset.values.find("method");
+  if (chosen == preset.values.end() || std::get<std::string>(chosen->second) != method.name)
+    return "";
+  return fmt::format("method {} is the choice of --preset {}, in place of {}, the default",
+                     method.name, name, default_method);
+}
+
 }  // namespace
 
 Settings merged_settings(const Arguments& arguments) {
@@ -153,6 +167,7 @@ CleanPlan make_cleaning(const Arguments& arguments) {
   plan.options = all_options(method, settings);
   pass_seed(arguments, method, plan.options);
   plan.cleaner = make_cleaner(method.name, plan.options);
+  plan.preset_note = preset_note(arguments, method);
   plan.settings = clean_settings(settings);
   plan.settings.noise = known_noise(arguments.text("noise"));
   if (arguments.given("contacts") && !plan.settings.feet) plan.settings.feet.emplace();

@@ -25,6 +25,7 @@ struct CleanPlan {
   std::string method;
   OptionValues options;  ///< every option of the method with its value
   std::unique_ptr<Cleaner> cleaner;
+  std::string preset_note{};  ///< that the preset chose another method than the default; else empty
   CleanSettings settings;
   std::optional<FrameRange> range;
   ReadOptions reading;

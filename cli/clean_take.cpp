@@ -81,6 +81,7 @@ CleanOutcome clean_in_place(Take& take, const std::string& input, const CleanPla
   run_isolated([&] { result = clean_take(std::move(take), *plan.cleaner, settings); });
   take = std::move(result.take);
   outcome.report = std::move(result.report);
+  if (!plan.preset_note.empty()) outcome.report.notes.push_back(plan.preset_note);
   if (plan.cleans && is_reported(plan) && is_unchanged(outcome)) {
     std::vector<Leftover> reasons = reasons_unchanged(take, outcome.report, plan, input);
     std::move(reasons.begin(), reasons.end(), std::back_inserter(outcome.leftovers));

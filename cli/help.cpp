@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -17,32 +18,58 @@ namespace kinemend::cli {
 
 namespace {
 
-constexpr std::size_t help_column = 30;
+// Of a line: columns. Chosen by hand.
+constexpr std::size_t help_column = 30, text_width = 100;
 
 /// A name and its text beside it, or below it if the name is long.
 std::string entry(std::string_view name, std::string_view text, std::size_t column = help_column) {
   std::string line = fmt::format("  {}", name);
   const std::size_t width = display_width(line);
-  if (width + 2 > column) return line + "\n" + wrap(text, column);
-  return line + std::string(column - width, ' ') + wrap(text, column, 96, true);
+  if (width + 2 > column) return line + "\n" + wrap(text, column, text_width);
+  return line + std::string(column - width, ' ') + wrap(text, column, text_width, true);
 }
 
 std::string heading(std::string_view text) {
   return fmt::format("\n{}\n", Colours::of_out().paint(Paint::bold, fmt::format("{}:", text)));
 }
 
+/// Whether the values of a flag are the names of the groups, which the help lists by themselves.
+bool names_groups(const Command& command, const Flag& flag) {
+  return !command.groups.empty() &&
+         std::all_of(command.groups.begin(), command.groups.end(), [&](const OptionGroup& group) {
+           const std::vector<std::string>& choices = flag.spec.choices;
+           return std::find(choices.begin(), choices.end(), group.name) != choices.end();
+         });
+}
+
+std::string flag_text(const Command& command, const Flag& flag, bool is_long) {
+  Flag shown = flag;
+  if (names_groups(command, flag)) {
+    if (shown.value_name.empty()) shown.value_name = "NAME";
+    shown.spec.choices.clear();
+    shown.offered.clear();
+  }
+  const std::string line = flag_line(shown);
+  return entry(flag_names(shown),
+               is_long && !flag.details.empty() ? fmt::format("{}. {}", line, flag.details) : line);
+}
+
 std::string flags_text(const Command& command, bool is_long) {
   std::string text;
-  std::string group;
-  for (const Flag& flag : command.flags) {
-    if (flag.group != group) text += heading(flag.group);
-    group = flag.group;
-    text += entry(flag_names(flag), flag_line(flag));
-    if (is_long && !flag.details.empty()) text += wrap(flag.details, help_column);
+  for (const auto& [group, flags] : flags_by_group(command)) {
+    text += heading(group);
+    for (const Flag* flag : flags) text += flag_text(command, *flag, is_long);
   }
   text += heading("Help");
   text += entry("-h, --help", "-h prints this list, --help adds details and examples");
   return text;
+}
+
+/// On one line where it fits.
+std::string example_text(const Example& example) {
+  const std::string line = fmt::format("  {}  # {}", example.command, example.explanation);
+  if (display_width(line) <= text_width) return line + "\n";
+  return fmt::format("  {}\n{}", example.command, wrap(example.explanation, 6));
 }
 
 std::string group_title(const Command& command, std::string_view name) {
@@ -59,18 +86,43 @@ std::string group_text(const Command& command, const OptionGroup& group) {
   return text;
 }
 
-std::string groups_text(const Command& command) {
-  std::string text;
-  for (const OptionGroup& group : command.groups)
-    text += heading(group_title(command, group.name)) + group_text(command, group);
-  return text;
+/// The names of the groups, whose options `kinemend help NAME` lists.
+std::string group_names_text(const Command& command, bool is_long) {
+  if (command.groups.empty()) return "";
+  std::string text = heading(group_title(command, "NAME"));
+  if (is_long) {
+    std::vector<std::string> names;
+    for (const OptionGroup& group : command.groups) names.push_back(group.name);
+    text += wrap(fmt::format("{}.", fmt::join(names, ", ")), 2);
+  } else {
+    for (const OptionGroup& group : command.groups) text += entry(group.name, group.summary, 18);
+  }
+  return text + wrap(fmt::format("To see what one does, and its options with ranges and defaults, "
+                                 "type: kinemend help {}",
+                                 command.groups.front().name),
+                     2);
 }
 
-std::string group_names_text(const Command& command) {
-  if (command.groups.empty()) return "";
-  std::string text = heading(group_title(command, "NAME") + " (NAME is one of these)");
-  for (const OptionGroup& group : command.groups) text += entry(group.name, group.summary, 18);
-  return text;
+/// The commands whose groups of this name have the same title and options, after "kinemend".
+std::string commands_of_group(const Command& first, const OptionGroup& group) {
+  std::vector<std::string> names;
+  for (const Command& command : commands()) {
+    const bool is_alike =
+        command.group_heading == first.group_heading &&
+        std::any_of(command.groups.begin(), command.groups.end(), [&](const OptionGroup& other) {
+          return other.name == group.name && other.options.size() == group.options.size();
+        });
+    if (is_alike) names.push_back(command.name);
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// The page of the documentation about a group of a command; empty if it has none of its own.
+std::string page_of_group(const Command& command, std::string_view group) {
+  if (command.name == "fill") return "docs/methods/fill.md";
+  if (command.name == "train") return "docs/models.md";
+  if (command.name == "corrupt") return "docs/cli.md";
+  return fmt::format("docs/methods/{}.md", group);
 }
 
 }  // namespace
@@ -81,10 +133,21 @@ std::string description_text(const std::string& description) {
   while (begin < description.size()) {
     const std::size_t end = std::min(description.find("\n\n", begin), description.size());
     text += '\n';
-    text += wrap(description.substr(begin, end - begin), 0);
+    text += wrap(description.substr(begin, end - begin), 0, text_width);
     begin = end + 2;
   }
   return text;
+}
+
+std::vector<FlagsOfGroup> flags_by_group(const Command& command) {
+  std::vector<FlagsOfGroup> groups;
+  for (const Flag& flag : command.flags) {
+    auto group = std::find_if(groups.begin(), groups.end(),
+                              [&](const FlagsOfGroup& known) { return known.name == flag.group; });
+    if (group == groups.end()) group = groups.insert(group, {flag.group, {}});
+    group->flags.push_back(&flag);
+  }
+  return groups;
 }
 
 const std::vector<ExitCode>& exit_codes() {
@@ -187,20 +250,24 @@ std::string program_help(bool is_long) {
 
 std::string group_help(std::string_view name) {
   std::string text;
+  std::vector<std::string> told;
   for (const Command& command : commands()) {
-    // It has the same methods as clean.
-    if (command.name == "batch") continue;
     for (const OptionGroup& group : command.groups) {
       if (group.name != name) continue;
+      const std::string owners = commands_of_group(command, group);
+      if (std::find(told.begin(), told.end(), owners) != told.end()) continue;
+      told.push_back(owners);
       const std::string title = group_title(command, name);
       const std::size_t option = title.find("--");
       text += fmt::format(
-          "{}{}\n", text.empty() ? "" : "\n",
+          "{}{}\n{}", text.empty() ? "" : "\n",
           Colours::of_out().paint(
               Paint::bold,
-              fmt::format("kinemend {} {}", command.name,
-                          option == title.npos ? std::string(name) : title.substr(option))));
-      text += group_text(command, group);
+              fmt::format("kinemend {} {}", owners,
+                          option == title.npos ? std::string(name) : title.substr(option))),
+          group_text(command, group));
+      if (group.options.empty()) text += "  It has no options.\n";
+      text += fmt::format("  Page: {}\n", page_of_group(command, name));
     }
   }
   return text;
@@ -214,11 +281,10 @@ std::string command_help(const Command& command, bool is_long) {
   for (const Positional& positional : command.positionals)
     text += entry(positional.name, positional.help);
   text += flags_text(command, is_long);
-  text += is_long ? groups_text(command) : group_names_text(command);
+  text += group_names_text(command, is_long);
   if (is_long && !command.examples.empty()) {
     text += heading("Examples");
-    for (const Example& example : command.examples)
-      text += fmt::format("  {}\n{}", example.command, wrap(example.explanation, 6));
+    for (const Example& example : command.examples) text += example_text(example);
   }
   return text;
 }

@@ -14,16 +14,24 @@ std::string version_text();
 
 /// `-h` of the program; `--help` adds exit codes and topics.
 std::string program_help(bool is_long);
-/// `-h`: one line per flag. `--help` adds details, the options of every method or damage, and
-/// examples.
+/// `-h`: one line per flag. `--help` adds details and examples. Options of methods or damages are
+/// left to `group_help`.
 std::string command_help(const Command& command, bool is_long);
 
 /// `kinemend help NAME` for a method, a damage or the like: its options in every command that has
-/// it. Empty if nothing has that name.
+/// it, with ranges and defaults, and its page. Empty if nothing has that name.
 std::string group_help(std::string_view name);
 
 /// Paragraphs, each after an empty line.
 std::string description_text(const std::string& description);
+
+/// Flags under one heading of the help.
+struct FlagsOfGroup {
+  std::string name;
+  std::vector<const Flag*> flags;
+};
+/// The flags of a command by heading, each heading once, in the order of their first flags.
+std::vector<FlagsOfGroup> flags_by_group(const Command& command);
 
 /// "clean [OPTIONS] IN..."
 std::string usage_line(const Command& command);

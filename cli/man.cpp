@@ -67,12 +67,12 @@ std::string command_section(const Command& command) {
   text += paragraphs(command.description);
   for (const Positional& positional : command.positionals)
     text += item(positional.name, positional.help);
-  std::string heading;
-  for (const Flag& flag : command.flags) {
-    if (flag.group != heading) text += fmt::format(".SS {}\n", roff(flag.group));
-    heading = flag.group;
-    text += item(flag_names(flag),
-                 flag_line(flag) + (flag.details.empty() ? "." : ". " + flag.details));
+  for (const auto& [heading, flags] : flags_by_group(command)) {
+    text += fmt::format(".SS {}\n", roff(heading));
+    for (const Flag* flag : flags) {
+      text += item(flag_names(*flag),
+                   flag_line(*flag) + (flag->details.empty() ? "." : ". " + flag->details));
+    }
   }
   if (!command.groups.empty()) text += ".SS Options by name\n";
   for (const OptionGroup& group : command.groups) text += group_section(command, group);

@@ -11,7 +11,8 @@
 
 namespace kinemend::cli {
 
-/// What cleans where no method is named. The page of `view` has the name as well (web/src/view.ts).
+/// The method that cleans where none is named. The page of `view` gets it from the program, with
+/// the defaults of all flags.
 inline constexpr std::string_view default_method = "learned";
 
 /// The table of methods as groups of flags.

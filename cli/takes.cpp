@@ -336,8 +336,7 @@ std::vector<std::string> joints_of(const Arguments& arguments) {
 Flag unlabelled_flag() {
   return switch_flag(
       "unlabelled", "Work", "also fill unlabelled points (*52, U_12), and use them",
-      "Without it they are left alone and are no evidence for labelled markers: such "
-      "a point often changes from one marker to another.");
+      "By default they are ignored: such a point often changes from one marker to another.");
 }
 
 void append(std::vector<Flag>& list, std::vector<Flag> more) {
@@ -361,10 +360,9 @@ KnownNames names_of_map(const std::string& path) {
 
 Flag source_flag() {
   Flag flag = text_flag("source", "", "Cleaning", "what recorded the motion",
-                        "video, depth and suit: slow noise is taken out, too. keyframed: only gaps "
-                        "change. optical and unknown: only what the take shows to be noise. "
-                        "unknown is replaced by what the file says, where that is certain. For "
-                        "auto and learned.");
+                        "video, depth and suit: slow noise is removed, too. keyframed: only gaps "
+                        "change. unknown: what the file says, else only noise that the take "
+                        "shows is removed. For auto and learned.");
   flag.spec.default_value = std::string(to_string(Source::unknown));
   flag.spec.choices = source_names();
   flag.has_default = true;
@@ -380,7 +378,7 @@ std::vector<Flag> reading_flags(const std::string& strict_details) {
                          "Ignored for files that state their rate.");
   fps.has_default = false;
   Flag take = text_flag("take", "NAME", "Input", "which take of a file that holds several",
-                        "Of FBX and glTF; kinemend info lists them. Without it, the active one.");
+                        "FBX and glTF; kinemend info lists them. Default: the active one.");
   return {from_flag(), take, asf, fps, strict_flag(strict_details)};
 }
 

@@ -84,17 +84,22 @@ struct ReportSpan {
 struct TrackSummary {
   std::string name;
   bool is_position = true;  ///< false for a point that is an angle or a force: no count has it
-  double noise = 0;         ///< noise per axis before: the method's estimate, else measured
-  double left = 0;          ///< how far the result is expected to be off, per axis; 0: not said
-  double rms_change = 0;    ///< of a marker over the samples that were observed
+  /// Noise per axis before cleaning, measured as `auto` measures it, whatever the method; for takes
+  /// of fewer than 4 frames as white noise. 0 for tracks that may not change.
+  double noise = 0;
+  /// Noise per axis that a model expects and takes out, also where it cannot be measured; 0: the
+  /// method has no such model or expects none.
+  double expected_noise = 0;
+  double left = 0;        ///< how far the result is expected to be off, per axis; 0: not said
+  double rms_change = 0;  ///< of a marker over the samples that were observed
   double max_change = 0;
   std::size_t frames_changed = 0;
   std::size_t frames_repaired = 0;  ///< despiked or filled
   std::size_t gaps_left = 0;        ///< markers only
   std::size_t frames_missing = 0;   ///< in the gaps that are left; markers only
-  /// Largest speed in degrees or file units per second, without repaired samples: the distance
-  /// within `peak_frames` frames, the shortest time (one frame to 50 ms) in which the noise adds
-  /// less than a tenth.
+  /// Largest speed in degrees or file units per second, without spikes and missing samples, as they
+  /// were before cleaning: the distance within `peak_frames` frames, the shortest time (one frame
+  /// to 50 ms) in which `noise` adds less than a tenth. The same for every method.
   double peak_speed_before = 0;
   double peak_speed_after = 0;
   std::size_t peak_frames = 1;
@@ -109,10 +114,12 @@ struct CleanReport {
   std::size_t frames = 0;
   std::size_t calibration_frames = 0;  ///< at the start, left alone; joints only
   double frame_rate_hz = 0;
-  double body_height = 0;             ///< file units: what degrees were measured by; markers only
-  std::vector<TrackSummary> tracks;   ///< J or M, also points that are no positions
-  std::vector<NoiseCharacter> noise;  ///< `CleanTrace::characters`
-  double root_rms_change = 0;         ///< file units; joints only
+  double body_height = 0;            ///< file units: what degrees were measured by; markers only
+  std::vector<TrackSummary> tracks;  ///< J or M, also points that are no positions
+  /// Measured before cleaning, the same for every method; then what the method's model expects of
+  /// a space without measured noise, or beside it (`is_expected`).
+  std::vector<NoiseCharacter> noise;
+  double root_rms_change = 0;  ///< file units; joints only
   double root_max_change = 0;
   std::vector<ReportSpan> spans;  ///< by track, then frame; without spans of `kept`
   FillReport fill;                ///< of `CleanSettings::fill`

@@ -58,8 +58,8 @@ struct NoiseCharacter {
   /// were shown at 60.
   double frames_per_sample = 1;
   bool is_interpolated = false;  ///< the frames between are on a line; else the sample is held
-  /// Not measured: a model expects it of takes like this one. It is slow, and says nothing of
-  /// itself: strength alone is known.
+  /// Not measured: a model expects it of takes like this one. With `correlation` 0 it is slow, and
+  /// its strength alone is known.
   bool is_expected = false;
 
   /// The frequency below which a share of the noise's power lies (0..1), hertz, at the frame rate

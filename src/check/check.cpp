@@ -76,7 +76,8 @@ void report_calibration(CheckReport& report) {
   if (count == 0) return;
   report.findings.push_back({FindingKind::calibration, Severity::note, "", 0, count - 1,
                              static_cast<double>(count), "frames",
-                             "are a calibration pose, not part of the motion"});
+                             count == 1 ? "is a calibration pose, not part of the motion"
+                                        : "are a calibration pose, not part of the motion"});
 }
 
 void report_left_out(const Take& clip, const std::vector<std::size_t>& markers,

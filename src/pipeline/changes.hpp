@@ -87,8 +87,14 @@ struct LargeChange {
   std::size_t count = 0;  ///< of such frames
 };
 
-/// What the report says of one joint or marker. `noise`: where it is coloured; white noise is
-/// measured.
+/// What was measured of a track before cleaning, the same for every method.
+struct TrackMeasure {
+  ColouredNoise coloured{};            ///< where the noise is coloured; white noise is measured
+  std::vector<std::uint8_t> spikes{};  ///< F, 1 for a spike; empty: none
+};
+
+/// What the report says of one joint or marker. `taken`: coloured noise that the method took out; a
+/// change that it explains is no warning.
 struct TrackReport {
   TrackSummary summary;
   std::vector<ReportSpan> spans;
@@ -97,8 +103,8 @@ struct TrackReport {
 };
 template <class Sample>
 TrackReport report_track(std::string name, std::size_t owner, const TrackEdit<Sample>& track,
-                         const TrackChanges& changes, const ColouredNoise& noise,
-                         const ReportScale& scale);
+                         const TrackChanges& changes, const TrackMeasure& measure,
+                         const ColouredNoise& taken, const ReportScale& scale);
 
 /// One line for all lost peaks and one for all large changes, with the worst few by name.
 std::vector<std::string> warnings_of(const std::vector<TrackReport>& tracks, TakeKind kind,

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "methods/auto/measured_noise.hpp"
 #include "methods/core/pieces.hpp"
 #include "motion/calibration.hpp"
 #include "pipeline/changes.hpp"
@@ -59,6 +60,7 @@ struct Work {
   std::vector<double> weights;  // one a frame of motion
   ReportScale scale;
   double least_shift = 0;  // file units
+  MeasuredNoise measured{};
 };
 
 // The cleaner's tracks one by one, each in the place of its input as soon as it is there.
@@ -95,12 +97,14 @@ class Finisher {
     for (std::size_t n = 0; n < take_.owners; ++n) {
       TrackReport& own = reports_[n];
       TrackSummary& summary = own.summary;
-      // A method that finds out what the noise is knows more than the measure of white noise.
-      if (!trace.noise.empty()) summary.noise = trace.noise[n];
-      if (!trace.left.empty()) summary.left = trace.left[n];
+      if (!work_.measured.noise.empty()) summary.noise = work_.measured.noise[n];
+      if (!trace.left.empty()) {
+        summary.left = trace.left[n];
+        summary.expected_noise = trace.noise[n];
+      }
       if (take_.markers && !take_.markers->holds_positions(n)) {
         summary.is_position = false;
-        summary.noise = summary.left = 0;
+        summary.noise = summary.expected_noise = summary.left = 0;
         summary.gaps_left = summary.frames_missing = 0;
       }
       report.spans.insert(report.spans.end(), own.spans.begin(), own.spans.end());
@@ -128,7 +132,7 @@ class Finisher {
               may_turn ? work_.weights : nothing_);
     set_track(clip_, joint, edit.after);
     reports_[joint] = report_track(take_.joints->skeleton.names[joint], joint, edit, changes,
-                                   cleaned.noise, work_.scale);
+                                   measure_of(joint), cleaned.noise, work_.scale);
   }
 
   void finish_positions(std::size_t number, CleanedTrack cleaned) {
@@ -148,11 +152,16 @@ class Finisher {
     if (take_.markers) {
       put_back_marker(number, edit.after, changes);
       reports_[number] = report_track(take_.markers->names[number], number, edit, changes,
-                                      cleaned.noise, work_.scale);
+                                      measure_of(number), cleaned.noise, work_.scale);
       return;
     }
     set_track(clip_, number, edit.after);
     if (number == take_.root_track()) root_ = changes;
+  }
+
+  TrackMeasure measure_of(std::size_t track) const {
+    if (work_.measured.noise.empty()) return {};
+    return {work_.measured.coloured[track], work_.measured.spikes[track]};
   }
 
   // A missing sample stays missing unless it was filled.
@@ -215,6 +224,22 @@ void hold_feet(const Work& work, Take& cleaned, InPlaceTrace& trace, CleanReport
   stage.finish();
 }
 
+// What was measured, and what the model of the method expects: of a space without measured noise,
+// and slow noise also beside that.
+std::vector<NoiseCharacter> noise_of(const MeasuredNoise& measured, const CleanTrace& trace) {
+  std::vector<NoiseCharacter> noise = measured.characters;
+  if (trace.left.empty()) return noise;
+  for (NoiseCharacter character : trace.characters) {
+    const bool is_measured =
+        std::any_of(measured.characters.begin(), measured.characters.end(),
+                    [&](const NoiseCharacter& own) { return own.space == character.space; });
+    if (is_measured && !character.is_expected) continue;
+    character.is_expected = true;
+    noise.push_back(character);
+  }
+  return noise;
+}
+
 // Filling and holding feet look at many tracks at once: the whole motion is cleaned beside the
 // input.
 void clean_whole(Take& motion, const Cleaner& cleaner, const Work& work, CleanReport& report) {
@@ -226,7 +251,7 @@ void clean_whole(Take& motion, const Cleaner& cleaner, const Work& work, CleanRe
   report.warnings.insert(report.warnings.end(), trace.warnings.begin(), trace.warnings.end());
   report.fall_backs = trace.fall_backs;
   report.notes = trace.notes;
-  report.noise = trace.characters;
+  report.noise = noise_of(work.measured, trace);
   cleaning.finish();
   if (settings.fill) {
     const Stage stage(settings, "filling");
@@ -274,7 +299,7 @@ void clean_track_by_track(Take& motion, const Cleaner& cleaner, const Work& work
   report.warnings.insert(report.warnings.end(), trace.warnings.begin(), trace.warnings.end());
   report.fall_backs = trace.fall_backs;
   report.notes = trace.notes;
-  report.noise = trace.characters;
+  report.noise = noise_of(work.measured, trace);
   finisher.finish_others();
   finisher.report(trace, report);
   stage.finish();
@@ -284,6 +309,7 @@ void clean_motion(Take& motion, const Cleaner& cleaner, Work work, CleanReport& 
   work.scale.first_frame = work.first;
   work.scale.frame_rate_hz = motion.frame_rate_hz;
   work.scale.peak_loss_limit = work.settings.peak_loss_limit;
+  work.measured = measure_noise(view_of(motion, work.selection));
   const bool holds_feet = work.settings.feet && motion.has_joints();
   if (work.settings.fill || holds_feet) {
     clean_whole(motion, cleaner, work, report);

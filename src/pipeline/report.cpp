@@ -160,16 +160,17 @@ ReportScale marker_scale(const std::string& unit, double body_height) {
 
 template <class Sample>
 TrackReport report_track(std::string name, std::size_t owner, const TrackEdit<Sample>& track,
-                         const TrackChanges& changes, const ColouredNoise& noise,
-                         const ReportScale& scale) {
+                         const TrackChanges& changes, const TrackMeasure& measure,
+                         const ColouredNoise& taken, const ReportScale& scale) {
   const std::size_t frames = track.before.size();
   const bool cut = scale.gaps == GapTreatment::cut;
   TrackReport report;
   TrackSummary& summary = report.summary;
   summary.name = std::move(name);
   report.spans = spans_of(static_cast<std::int32_t>(owner), changes, scale.first_frame);
-  std::vector<std::uint8_t> left_out(frames);
-  std::vector<Sample> counted;  // of a joint a bridge counts, too
+  std::vector<std::uint8_t> left_out(frames);      // spikes and gaps, whatever the method did
+  std::vector<std::uint8_t> not_followed(frames);  // also what the method repaired
+  std::vector<Sample> counted;                     // of a joint a bridge counts, too
   double squares = 0;
   bool was_missing = false;
   for (std::size_t f = 0; f < frames; ++f) {
@@ -183,22 +184,34 @@ TrackReport report_track(std::string name, std::size_t owner, const TrackEdit<Sa
     summary.frames_missing += is_missing;
     summary.gaps_left += is_missing && !was_missing;
     was_missing = is_missing;
-    left_out[f] = repaired(changes.actions[f]) || !seen;
+    left_out[f] = !seen || (!measure.spikes.empty() && measure.spikes[f] != 0);
+    not_followed[f] = left_out[f] || repaired(changes.actions[f]);
     if (seen || !cut) counted.push_back(track.before[f]);
   }
   if (counted.empty()) return report;
   summary.rms_change = std::sqrt(squares / static_cast<double>(counted.size()));
   const double white = track_noise(counted, noise_samples);
-  const bool is_white = noise.correlation == 0;
-  const double strength = is_white ? white : noise.strength / scale.per_sample_unit;
-  const Peaks peaks = measure_peaks(track.before, track.after, std::move(left_out),
-                                    {white, strength, noise.correlation}, scale.frame_rate_hz);
+  const auto sample_noise = [&](const ColouredNoise& noise) {
+    if (noise.correlation == 0) return SampleNoise{white, white, 0};
+    return SampleNoise{white, noise.strength / scale.per_sample_unit, noise.correlation};
+  };
+  const SampleNoise measured = sample_noise(measure.coloured);
+  const Peaks peaks =
+      measure_peaks(track.before, track.after, std::move(left_out), measured, scale.frame_rate_hz);
   summary.peak_speed_before = peaks.before * scale.per_sample_unit;
   summary.peak_speed_after = peaks.after * scale.per_sample_unit;
   summary.peak_frames = peaks.frames;
-  summary.noise = strength * scale.per_sample_unit;
+  summary.noise = measured.strength * scale.per_sample_unit;
   report.lost_peak = lost_peak(peaks, scale);
-  report.large_change = large_change(changes, summary.noise, scale);
+  const SampleNoise explained = sample_noise(taken);
+  if (report.lost_peak) {
+    // A peak that the method repaired, or that the noise explains which it took out, is not lost.
+    const Peaks own = measure_peaks(track.before, track.after, std::move(not_followed), explained,
+                                    scale.frame_rate_hz);
+    if (!lost_peak(own, scale)) report.lost_peak.reset();
+  }
+  report.large_change = large_change(
+      changes, std::max(measured.strength, explained.strength) * scale.per_sample_unit, scale);
   return report;
 }
 
@@ -216,8 +229,10 @@ std::vector<std::string> warnings_of(const std::vector<TrackReport>& tracks, Tak
 }
 
 template TrackReport report_track(std::string, std::size_t, const TrackEdit<Quat>&,
-                                  const TrackChanges&, const ColouredNoise&, const ReportScale&);
+                                  const TrackChanges&, const TrackMeasure&, const ColouredNoise&,
+                                  const ReportScale&);
 template TrackReport report_track(std::string, std::size_t, const TrackEdit<Vec3>&,
-                                  const TrackChanges&, const ColouredNoise&, const ReportScale&);
+                                  const TrackChanges&, const TrackMeasure&, const ColouredNoise&,
+                                  const ReportScale&);
 
 }  // namespace kinemend

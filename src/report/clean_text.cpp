@@ -27,17 +27,21 @@ double noticeable_noise(const CleanReport& report) {
                                           : noticeable_deg;
 }
 
+struct TypicalNoise {
+  double size = 0;
+  std::size_t tracks = 0;
+};
+
 // The middle one of the noises of what was smoothed and has one; 0 without any.
-double typical_noise(const CleanReport& report, std::size_t& count) {
+TypicalNoise typical_noise(const CleanReport& report, double TrackSummary::*noise) {
   std::vector<double> noises;
   for (const TrackSummary& row : report.tracks) {
-    if (row.frames_changed > row.frames_repaired && row.noise > 0) noises.push_back(row.noise);
+    if (row.frames_changed > row.frames_repaired && row.*noise > 0) noises.push_back(row.*noise);
   }
-  count = noises.size();
-  if (noises.empty()) return 0;
+  if (noises.empty()) return {};
   const auto middle = noises.begin() + static_cast<std::ptrdiff_t>(noises.size() / 2);
   std::nth_element(noises.begin(), middle, noises.end());
-  return *middle;
+  return {*middle, noises.size()};
 }
 
 // What changed, most first.
@@ -192,12 +196,16 @@ std::string clean_verdict(const TakeFacts& take, const CleanOutcome& outcome) {
     const char* result = swaps.empty() ? "nothing changed" : "mended";
     return fmt::format("{}: {}", result, fmt::join(left_over, ", "));
   }
-  std::size_t noisy = 0;
-  const double noise = typical_noise(report, noisy);
+  const TypicalNoise jitter = typical_noise(report, &TrackSummary::noise);
+  const TypicalNoise expected = typical_noise(report, &TrackSummary::expected_noise);
+  // Noise that does not show from frame to frame is known from the model alone.
+  const bool is_expected = jitter.size < noticeable_noise(report) && expected.size > jitter.size;
+  const TypicalNoise noise = is_expected ? expected : jitter;
   std::vector<std::string> findings;
-  if (noise > 0) {
-    findings.push_back(fmt::format("{} jitter on {}", measure_text(noise, report.unit),
-                                   counted(noisy, noun_of(report.kind))));
+  if (noise.size > 0) {
+    findings.push_back(fmt::format("{} {} on {}", measure_text(noise.size, report.unit),
+                                   is_expected ? "noise expected" : "jitter",
+                                   counted(noise.tracks, noun_of(report.kind))));
   } else if (changed > 0) {
     findings.push_back(counted(changed, noun_of(report.kind)) + " changed");
   } else {
@@ -211,9 +219,9 @@ std::string clean_verdict(const TakeFacts& take, const CleanOutcome& outcome) {
   if (const std::size_t count = count_fallen_back(report); count > 0)
     all += fmt::format("; {} in place of {} for {}", report.fall_backs.front().method,
                        report.method, counted(count, noun_of(report.kind)));
-  if (noise >= noticeable_noise(report)) return "noisy: " + all;
+  if (noise.size >= noticeable_noise(report)) return "noisy: " + all;
   if (spikes + gaps + outcome.swaps.size() > 0) return "damaged: " + all;
-  return noise > 0 ? "nearly clean: " + all : "smoothed: " + all;
+  return noise.size > 0 ? "nearly clean: " + all : "smoothed: " + all;
 }
 
 namespace {

@@ -141,7 +141,9 @@ Json noise_json(const std::vector<NoiseCharacter>& characters, double frame_rate
   Json list = Json::array();
   for (const NoiseCharacter& noise : characters) {
     const auto below = [&](double share) {
-      return noise.is_expected ? Json() : Json(noise.frequency_of_share(share, frame_rate_hz));
+      return noise.is_expected && noise.correlation == 0
+                 ? Json()
+                 : Json(noise.frequency_of_share(share, frame_rate_hz));
     };
     list.push_back({{"quantity", noise.space == Space::rotation ? "rotation" : "position"},
                     {"strength", noise.strength},

@@ -32,11 +32,14 @@ std::string noise_words(const NoiseCharacter& noise, TakeKind kind, std::string_
   const bool is_of_tracks = (kind == TakeKind::joints) == (noise.space == Space::rotation);
   const std::string lead = is_of_tracks ? "" : "positions: ";
   const std::string_view shown = is_of_tracks ? unit : std::string_view();
+  if (noise.is_expected && noise.correlation > 0)
+    return fmt::format(
+        "{}about {} per axis, {}; the model expects it, the take alone does not show it", lead,
+        measure_text(noise.strength, shown), colour_words(noise, frame_rate_hz));
   if (noise.is_expected)
     return fmt::format(
-        "{}about {}, slow: typical of markerless video; not measurable from the take alone; "
-        "cleaning mends "
-        "velocities, and hardly poses",
+        "{}about {}, slow; the model expects it, as in markerless video; the take alone does not "
+        "show it. Cleaning improves velocities; poses change little",
         lead, measure_text(noise.strength, shown));
   std::string words = fmt::format("{}{} per axis, {}", lead, measure_text(noise.strength, shown),
                                   colour_words(noise, frame_rate_hz));

@@ -113,8 +113,11 @@ ReportTracks tracks(const TakeFacts& take, const CleanOutcome& outcome) {
        column("peak_speed_before", "peak speed before", rows, &Row::peak_speed_before),
        column("peak_speed_after", "after", rows, &Row::peak_speed_after),
        column("peak_frames", "frames of a peak", rows, &Row::peak_frames)}};
-  if (std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.left > 0; }))
+  if (std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.left > 0; })) {
+    result.columns.push_back(
+        column("expected_noise", "noise expected", rows, &Row::expected_noise));
     result.columns.push_back(column("left", "expected to be left", rows, &Row::left));
+  }
   if (take.kind == TakeKind::markers) {
     result.columns.push_back(column("gaps_left", "gaps left", rows, &Row::gaps_left));
     result.columns.push_back(

@@ -167,6 +167,34 @@ TEST_F(Unchanged, WarningsOfManyJointsAreOneLineWithTheWorstThree) {
   EXPECT_THAT(ran.out, HasSubstr("deg jitter on "));
 }
 
+TEST_F(Unchanged, EveryMethodAndCheckReportTheSameNoiseAndPeakSpeed) {
+  ASSERT_EQ(run({"synth", "walk", "-o", "clean.bvh"}).code, 0);
+  for (const std::string damage : {"gaussian:std_deg=1.5", "ar1"}) {
+    ASSERT_EQ(run({"corrupt", "clean.bvh", "-o", "walk.bvh", "--force", "--damage", damage,
+                   "--damage", "outliers"})
+                  .code,
+              0);
+    const auto tracks = [&](const std::vector<std::string>& words) {
+      EXPECT_LE(run(words).code, 1);
+      return Json::parse(contents(folder / "report.json"))["takes"][0]["tracks"];
+    };
+    const Json checked = tracks({"check", "walk.bvh", "--report", "report.json", "--force"});
+    Json first;
+    for (const std::string method : {"learned", "auto", "butterworth", "kalman", "wiener"}) {
+      const Json own = tracks({"clean", "walk.bvh", "-m", method, "--dry-run", "-q", "--report",
+                               "report.json", "--force"});
+      if (first.is_null()) first = own;
+      ASSERT_EQ(own.size(), checked.size());
+      for (std::size_t t = 0; t < own.size(); ++t) {
+        EXPECT_EQ(own[t]["noise"], checked[t]["noise"]) << damage << " " << method << " " << t;
+        for (const char* name : {"peak_speed_before", "peak_frames"})
+          EXPECT_EQ(own[t][name], first[t][name]) << damage << " " << method << " " << t;
+        EXPECT_EQ(own[t].contains("expected_noise"), method == "learned") << method;
+      }
+    }
+  }
+}
+
 TEST_F(Unchanged, CheckAndCleanCountTheSameSpikesAndNoisyJoints) {
   noisy("walk.bvh", "4");
   ASSERT_EQ(run({"check", "walk.bvh", "--report", "check.json"}).code, 0);

@@ -36,6 +36,25 @@ TEST_F(Config, APresetAndItsPrintedFileCleanAlike) {
   }
 }
 
+TEST_F(Config, APresetBuildsOnTheDefaultMethodOrSaysThatItNamesAnother) {
+  noisy("walk.bvh", "1");
+  ASSERT_EQ(run({"clean", "walk.bvh", "-o", "default.bvh"}).code, 0);
+  for (const std::string preset : {"walk", "sport", "dance"}) {
+    const Ran ran = run({"clean", "walk.bvh", "-o", "a.bvh", "--force", "--preset", preset});
+    EXPECT_EQ(contents(folder / "a.bvh"), contents(folder / "default.bvh")) << preset;
+    EXPECT_THAT(ran.out, Not(HasSubstr("is the choice of"))) << preset;
+  }
+  EXPECT_THAT(run({"clean", "walk.bvh", "--dry-run", "--preset", "hands"}).out,
+              HasSubstr("method learned"));
+  EXPECT_THAT(run({"clean", "walk.bvh", "--dry-run", "--preset", "biomech"}).out,
+              HasSubstr("method butterworth is the choice of --preset biomech, in place of "
+                        "learned, the default"));
+  EXPECT_THAT(run({"clean", "walk.bvh", "--dry-run", "--preset", "live"}).out,
+              HasSubstr("method one-euro is the choice of --preset live"));
+  EXPECT_THAT(run({"clean", "walk.bvh", "--dry-run", "--preset", "biomech", "-m", "median"}).out,
+              Not(HasSubstr("is the choice of")));
+}
+
 TEST_F(Config, EverySettingIsPrintedWithItsUnitAndRange) {
   const Ran ran = run({"clean", "--preset", "biomech", "--print-config"});
   EXPECT_THAT(ran.out, HasSubstr("method = \"butterworth\""));

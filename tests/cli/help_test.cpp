@@ -1,4 +1,5 @@
 // Help, manual page and completions list every option that the parser accepts.
+#include <functional>
 #include <regex>
 #include <set>
 
@@ -14,7 +15,7 @@ const std::vector<std::string> commands = {
     "clean", "batch",  "fill",    "info",    "check", "contacts",   "compare", "methods",
     "train", "models", "convert", "corrupt", "synth", "completion", "man",     "help"};
 
-/// Every `--name` in a command's long help; `--[no-]name` stands for two.
+/// Every `--name` in a help text; `--[no-]name` stands for two.
 std::set<std::string> options_in(const std::string& help) {
   std::set<std::string> names;
   const std::regex entry("(?:^|\\n)  (?:-[a-zA-Z], |    )--(\\[no-\\])?([a-z][a-z0-9-]*)");
@@ -24,6 +25,24 @@ std::set<std::string> options_in(const std::string& help) {
   }
   names.insert("--help");
   return names;
+}
+
+/// The options of a command and of what `kinemend help NAME` explains beside it.
+std::set<std::string> options_of_command(const std::string& command,
+                                         const std::function<std::string(std::string)>& help_of) {
+  const std::string help = help_of(command);
+  std::set<std::string> options = options_in(help);
+  const std::size_t names = help.find(" NAME:\n");
+  if (names == std::string::npos) return options;
+  const std::string list = help.substr(names + 7, help.find(".\n", names) - names - 7);
+  const std::regex word("[a-z0-9-]+");
+  const bool are_flags = command == "clean" || command == "batch";
+  for (std::sregex_iterator hit(list.begin(), list.end(), word), end; hit != end && are_flags;
+       ++hit) {
+    const std::string text = help_of(hit->str());
+    options.merge(options_in(text.substr(0, text.find("Page:"))));
+  }
+  return options;
 }
 
 TEST_F(Help, BothLevelsExistForEveryCommand) {
@@ -50,19 +69,45 @@ TEST_F(Help, TheVersionIsPrinted) {
                                                        "licence: Apache 2.0\n"));
 }
 
-TEST_F(Help, TheLongHelpHoldsEveryOptionOfEveryMethod) {
-  const std::string help = run({"clean", "--help"}).out;
-  const std::set<std::string> options = options_in(help);
+TEST_F(Help, TheHelpOfAMethodHoldsItsOptionsAndItsPage) {
   const Json list = Json::parse(run({"methods", "--json"}).out)["methods"];
+  ASSERT_FALSE(list.empty());
   for (const Json& method : list) {
+    const std::string method_name = method["name"];
+    const std::string help = run({"help", method_name}).out;
+    const std::set<std::string> options = options_in(help);
     for (const Json& option : method["options"]) {
       std::string name = option["name"];
       std::replace(name.begin(), name.end(), '_', '-');
-      EXPECT_TRUE(options.count("--" + name)) << name;
+      EXPECT_TRUE(options.count("--" + name)) << method_name << " " << name;
+    }
+    EXPECT_THAT(help, HasSubstr("Page: docs/methods/" + method_name + ".md\n"));
+  }
+  EXPECT_THAT(std::regex_replace(run({"help", "butterworth"}).out, std::regex("\\s+"), " "),
+              HasSubstr("half of the frame rate (0.05 to 500 Hz; default 8)"));
+}
+
+TEST_F(Help, TheHelpOfACommandIsShortAndSaysHowToSeeTheOptionsOfAMethod) {
+  for (const std::string command : {"clean", "batch", "fill", "stream", "corrupt", "train"}) {
+    const std::string help = run({command, "--help"}).out;
+    EXPECT_LT(lines_of(help).size(), 125u) << command;
+    EXPECT_THAT(help, HasSubstr("type: kinemend help ")) << command;
+  }
+  const std::string help = run({"clean", "--help"}).out;
+  EXPECT_THAT(help, HasSubstr("bilateral"));
+  EXPECT_THAT(help, Not(HasSubstr("--sigma-t-s")));
+}
+
+TEST_F(Help, EveryHeadingAppearsOnce) {
+  for (const std::string& command : commands) {
+    for (const char* level : {"-h", "--help"}) {
+      std::set<std::string> headings;
+      for (const std::string& line : lines_of(run({command, level}).out)) {
+        if (line.empty() || line.front() == ' ' || line.back() != ':') continue;
+        EXPECT_TRUE(headings.insert(line).second) << command << " " << level << ": " << line;
+      }
     }
   }
-  EXPECT_THAT(std::regex_replace(help, std::regex("\\s+"), " "),
-              HasSubstr("half of the frame rate (0.05 to 500 Hz; default 8)"));
 }
 
 TEST_F(Help, NoOptionOfAMethodIsAnOptionOfCleanItself) {
@@ -89,10 +134,11 @@ TEST_F(Help, NoLineIsWiderThanATerminal) {
 
 TEST_F(Help, TheManualPageHoldsEveryOption) {
   const std::string page = replaced(run({"man"}).out, "\\-", "-");
+  const auto help_of = [&](const std::string& name) { return run({"help", name}).out; };
   EXPECT_THAT(page, testing::StartsWith(".TH KINEMEND 1"));
   for (const std::string& command : commands) {
     EXPECT_THAT(page, HasSubstr(".SH \"KINEMEND " + command + "\""));
-    for (const std::string& name : options_in(run({command, "--help"}).out)) {
+    for (const std::string& name : options_of_command(command, help_of)) {
       const bool is_no = name.rfind("--no-", 0) == 0;
       if (name == "--help") continue;
       const std::string shown = is_no ? "--[no-]" + name.substr(5) : name;
@@ -101,17 +147,17 @@ TEST_F(Help, TheManualPageHoldsEveryOption) {
           << command << " " << name;
     }
   }
-  const std::string help = run({"corrupt", "--help"}).out;
-  EXPECT_THAT(help, HasSubstr("std_deg=X"));
+  EXPECT_THAT(run({"help", "gaussian"}).out, HasSubstr("std_deg=X"));
   EXPECT_THAT(page, HasSubstr("std_deg=X"));
 }
 
 TEST_F(Help, EveryCompletionHoldsEveryOption) {
+  const auto help_of = [&](const std::string& name) { return run({"help", name}).out; };
   for (const std::string shell : {"bash", "zsh", "fish"}) {
     const Ran script = run({"completion", shell});
     ASSERT_EQ(script.code, 0);
     for (const std::string& command : commands) {
-      for (const std::string& name : options_in(run({command, "--help"}).out)) {
+      for (const std::string& name : options_of_command(command, help_of)) {
         const std::string as_written = shell == "fish" ? "-l " + name.substr(2) : name;
         EXPECT_THAT(script.out, HasSubstr(as_written)) << shell << " " << command;
       }

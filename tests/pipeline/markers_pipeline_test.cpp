@@ -148,7 +148,7 @@ TEST(MarkerPipeline, ReportsInFileUnits) {
   EXPECT_EQ(report.tracks[0].frames_changed, 50U);
   EXPECT_EQ(report.tracks[0].frames_repaired, 50U);
   EXPECT_EQ(report.tracks[2].frames_changed, 0U);
-  EXPECT_EQ(report.tracks[0].noise, 0.25);
+  EXPECT_NE(report.tracks[0].noise, 0.25) << "it is measured, and not the method's";
   ASSERT_THAT(report.spans, SizeIs(2));
   EXPECT_EQ(report.spans[1].joint, 1);
   EXPECT_EQ(report.spans[1].action, Action::despiked);

@@ -11,6 +11,7 @@
 #include "kinemend/methods.hpp"
 #include "methods/auto/auto_scale.hpp"
 #include "methods/auto/entries.hpp"
+#include "methods/auto/measured_noise.hpp"
 #include "methods/auto/neighbours.hpp"
 #include "methods/auto/track_cleaning.hpp"
 #include "methods/auto/track_vectors.hpp"
@@ -44,6 +45,49 @@ std::optional<NoiseCharacter> character_of(const TakeView& take, Space space,
                         verdicts.pattern.step, verdicts.pattern.join == SampleJoin::linear};
 }
 
+TrackKind kind_of(const Track& track) {
+  return track.space == Space::rotation ? TrackKind::rotations : TrackKind::positions;
+}
+
+struct JudgedTracks {
+  VectorTracks tracks;  // as `clean_tracks` leaves them
+  CleanedTracks verdicts;
+};
+
+// What `clean_tracks` makes of tracks of one space.
+JudgedTracks judge_tracks(const TakeView& take, const std::vector<std::size_t>& numbers,
+                          const TrackCleaningSettings& settings, ShareProgress* progress) {
+  const std::size_t frames = take.frames, count = numbers.size();
+  VectorTracks tracks(frames, count);
+  SampleMarks suspects(frames, count), gaps(frames, count);
+  if (progress != nullptr) progress->begin_part(0.2, count);
+  for_each_parallel(count, frames * count, [&](std::size_t n) {
+    const TrackVectors curve = vectors_of(take, numbers[n]);
+    for (std::size_t t = 0; t < frames; ++t) {
+      tracks.set(t, n, curve.vectors[t]);
+      if (!curve.suspects.empty()) suspects(t, n) = curve.suspects[t];
+      gaps(t, n) = !take.tracks[numbers[n]].is_observed(t);
+    }
+    if (progress != nullptr) progress->step();
+  });
+  CleanedTracks verdicts = clean_tracks(tracks, suspects, gaps, tracks_nearby(take, numbers),
+                                        take.frame_rate_hz, settings, progress);
+  return {std::move(tracks), std::move(verdicts)};
+}
+
+// The tracks that may change, by space.
+struct TracksBySpace {
+  std::vector<std::size_t> rotations, positions;
+};
+TracksBySpace tracks_by_space(const TakeView& take) {
+  TracksBySpace found;
+  for (const std::size_t track : changeable_tracks(take)) {
+    (take.tracks[track].space == Space::rotation ? found.rotations : found.positions)
+        .push_back(track);
+  }
+  return found;
+}
+
 class Auto final : public Cleaner {
  public:
   explicit Auto(const AutoOptions& options) : options_(options) {}
@@ -54,9 +98,7 @@ class Auto final : public Cleaner {
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& tell) const override {
     CleanTrace trace;
-    std::vector<std::size_t> rotations, positions;
-    for (const std::size_t track : changeable_tracks(take))
-      (take.tracks[track].space == Space::rotation ? rotations : positions).push_back(track);
+    const auto [rotations, positions] = tracks_by_space(take);
     if (take.frames < fewest_clean_frames) {
       keep_bridges(take, rotations, sink);
       return trace;
@@ -79,21 +121,9 @@ class Auto final : public Cleaner {
                       const TrackSink& sink, ShareProgress& progress, CleanTrace& trace) const {
     const std::size_t frames = take.frames, count = numbers.size();
     if (count == 0) return;
-    VectorTracks tracks(frames, count);
-    SampleMarks suspects(frames, count), gaps(frames, count);
-    progress.begin_part(0.2, count);
-    for_each_parallel(count, frames * count, [&](std::size_t n) {
-      const TrackVectors curve = vectors_of(take, numbers[n]);
-      for (std::size_t t = 0; t < frames; ++t) {
-        tracks.set(t, n, curve.vectors[t]);
-        if (!curve.suspects.empty()) suspects(t, n) = curve.suspects[t];
-        gaps(t, n) = !take.tracks[numbers[n]].is_observed(t);
-      }
-      progress.step();
-    });
-    const CleanedTracks verdicts =
-        clean_tracks(tracks, suspects, gaps, tracks_nearby(take, numbers), take.frame_rate_hz,
-                     settings_for(take, numbers), &progress);
+    const JudgedTracks judged = judge_tracks(take, numbers, settings_for(take, numbers), &progress);
+    const VectorTracks& tracks = judged.tracks;
+    const CleanedTracks& verdicts = judged.verdicts;
     if (const auto character = character_of(take, take.tracks[numbers.front()].space, verdicts))
       trace.characters.push_back(*character);
     progress.begin_part(1, count);
@@ -115,18 +145,15 @@ class Auto final : public Cleaner {
 
   TrackCleaningSettings settings_for(const TakeView& take,
                                      const std::vector<std::size_t>& numbers) const {
-    TrackCleaningSettings settings{options_.sensitivity, options_.despike,
-                                   kind_of(take.tracks[numbers.front()])};
+    TrackCleaningSettings settings{.sensitivity = options_.sensitivity,
+                                   .despike = options_.despike,
+                                   .kind = kind_of(take.tracks[numbers.front()])};
     settings.correlation = take.noise_correlation;
     for (const std::size_t n : numbers) {
       const Track& track = take.tracks[n];
       settings.noise.push_back(degrees_per_unit(take, track.space) * track.noise);
     }
     return settings;
-  }
-
-  static TrackKind kind_of(const Track& track) {
-    return track.space == Space::rotation ? TrackKind::rotations : TrackKind::positions;
   }
 
   static bool needs_bridges(const TakeView& take, std::size_t number) {
@@ -142,6 +169,37 @@ class Auto final : public Cleaner {
 };
 
 }  // namespace
+
+MeasuredNoise measure_noise(const TakeView& take) {
+  MeasuredNoise measured;
+  const std::size_t count = take.tracks.size();
+  if (take.frames < fewest_clean_frames) return measured;
+  measured.noise.assign(count, 0);
+  measured.coloured.resize(count);
+  measured.spikes.resize(count);
+  // Keys are not measured: nothing of them is noise.
+  if (take.source == Source::keyframed) return measured;
+  const auto [rotations, positions] = tracks_by_space(take);
+  for (const std::vector<std::size_t>& numbers : {rotations, positions}) {
+    if (numbers.empty()) continue;
+    const CleanedTracks verdicts =
+        judge_tracks(take, numbers,
+                     {.kind = kind_of(take.tracks[numbers.front()]), .smooth = false}, nullptr)
+            .verdicts;
+    if (const auto character = character_of(take, take.tracks[numbers.front()].space, verdicts))
+      measured.characters.push_back(*character);
+    for (std::size_t n = 0; n < numbers.size(); ++n) {
+      const std::size_t track = numbers[n];
+      measured.noise[track] = verdicts.noise[n] / degrees_per_unit(take, take.tracks[track].space);
+      if (verdicts.spectrum.is_clear && verdicts.shares[n] != 0)
+        measured.coloured[track] = {measured.noise[track], verdicts.spectrum.correlation};
+      const auto spikes = verdicts.marked.track(n);
+      if (std::find(spikes.begin(), spikes.end(), 1) != spikes.end())
+        measured.spikes[track].assign(spikes.begin(), spikes.end());
+    }
+  }
+  return measured;
+}
 
 std::unique_ptr<Cleaner> make_auto(const AutoOptions& options) {
   auto_table().validate(options);

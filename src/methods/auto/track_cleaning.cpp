@@ -100,8 +100,10 @@ CleanedTracks clean_measurements(VectorTracks& tracks, const SampleMarks& spike_
     cleaned.shares =
         coloured_shares(cleaned.spectrum, settings.sensitivity, frame_rate_hz, tuning.colour);
     leave_hardly_observed(missing, cleaned.shares);
-    smooth_coloured(tracks, missing, cleaned.spectrum, settings.sensitivity, cleaned.shares,
-                    frame_rate_hz, progress, tuning.colour);
+    if (settings.smooth) {
+      smooth_coloured(tracks, missing, cleaned.spectrum, settings.sensitivity, cleaned.shares,
+                      frame_rate_hz, progress, tuning.colour);
+    }
   } else {
     std::vector<double> assumed = cleaned.noise;
     for (double& level : assumed) level *= settings.sensitivity;
@@ -110,8 +112,10 @@ CleanedTracks clean_measurements(VectorTracks& tracks, const SampleMarks& spike_
     for (std::size_t n = 0; n < cleaned.shares.size(); ++n)
       if (!is_known(settings.noise, n)) cleaned.shares[n] *= agreement;
     leave_hardly_observed(missing, cleaned.shares);
-    smooth_tracks(tracks, missing, assumed, cleaned.shares, frame_rate_hz, progress,
-                  tuning.smoothing);
+    if (settings.smooth) {
+      smooth_tracks(tracks, missing, assumed, cleaned.shares, frame_rate_hz, progress,
+                    tuning.smoothing);
+    }
     undo_whitening(tracks, whitenings);
   }
   return cleaned;

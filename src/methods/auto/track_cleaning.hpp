@@ -23,6 +23,7 @@ struct TrackCleaningSettings {
   std::optional<double> correlation{};  ///< of the noise, where it is known; 0: white
   std::vector<double> noise{};          ///< N, degrees, where it is known, else 0; empty: nowhere
   TrackTuning tuning = {};
+  bool smooth = true;  ///< false: the noise and the spikes are found, and nothing is smoothed
 };
 
 struct CleanedTracks {

@@ -1,0 +1,24 @@
+// Measures the noise and the spikes of a take, for reports of every method.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kinemend/cleaner.hpp"
+#include "kinemend/take_view.hpp"
+
+namespace kinemend {
+
+/// What `auto` finds in a take at its default options, whatever is known of the noise: the same
+/// figures for every method that cleans the take.
+struct MeasuredNoise {
+  /// One a track: per axis, degrees or file units; 0 for tracks that may not change. Empty: the
+  /// take is too short to tell.
+  std::vector<double> noise;
+  std::vector<ColouredNoise> coloured;            ///< one a track, where its noise is coloured
+  std::vector<std::vector<std::uint8_t>> spikes;  ///< one a track: F, or empty for none
+  std::vector<NoiseCharacter> characters;  ///< at most one for rotations and one for positions
+};
+MeasuredNoise measure_noise(const TakeView& take);
+
+}  // namespace kinemend
