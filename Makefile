@@ -109,10 +109,10 @@ deb: build ## the Debian packages kinemend and libkinemend-dev, in build/deb
 	$(need) package
 	tools/make_deb $(RELEASE)
 
-deb-test: deb ## install the packages into a fresh Debian, clean a take and build the README's snippet there (needs root)
+deb-test: deb ## install the packages into a fresh Debian, clean a take and build the snippet of docs/cpp.md there (needs root)
 	tools/deb_test build/deb
 
-install-test: build ## install into a folder and build the programs of README and docs/install.md against it
+install-test: build ## install into a folder and build the programs of docs/cpp.md and docs/install.md against it
 	tools/install_test $(RELEASE)
 
 windows-install-test: windows ## the same for Windows: the static library, its headers and its package, and programs that run under Wine
