@@ -16,7 +16,7 @@ need = @tools/install_packages packages.txt
 WINDOWS := $(BUILD)/windows/cli/kinemend.exe
 WINE ?= /usr/lib/wine/wine64
 
-.PHONY: help setup build windows windows-test windows-install-test libcxx libcxx-test libcxx-install-test wasm wasm-test demo deb deb-test install-test first-test cluster-test test test-all asan asan-build asan-test lint format page bench bench-quick blender-addon blender-test blender-pictures web-app npm-package \
+.PHONY: help setup build windows windows-test windows-install-test libcxx libcxx-test libcxx-install-test wasm wasm-test demo dist dist-quick dist-test dist-test-quick deb deb-test install-test first-test cluster-test test test-all asan asan-build asan-test lint format page bench bench-quick blender-addon blender-test blender-pictures web-app npm-package \
   papers papers-quick pictures fuzz soak nightly clean FORCE
 
 help: ## this list
@@ -82,7 +82,7 @@ web-app: wasm ## kinemend.html, the page of `view` in one file that needs no pro
 
 npm-package: wasm ## the npm package of the module: build/wasm/wasm/npm/kinemend-0.2.0.tgz
 	$(need) page
-	wasm/npm/make_package $(BUILD)/wasm/wasm $(BUILD)/wasm_tools/zlib
+	wasm/npm/make_package $(BUILD)/wasm/wasm
 
 wasm-test: build web-app npm-package ## the module in Node, the app and the package in a browser write the same bytes as the program on twenty takes
 	$(need) page browser
@@ -108,6 +108,22 @@ blender-pictures: blender-test ## the pictures of docs/blender.md again
 deb: build ## the Debian packages kinemend and libkinemend-dev, in build/deb
 	$(need) package
 	tools/make_deb $(RELEASE)
+
+dist: ## all downloads, with checksums and a list of the libraries inside: build/dist (every compiler: about as long as three builds)
+	$(need) core package python windows wasm page
+	$(MAKE) build windows web-app npm-package
+	tools/make_dist
+
+dist-quick: ## the same without what other compilers make: build/dist
+	$(need) core package python
+	$(MAKE) build
+	tools/make_dist --quick
+
+dist-test: dist ## make them again in a clone and compare the bytes; install the wheel into a fresh Debian (needs root)
+	tools/dist_test
+
+dist-test-quick: dist-quick ## pack them again with another umask, locale and time zone, and compare the bytes
+	tools/dist_test --quick
 
 deb-test: deb ## install the packages into a fresh Debian, clean a take and build the snippet of docs/cpp.md there (needs root)
 	tools/deb_test build/deb
@@ -206,7 +222,7 @@ nightly: ## what continuous integration leaves out: sanitisers, a fresh Debian, 
 	tools/lint --includers
 	$(MAKE) asan ASAN=asan-all
 	$(MAKE) libcxx-test libcxx-install-test windows-test windows-install-test
-	$(MAKE) fuzz soak test-all deb-test install-test first-test cluster-test bench-quick
+	$(MAKE) fuzz soak test-all dist-test deb-test install-test first-test cluster-test bench-quick
 	tests/live/clients/node_osc_test $(RELEASE)/cli/kinemend
 
 clean: ## remove everything that was built

@@ -1,5 +1,17 @@
+# Permissions that do not depend on the umask.
+set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+
 # Debian packages, by `make deb`: kinemend (the program) and libkinemend-dev (library, headers, CMake package).
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/kinemend RENAME copyright COMPONENT program)
+# tools/make_deb writes these: the licences of what is compiled in.
+foreach(part program development)
+  set(package kinemend)
+  if(part STREQUAL "development")
+    set(package libkinemend-dev)
+  endif()
+  install(FILES ${PROJECT_BINARY_DIR}/licences/${package}/LICENCES.txt DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package}
+    COMPONENT ${part} OPTIONAL)
+endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/presets DESTINATION ${CMAKE_INSTALL_DATADIR}/kinemend COMPONENT program
   FILES_MATCHING PATTERN "*.toml")
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libkinemend-dev RENAME copyright

@@ -13,4 +13,5 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 # of AVX would fault. The assembler writes the unaligned ones, which cost the same on aligned memory. Large objects: many
 # templates make more sections than a small object file can hold.
 set(CMAKE_CXX_FLAGS_INIT "-Wa,-muse-unaligned-vector-move -Wa,-mbig-obj -D_WIN32_WINNT=0x0A00 -DNOMINMAX -DWIN32_LEAN_AND_MEAN")
-set(CMAKE_EXE_LINKER_FLAGS_INIT "-static")
+# Without the time of the link, so that the same sources give the same bytes.
+set(CMAKE_EXE_LINKER_FLAGS_INIT "-static -Wl,--no-insert-timestamp")

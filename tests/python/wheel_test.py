@@ -5,6 +5,7 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import zipfile
 
 import pytest
 
@@ -34,6 +35,24 @@ def python(tmp_path_factory):
     inside = folder / "venv" / "bin" / "python"
     run(sys.executable, "-m", "pip", "--python", inside, "install", "--quiet", "--no-index", "--no-deps", wheel, env=environment)
     return inside
+
+
+@pytest.mark.skipif(not shutil.which("readelf"), reason="needs readelf")
+def test_the_wheel_carries_its_libraries(tmp_path):
+    environment = {**os.environ, "KINEMEND_IS_BUILT": "1", "PYTHON": sys.executable}
+    wheel = run(ROOT / "tools" / "make_wheel", BUILD, tmp_path, env=environment).strip()
+    assert "manylinux_2_" in wheel
+    with zipfile.ZipFile(wheel) as archive:
+        module = archive.extract(next(name for name in archive.namelist() if name.endswith(".so")), tmp_path)
+        licences = archive.read(next(name for name in archive.namelist() if name.endswith("LICENCES.txt"))).decode()
+    needed = run("readelf", "--dynamic", "--wide", module)
+    assert "libc.so.6" in needed
+    assert not any(name in needed for name in ("libtbb", "libfmt", "libhwy", "libstdc++"))
+    assert "pybind11 (BSD-3-Clause)" in licences and "GCC-exception" in licences
+    again = tmp_path / "again"
+    again.mkdir()
+    second = run(ROOT / "tools" / "make_wheel", BUILD, again, env=environment).strip()
+    assert pathlib.Path(wheel).read_bytes() == pathlib.Path(second).read_bytes()
 
 
 def example(python, folder, name, *words):

@@ -1,0 +1,1 @@
+"""What the downloads of `make dist` hold, and how they are packed."""
