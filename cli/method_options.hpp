@@ -11,7 +11,7 @@
 
 namespace kinemend::cli {
 
-/// What cleans where no method is named. The page of `view` has the name as well (web/src/view.ts).
+/// What cleans where no method is named.
 inline constexpr std::string_view default_method = "learned";
 
 /// The table of methods as groups of flags.
