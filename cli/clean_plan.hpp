@@ -1,6 +1,7 @@
 // The plan of a `clean` or `batch` run: which takes, which method and which settings.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,6 +40,7 @@ struct CleanPlan {
   std::vector<std::string> asked{};    ///< of `clean`: flags that the command line itself gives
   ReportFiles reports{};               ///< of `clean`
   std::optional<PageSettings> page{};  ///< where a page is made of each take
+  std::function<void(const Take&)> on_read{};  ///< told of each take before it is cleaned
   bool strict = false;
   bool force = false;
   bool dry_run = false;

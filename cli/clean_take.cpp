@@ -140,6 +140,7 @@ std::string clean_one(TakeResult& read, const TakeJob& job, const CleanPlan& pla
   // Cleaning takes the take apart.
   std::optional<Take> before;
   if (plan.page) before = read.take;
+  if (plan.on_read) plan.on_read(read.take);
   CleanOutcome cleaned = clean_in_place(read.take, job.input, plan, progress);
   const std::vector<std::string> warnings = cleaned.report.warnings;
   if (plan.strict) refuse_warnings(name, warnings);

@@ -26,58 +26,11 @@
 #include "page_report.hpp"
 #include "run_files.hpp"
 #include "takes.hpp"
+#include "view_controls.hpp"
 
 namespace kinemend::cli {
 
 namespace {
-
-Settings preset_settings(const Preset& preset) {
-  return parse_settings(*find_command("clean"), preset.text, fmt::format("preset {}", preset.name));
-}
-
-/// Flags that the page may set: none that reads or writes a file.
-constexpr std::array cleaning_flags = {
-    "method", "source",   "strength", "max_change_deg", "max_change",
-    "fill",   "fill_all", "feet",     "fix_swaps",      "peak_loss_limit",
-    "joints", "exclude",  "range",    "root_position",  "preset"};
-/// The page calls the joints to fill "names", as the option was called before.
-constexpr std::array filling_flags = {"method", "joints",      "names",   "range",
-                                      "donor",  "longest_gap", "fill_all"};
-
-/// The method that these flags choose: named, of the preset, or the default.
-const Method* method_of(const std::vector<AskedFlag>& flags) {
-  const auto text = [&](std::string_view name) {
-    const auto found = std::find_if(flags.begin(), flags.end(),
-                                    [&](const AskedFlag& flag) { return flag.name == name; });
-    const auto* value = found == flags.end() ? nullptr : std::get_if<std::string>(&found->value);
-    return value == nullptr ? std::string() : *value;
-  };
-  std::string method = text("method");
-  if (const std::string preset = text("preset"); method.empty() && !preset.empty()) {
-    const Settings settings = preset_settings(find_preset(preset));
-    if (const auto set = settings.values.find("method"); set != settings.values.end())
-      method = std::get<std::string>(set->second);
-  }
-  return method_called(method.empty() ? std::string(default_method) : method);
-}
-
-bool is_option(const Method* method, std::string_view name) {
-  return method != nullptr &&
-         std::any_of(method->options.begin(), method->options.end(), [&](const OptionSpec& spec) {
-           return spec.name == name && !names_file(spec);
-         });
-}
-
-void check_flag(const ViewAsked& asked, const std::string& name) {
-  const auto among = [&](const auto& list) {
-    return std::find(list.begin(), list.end(), name) != list.end();
-  };
-  const bool known = asked.is_fill
-                         ? among(filling_flags)
-                         : among(cleaning_flags) || is_option(method_of(asked.flags), name);
-  if (!known)
-    throw Error(ErrorKind::usage, fmt::format("view: the page may not set {}", printable(name)));
-}
 
 /// "--cutoff-hz=6", "--no-root-position".
 std::string word_of(const AskedFlag& flag) {
@@ -112,51 +65,6 @@ std::vector<std::string> without(std::vector<std::string> words,
   return words;
 }
 
-Json methods_json() {
-  Json list = Json::array();
-  for (const Method& method : methods()) {
-    Json entry = {{"name", method.name}, {"summary", method.summary}, {"options", Json::array()}};
-    for (const OptionSpec& spec : method.options) {
-      if (names_file(spec)) continue;
-      Json option = json_of(spec);
-      option["kind"] = std::holds_alternative<bool>(spec.default_value)           ? "switch"
-                       : std::holds_alternative<std::string>(spec.default_value)  ? "choice"
-                       : std::holds_alternative<std::int64_t>(spec.default_value) ? "whole"
-                                                                                  : "number";
-      entry["options"].push_back(std::move(option));
-    }
-    list.push_back(std::move(entry));
-  }
-  return list;
-}
-
-// What each preset sets, so that the page can show it in its controls.
-Json presets_json() {
-  Json list = Json::array();
-  for (const Preset& preset : presets()) {
-    const Settings settings = preset_settings(preset);
-    Json options = Json::object();
-    for (const auto& [method, values] : settings.methods) options[method] = json_of(values);
-    list.push_back({{"name", preset.name},
-                    {"summary", preset_summary(preset)},
-                    {"values", json_of(settings.values)},
-                    {"options", std::move(options)}});
-  }
-  return list;
-}
-
-Json fill_methods_json() {
-  Json list = Json::array();
-  for (const FillMethod& method : fill_methods()) {
-    if (method.learned) continue;  // the page asks for no model
-    list.push_back({{"name", method.name},
-                    {"summary", method.summary},
-                    {"joints", method.joints},
-                    {"markers", method.markers}});
-  }
-  return list;
-}
-
 Json session_json(const ViewFiles& files) {
   return {{"input", files.input},
           {"other", files.other},
@@ -169,9 +77,7 @@ Json session_json(const ViewFiles& files) {
           {"with_gaps", files.with_gaps},
           {"default_method", default_method},
           {"source", files.source},
-          {"methods", methods_json()},
-          {"presets", presets_json()},
-          {"fill_methods", fill_methods_json()}};
+          {"controls", view_controls()}};
 }
 
 // Of one axis, frame by frame; null where the sample stays missing.
@@ -309,7 +215,7 @@ std::vector<std::string> ViewSession::words_of(const ViewAsked& asked) const {
   words.insert(words.end(), files_.reading.begin(), files_.reading.end());
   if (files_.with_gaps || asked.gaps) words.push_back("--gaps=" + files_.gaps);
   for (const AskedFlag& flag : asked.flags) {
-    check_flag(asked, flag.name);
+    check_view_flag(asked, flag.name);
     words.push_back(word_of(flag));
   }
   words.push_back("--output=" + output_of(asked));
@@ -352,6 +258,9 @@ std::string ViewSession::clean_page(const ViewAsked& asked, const Turn& turn) {
   plan.page->command_line = line_of(words);
   plan.page->is_served = true;
   plan.page->check = [&] { tell(turn, "drawing", 0); };
+  plan.on_read = [&](const Take& take) {
+    plan.page->parts.emplace_back("why_not", json_text(why_not_methods(take)));
+  };
   Outcome outcome = try_take(plan.takes.jobs.front(), plan,
                              [&](std::string_view stage, double done) { tell(turn, stage, done); });
   turn.check();

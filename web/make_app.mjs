@@ -21,6 +21,8 @@ function bundle(name) {
   return readFileSync(file);
 }
 
+// The take of "Try it with an example".
+const example = readFileSync(join(dirname(source), '..', 'examples', 'takes', 'sliding_walk.bvh'));
 // As src/report/page/document.cpp writes data.
 const data = (name, bytes) => `<script type="application/octet-stream" id="data-${name}">${deflateSync(bytes, {level: 9}).toString('base64')}</script>\n`;
 
@@ -57,7 +59,7 @@ writeFileSync(output, `<!doctype html>
 <body>
 <div id="bar"></div>
 <main id="page"><p class="first">The page is being unpacked.</p><noscript><p>This page needs JavaScript.</p></noscript></main>
-${data('app', app)}${data('worker', bundle('worker'))}${packedModule()}<script>${boot}</script>
+${data('app', app)}${data('worker', bundle('worker'))}${data('example', example)}${packedModule()}<script>${boot}</script>
 </body>
 </html>
 `);

@@ -6,13 +6,14 @@ import { warmRenderer } from './body';
 import { bytesOf } from './codec';
 import { button, element } from './dom';
 import { Engine } from './engine';
+import { pressOption } from './take_page';
 import { themeButton } from './theme';
-import { startView, type ViewPage } from './view';
+import { startView, type ViewPage, type ViewStart } from './view';
 import { WorkerTransport, type NamedBytes } from './worker_transport';
 
 /** Files that are no takes but belong to one. */
 const beside = /\.(asf|bin|png|jpe?g|contacts)$/i;
-const endings = '.bvh,.amc,.asf,.c3d,.trc,.tsv,.csv,.fbx,.glb,.gltf,.bin';
+const endings = '.bvh,.amc,.asf,.c3d,.trc,.tsv,.csv,.npz,.fbx,.glb,.gltf,.bin';
 
 function download({ name, bytes }: NamedBytes): void {
   const address = URL.createObjectURL(new Blob([bytes], { type: 'application/octet-stream' }));
@@ -26,6 +27,7 @@ class App {
   private readonly status = element('span', { role: 'status', class: 'status' });
   private view: ViewPage | null = null;
   private transport: WorkerTransport | null = null;
+  private example: Uint8Array | null = null;
 
   constructor(private readonly engine: Engine) {
     this.choose.hidden = true;
@@ -51,15 +53,32 @@ class App {
   private say(words: string): void { if (this.transport === null) this.status.textContent = words; }
 
   private welcome(): void {
+    const example = button('Try it with an example', 'a walk that trembles and whose feet slide: it is cleaned at once, and played before and after', () => void this.openExample());
+    example.dataset.action = 'example';
     this.page.replaceChildren(element('header', {}, element('div', {}, element('h1', {}, 'Clean a take')), themeButton(() => undefined)),
       element('section', { class: 'drop' },
         element('p', {}, 'Drop a take anywhere on this page, or use Open.'),
-        element('p', { class: 'empty' }, 'BVH, AMC with its ASF, C3D, TRC, TSV, CSV, FBX, GLB, or glTF with its buffers. Drop files that belong together at the same time.'),
+        element('p', {}, example),
+        element('p', { class: 'empty' }, 'BVH, AMC with its ASF, C3D, TRC, TSV, CSV, NPZ, FBX, GLB, or glTF with its buffers. Drop files that belong together at the same time.'),
         element('p', { class: 'empty' }, 'This page works without a network. It sends nothing and stores nothing.')));
     this.page.dataset.ready = 'waiting';
   }
 
-  private async open(files: File[]): Promise<void> {
+  /** The example take of the page (web/make_app.mjs), with its feet held, side by side with what it was and in motion. */
+  private async openExample(): Promise<void> {
+    this.example ??= await bytesOf('example');
+    if (this.example === null) return;
+    await this.open([new File([this.example as BlobPart], 'sliding_walk.bvh')], {
+      flags: { feet: 'auto' },
+      onFirst: ({ player, body }) => {
+        if (body !== null && !body.options.apart) pressOption('apart');
+        player.seek(0);
+        if (!matchMedia('(prefers-reduced-motion: reduce)').matches) player.play();
+      },
+    });
+  }
+
+  private async open(files: File[], start: ViewStart = {}): Promise<void> {
     const take = files.find(({ name }) => !beside.test(name)) ?? files[0];
     if (take === undefined) return;
     this.close();
@@ -72,7 +91,7 @@ class App {
       const session = await transport.open();
       if (this.transport !== transport) return;
       this.status.textContent = '';
-      this.view = startView(this.page, session, transport);
+      this.view = startView(this.page, session, transport, start);
     } catch (error) {
       this.transport = null;
       this.welcome();

@@ -1,6 +1,6 @@
 // The index of a batch: failed takes first, then those that most need review.
 
-import { choice, counted, element, figure, grouped, words } from './dom';
+import { choice, counted, element, figure, grouped, headings, words } from './dom';
 import { oneTabStop } from './roving';
 import { themeButton } from './theme';
 
@@ -75,7 +75,9 @@ export function showBatch(page: HTMLElement, batch: Batch): void {
     kind = value;
     update();
   });
-  const head = element('tr', {}, ...['take', 'what was found', 'frames repaired', 'spikes', 'gaps', 'length'].map((text) => element('th', { scope: 'col' }, text)));
+  const head = element('tr', {}, ...headings([['take', 'Name of the file; a link leads to the page of this take.'], ['what was found', 'The verdict of this take, its warnings, or why it failed.'],
+    ['frames repaired', 'Share of the frames in which a spike was repaired or a gap filled, in percent.'], ['spikes', 'Number of spikes that were repaired.'], ['gaps', 'Number of gaps that were filled.'],
+    ['length', 'Duration of the take, in seconds.']]));
   const sums = element('dl');
   for (const [name, value] of Object.entries(batch.summary.figures)) sums.append(element('div', {}, element('dt', {}, words(name)), element('dd', {}, figure(value))));
   const table = element('table', {}, element('thead', {}, head), body);

@@ -2,6 +2,7 @@
 
 import * as three from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { distanceApart, middleOf } from './apart';
 import { colour, describeCanvas, element } from './dom';
 import type { Player } from './player';
 import type { Take, Which } from './take';
@@ -90,16 +91,8 @@ class Figure {
 
   /** The middle of the body. */
   centre(): three.Vector3 | null {
-    if (this.take.isJoints) return this.take.told > 0 ? this.at(0) : null;
-    const sum = new three.Vector3();
-    let seen = 0;
-    for (let p = 0; p < this.take.points; ++p) {
-      const place = this.take.isShown(p) ? this.at(p) : null;
-      if (place === null) continue;
-      sum.add(place);
-      ++seen;
-    }
-    return seen > 0 ? sum.divideScalar(seen) : null;
+    const middle = middleOf(this.take, this.pose);
+    return middle === null ? null : new three.Vector3(...middle);
   }
 }
 
@@ -148,6 +141,8 @@ export class Body {
   private readonly tip = element('p', { class: 'tip', hidden: true });
   private waiting = false;
   private ended = false;
+  /** How far the two bodies are apart where they are; computed when it is needed. */
+  private distance: number | null = null;
 
   constructor(private readonly holder: HTMLElement, private readonly take: Take, private readonly player: Player, renderer: three.WebGLRenderer) {
     const { stage } = take.data;
@@ -171,7 +166,10 @@ export class Body {
     holder.addEventListener('pointermove', (event) => this.point(event));
     holder.addEventListener('pointerleave', () => { this.tip.hidden = true; });
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
-    this.controls.addEventListener('change', () => this.draw());
+    this.controls.addEventListener('change', () => {
+      this.place();
+      this.draw();
+    });
 
     this.scene.add(new three.HemisphereLight(0xffffff, 0x888888, 2.6));
     const sun = new three.DirectionalLight(0xffffff, 1.2);
@@ -196,7 +194,7 @@ export class Body {
   /** The name of a joint, a marker or an end site. */
   private nameOf(point: number): string {
     const { names, skeleton } = this.take.data;
-    if (point < names.length) return names[point] || `(no name, ${point + 1})`;
+    if (point < names.length) return this.take.nameOf(point);
     const parent = skeleton?.ends[point - names.length]?.parent ?? 0;
     return `end of ${names[parent]}`;
   }
@@ -234,6 +232,31 @@ export class Body {
     return !this.take.data.two || this.options[figure.which];
   }
 
+  /** The distance between the two bodies; 0 where they are in the same place. */
+  private get apart(): number {
+    if (!this.options.apart || !this.take.data.two) return 0;
+    return this.distance ??= distanceApart(this.take);
+  }
+
+  /** Puts the two bodies side by side, as they are seen from the camera: on either side of a plane through it. */
+  private place(): void {
+    const up = new three.Vector3(0, 1, 0).applyQuaternion(this.camera.quaternion);
+    const right = this.centre.clone().sub(this.camera.position).cross(up).normalize();
+    for (const figure of this.figures) figure.group.position.copy(right).multiplyScalar((figure.which === 'before' ? -0.5 : 0.5) * this.apart);
+    this.soles.position.copy(this.main.group.position);
+    for (const line of this.trails.children) line.position.copy((line.userData as { figure: Figure }).figure.group.position);
+  }
+
+  /** Side by side or in one place; the camera goes as far away as both need. */
+  setApart(on: boolean): void {
+    const before = this.ball().radius;
+    this.options.apart = on;
+    const way = this.camera.position.clone().sub(this.controls.target).multiplyScalar(this.ball().radius / before);
+    this.camera.position.copy(this.controls.target).add(way);
+    this.controls.update();
+    this.refresh();
+  }
+
   /** The box that the body moves in during the whole take. */
   private extent(): three.Box3 {
     const box = new three.Box3();
@@ -256,9 +279,9 @@ export class Body {
       const place = this.take.isShown(p) ? this.main.at(p) : null;
       if (place !== null && place.distanceTo(middle) < 1.5 * this.size) box.expandByPoint(place);
     }
-    if (box.isEmpty()) return new three.Sphere(middle, 0.6 * this.size);
+    if (box.isEmpty()) return new three.Sphere(middle, 0.6 * this.size + this.apart / 2);
     const ball = box.getBoundingSphere(new three.Sphere());
-    ball.radius = Math.max(ball.radius, 0.3 * this.size);
+    ball.radius = Math.max(ball.radius, 0.3 * this.size) + this.apart / 2;
     return ball;
   }
 
@@ -305,6 +328,7 @@ export class Body {
     this.camera.position.copy(target).addScaledVector(from, far);
     this.centre = this.main.centre() ?? this.centre;
     this.controls.update();
+    this.place();
     this.draw();
   }
 
@@ -330,14 +354,13 @@ export class Body {
   refresh(): void {
     for (const figure of this.figures) {
       figure.group.visible = this.isOn(figure);
-      const shift = this.options.apart && this.take.data.two ? (figure.which === 'before' ? -0.32 : 0.32) * this.size : 0;
-      figure.group.position.copy(this.across).multiplyScalar(shift);
       if (this.take.told > 0) figure.show(this.player.shown, this.player.chosen);
     }
     this.unseen.hidden = this.main.centre() !== null;
     this.stand();
     this.follow();
     this.trace();
+    this.place();
     this.draw();
   }
 
@@ -381,6 +404,7 @@ export class Body {
       const material = new three.LineBasicMaterial({ color: colour(this.take.data.two ? figure.which : 'after') });
       for (const way of ways) {
         const line = new three.Line(new three.BufferGeometry().setFromPoints(way), material);
+        line.userData = { figure };
         line.position.copy(figure.group.position);
         line.frustumCulled = false;
         this.trails.add(line);
@@ -430,6 +454,7 @@ export class Body {
     this.camera.position.copy(position).add(way);
     this.controls.target.copy(target).add(way);
     this.controls.update();
+    this.place();
     this.draw();
   }
 
@@ -444,9 +469,9 @@ export class Body {
     });
   }
 
-  /** Where a point of the body is in the picture, -1 to 1; for tests. */
-  seen(point: number): [number, number] | null {
-    const place = this.main.at(point)?.add(this.main.group.position) ?? null;
+  /** Where a point of a body is in the picture, -1 to 1; for tests. */
+  seen(point: number, figure = this.main): [number, number] | null {
+    const place = figure.at(point)?.add(figure.group.position) ?? null;
     if (place === null) return null;
     this.camera.updateMatrixWorld();
     const at = place.project(this.camera);

@@ -206,7 +206,7 @@ export class Curves {
   /** Says why there is nothing to draw; returns whether that is so. */
   private addWords(track: number): boolean {
     const signal = this.signal(track);
-    const name = this.take.data.names[track] || `(no name, ${track + 1})`;
+    const name = this.take.nameOf(track);
     if (signal.names.length === 0) {
       this.holder.append(element('p', { class: 'empty' }, `${name} has no rotation in this take.`));
       return true;
@@ -220,7 +220,7 @@ export class Curves {
 
   private addKind(track: number, kind: Kind): void {
     const signal = this.signal(track);
-    const name = this.take.data.names[track] || `(no name, ${track + 1})`;
+    const name = this.take.nameOf(track);
     const what = kind === 'values' ? (this.quantity === 'rotation' ? 'angles' : 'position') : kind;
     const unit = kind === 'spectrum' ? `${signal.unit}${superscript}/Hz` : this.unit(signal, kind);
     const panel = element('figure', { class: 'panel' }, element('figcaption', {}, element('b', {}, isolated(name)), ` ${what}, ${unit}`));

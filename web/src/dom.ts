@@ -44,6 +44,11 @@ export function choice(label: string, options: [string, string][], value: string
   return made;
 }
 
+/** Headings of columns, with what they mean on hover. */
+export function headings(columns: [text: string, meaning: string][]): HTMLTableCellElement[] {
+  return columns.map(([text, title]) => element('th', { scope: 'col', title }, text));
+}
+
 /** Says what a canvas shows to those who do not see it. */
 export function describeCanvas(canvas: HTMLCanvasElement | null, text: string): void {
   canvas?.setAttribute('role', 'img');

@@ -1,17 +1,66 @@
 // The report's figures and warnings, facts of the take, and how the report was made.
 
-import { element, figure, grouped, words } from './dom';
-import type { ReportDocument, TakeEntry } from './report';
+import { feetFigure, isFeetFigure } from './columns';
+import { counted, element, figure, grouped, words } from './dom';
+import type { Contact, FeetFigures, ReportDocument, TakeEntry } from './report';
 import type { Take } from './take';
 
-function pairs(rows: [string, string][]): HTMLElement {
+/** A name, what it is, and what it means on hover. */
+type Fact = [name: string, value: string, meaning?: string];
+
+function pairs(rows: Fact[]): HTMLElement {
   const list = element('dl');
-  for (const [name, value] of rows) list.append(element('div', {}, element('dt', {}, name), element('dd', {}, value)));
+  for (const [name, value, title] of rows) list.append(element('div', { title }, element('dt', {}, name), element('dd', {}, value)));
   return list;
 }
 
 function box(title: string, ...parts: Node[]): HTMLElement {
   return element('section', { class: 'box' }, element('h2', {}, title), ...parts);
+}
+
+/** How long feet stand in these frames; overlapping contacts of heel and toe count once. */
+function standing(contacts: Contact[]): number {
+  const frames = new Set<number>();
+  for (const { first_frame, last_frame } of contacts) for (let f = first_frame; f <= last_frame; ++f) frames.add(f);
+  return frames.size;
+}
+
+/** Why a contact was left as it is, in short; src/feet/judge.cpp has the reasons. */
+function kindOf({ reason }: Contact): string {
+  if (reason?.startsWith('stands still')) return 'stand still already';
+  if (reason?.endsWith('intended')) return 'slide on purpose';
+  if (reason?.endsWith('farther than an error does')) return 'uncertain: slide too far for an error';
+  return `left: ${reason ?? ''}`;
+}
+
+/** What was measured of feet, and what was done to them. */
+function feetFacts(entry: TakeEntry): Fact[] {
+  const rows: Fact[] = Object.entries(entry.figures).filter(([name, value]) => isFeetFigure(name) && value !== null).map(([name, value]) => {
+    const [label, unit, meaning] = feetFigure(name);
+    return [label, `${figure(value)} ${unit}`.trim(), meaning];
+  });
+  const { feet } = entry;
+  if (!feet) return rows;
+  const contacts = feet.contacts ?? [];
+  const left = contacts.filter(({ held }) => !held);
+  const time = (all: Contact[]): string => `${counted(all.length, 'contact')}, ${figure(standing(all) / (entry.frame_rate_hz || 1))} s`;
+  rows.push(['feet stand', contacts.length === 0 ? 'never' : time(contacts), 'Times in which a heel or a toe is on the floor, and seconds in which at least one is.']);
+  if (contacts.length === 0) return rows;
+  rows.push(['held', time(contacts.filter(({ held }) => held)), 'Contacts whose sliding was taken out.']);
+  const kinds = new Map<string, Contact[]>();
+  for (const contact of left) kinds.set(kindOf(contact), [...(kinds.get(kindOf(contact)) ?? []), contact]);
+  for (const [kind, own] of kinds) rows.push([kind, time(own), 'Contacts that were left as they are.']);
+  rows.push(['frames adjusted', grouped(feet.frames_adjusted), 'Frames in which a leg or the root was moved to hold a foot.']);
+  const { before, after } = feet;
+  if (!before || !after) return rows;
+  const scale = feet.metres_per_unit ? 100 * feet.metres_per_unit : 1;
+  const unit = feet.metres_per_unit ? 'cm' : 'units';
+  const pair = (key: keyof FeetFigures, by: number, told: string): string => `${figure(by * before[key])} \u2192 ${figure(by * after[key])} ${told}`;
+  rows.push(['slide a frame', pair('slide', scale, unit), 'Mean distance that a standing foot travels over the floor from one frame to the next, before and after.'],
+    ['slide at most', pair('most_slide', scale, unit), 'The farthest that a standing foot travels from where it began to stand, before and after.'],
+    ['depth below the floor', pair('sink', scale, unit), 'How far a standing foot is below the floor at most, before and after.'],
+    ['knee pop', pair('knee_pop_deg', 1, 'deg'), 'The largest sudden change of a knee\u2019s angle from frame to frame, before and after. Much more than before: holding the feet jerks the knees.']);
+  return rows;
 }
 
 function lines(texts: string[]): HTMLElement {
@@ -39,8 +88,14 @@ function takeFacts(take: Take, entry: TakeEntry): [string, string][] {
 }
 
 export function addFacts(holder: HTMLElement, take: Take, document: ReportDocument, entry: TakeEntry): void {
-  const figures = Object.entries(entry.figures).map(([name, value]): [string, string] => [words(name), figure(value)]);
+  const figures = Object.entries(entry.figures).filter(([name]) => !isFeetFigure(name)).map(([name, value]): [string, string] => [words(name), figure(value)]);
   if (figures.length > 0) holder.append(box('Figures', pairs(figures)));
+  const feet = feetFacts(entry);
+  if (feet.length > 0) {
+    const made = box('Feet', pairs(feet));
+    made.classList.add('feet');
+    holder.append(made);
+  }
   holder.append(box('Take', pairs(takeFacts(take, entry))));
   const made = box('Made by', element('p', {}, `kinemend ${document.kinemend}`), element('code', { tabindex: '0' }, take.data.command_line));
   const options = Object.entries(entry.options ?? {}).filter(([, value]) => value !== '');

@@ -1,6 +1,6 @@
 // The gap plan as a table: a row for each gap, with its method and verdict to choose.
 
-import { button, choice, element, figure, grouped, toggle } from './dom';
+import { button, choice, element, figure, grouped, toggle, headings } from './dom';
 import { GapPreview } from './gap_preview';
 import { oneTabStop } from './roving';
 import type { GapCurves, GapPlan, PlannedGap, Session } from './served';
@@ -27,14 +27,17 @@ export class GapEditor {
   constructor(private readonly session: Session, private readonly isJoints: boolean, private readonly goTo: (track: string, frame: number) => void,
     private readonly again: () => void, private readonly curves: (plan: string, row: number) => Promise<GapCurves | null>) {
     this.looked = new GapPreview((gap, method, isForced) => this.setMethod(gap, method, isForced), () => this.body.querySelector<HTMLElement>('[data-gap=curves]')?.focus());
-    const columns = [isJoints ? 'joint' : 'marker', 'frames', 'length', 'verdict', 'method', 'curves', 'filled by', 'expected error', 'why refused'];
+    const heads = headings([[isJoints ? 'joint' : 'marker', 'Click a name to go to the gap.'], ['frames', 'First and last frame of the gap, as the file numbers them.'], ['length', 'Length of the gap in frames and seconds.'],
+      ['verdict', 'fill: filled where the rules allow it; force: filled against the rules; refuse: stays open.'], ['method', 'How the gap is filled.'], ['curves', 'Compares the curves of all methods over the gap.'],
+      ['filled by', 'The method that has filled the gap.'], ['expected error', 'How far the fill is expected to be from the truth, with its unit.'], ['why refused', 'Why the gap stays open.']]);
+    heads[heads.length - 1].className = 'words';
     const tried = toggle('Try every method', 'show how far the fill of each method is from the one in use', false, (on) => {
       this.preview = on;
       again();
     });
     tried.dataset.action = 'preview';
     this.pages.append(button('\u2039', 'previous gaps', () => this.turn(-mostRows)), button('\u203a', 'next gaps', () => this.turn(mostRows)));
-    const table = element('table', {}, element('thead', {}, element('tr', {}, ...columns.map((text, i) => element('th', { scope: 'col', class: i === columns.length - 1 ? 'words' : '' }, text)))), this.body);
+    const table = element('table', {}, element('thead', {}, element('tr', {}, ...heads)), this.body);
     this.element.append(element('div', { class: 'head' }, tried, button('Discard edits', 'fill by the controls above again', () => {
       this.edited = false;
       again();
@@ -111,7 +114,7 @@ export class GapEditor {
       this.change();
     });
     verdict.dataset.gap = 'verdict';
-    const methods = this.session.fill_methods.filter((one) => (this.isJoints ? one.joints : one.markers)).map(({ name }): [string, string] => [name, this.told(gap, name)]);
+    const methods = this.session.controls.fill_methods.filter((one) => (this.isJoints ? one.joints : one.markers)).map(({ name }): [string, string] => [name, this.told(gap, name)]);
     const method = choice(`method of ${gap.name}, frames ${gap.first_frame} to ${gap.last_frame}`, methods, gap.method, (value) => this.setMethod(gap, value));
     method.dataset.gap = 'method';
     const curves = button('Compare', `compare the curves of every method over ${gap.name}, frames ${gap.first_frame} to ${gap.last_frame}`, () => void this.look(row));

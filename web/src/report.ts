@@ -16,6 +16,32 @@ export interface Finding {
 
 export type TrackRow = Record<string, string | number | null>;
 
+export interface FeetFigures {
+  slide: number;
+  most_slide: number;
+  sink: number;
+  knee_pop_deg: number;
+}
+
+export interface Contact {
+  side: string;
+  part: string;
+  first_frame: number;
+  last_frame: number;
+  held: boolean;
+  reason: string | null;
+}
+
+/** Lengths in units of the file. */
+export interface Feet {
+  metres_per_unit: number | null;
+  held: number;
+  frames_adjusted: number;
+  before: FeetFigures | null;
+  after: FeetFigures | null;
+  contacts?: Contact[];
+}
+
 export interface TakeEntry {
   input: string;
   output: string | null;
@@ -36,6 +62,7 @@ export interface TakeEntry {
   options?: Record<string, unknown>;
   fall_backs?: { method: string; reason: string; tracks: { name: string; share: number }[] }[];
   notes?: string[];
+  feet?: Feet;
   leftovers?: { what: string; mend: string }[];
   figures: Record<string, number | null>;
   findings: Finding[];

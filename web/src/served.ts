@@ -18,11 +18,20 @@ export interface Session {
   default_method: string;
   /** What recorded the take, where no flag says another. */
   source: string;
+  controls: ViewControls;
+}
+
+/** What the program lets the page set, with defaults and ranges: cli/view_controls.cpp writes it. */
+export interface ViewControls {
+  flags: Record<'clean' | 'fill', Option[]>;
   methods: { name: string; summary: string; options: Option[] }[];
   fill_methods: { name: string; summary: string; joints: boolean; markers: boolean }[];
   /** `values`: what a preset sets of the controls; `options`: of the options of methods. */
   presets: { name: string; summary: string; values: Record<string, Value>; options: Record<string, Record<string, Value>> }[];
 }
+
+/** Why methods cannot clean the take, by name. */
+export type WhyNot = Record<string, string>;
 
 /** As `kinemend.gap-plan/1` has it (docs/methods/gap-plan.md). */
 export interface PlannedGap {

@@ -1,12 +1,11 @@
 // The table of joints or markers, sorted by any of its columns.
 
+import { meaningOf, unitOf, worstFirst } from './columns';
 import { button, element, figure, words } from './dom';
 import type { Player } from './player';
 import type { Finding, TakeEntry, TrackRow } from './report';
 import { oneTabStop } from './roving';
 import type { Take } from './take';
-
-const withoutUnit = /filled|refused|count|frames|gap|spikes|frozen|bridged|swaps|flips|percent|_s$|_hz$|_deg$|_cm$|missing/;
 
 /** Counts the findings of each track, for reports without a table of tracks. */
 function countedRows(names: string[], findings: Finding[]): TrackRow[] {
@@ -35,11 +34,14 @@ export class TrackTable {
     const noun = take.isJoints ? 'joint' : 'marker';
     const search = element('input', { type: 'search', placeholder: `find a ${noun}`, 'aria-label': `find a ${noun}` });
     search.addEventListener('input', () => this.filter(search.value));
-    const head = element('tr', {}, this.head('name', noun));
-    for (const column of columns) head.append(this.head(column, words(column) + (withoutUnit.test(column) || !entry.track_unit ? '' : `, ${this.unit(column, entry)}`)));
+    const head = element('tr', {}, this.head('name', noun, `Names of the ${noun}s, as the file spells them.`));
+    for (const column of columns) {
+      const unit = unitOf(column, entry.track_unit);
+      head.append(this.head(column, words(column) + (unit && `, ${unit}`), meaningOf(column, noun, entry.track_unit)));
+    }
     take.data.names.forEach((name, track) => {
       const figures = (inOrder ? tracks[track] : given.get(name)) ?? {};
-      const row = element('tr', {}, element('th', { scope: 'row' }, button(name || `(no name, ${track + 1})`, 'show its curves and its path', () => player.toggleTrack(track))));
+      const row = element('tr', {}, element('th', { scope: 'row' }, button(take.shortName(track), `${take.nameOf(track)}: show its curves and its path`, () => player.toggleTrack(track))));
       for (const column of columns) row.append(element('td', {}, figure(figures[column] as number | null)));
       this.rows.push({ track, figures: { ...figures, name }, row });
     });
@@ -49,7 +51,7 @@ export class TrackTable {
     }
     const table = element('table', {}, element('thead', {}, head), this.body);
     holder.append(search, element('div', { class: 'scroll' }, table));
-    const first = ['rms_change', 'geodesic_rms_deg', 'noise', 'gaps', 'filled frames'].find((name) => columns.includes(name));
+    const first = worstFirst.find((name) => columns.includes(name));
     this.sort(first ?? null);
     player.onChoice(() => this.mark());
     this.mark();
@@ -59,12 +61,17 @@ export class TrackTable {
   /** The track in the first row. */
   get worst(): number { return this.rows[0]?.track ?? 0; }
 
-  private unit(column: string, entry: TakeEntry): string {
-    return column.startsWith('peak_speed') ? `${entry.track_unit}/s` : entry.track_unit ?? '';
+  /** Scrolls the table, not the page, to the first chosen track. */
+  reveal(): void {
+    const row = this.rows.find(({ track }) => this.player.chosen.includes(track))?.row;
+    const holder = row?.closest<HTMLElement>('.scroll');
+    if (row && holder) holder.scrollTop = Math.max(0, row.offsetTop + row.offsetHeight - holder.clientHeight);
   }
 
-  private head(column: string, text: string): HTMLElement {
-    const cell = element('th', { scope: 'col' }, button(text, 'sort by this column', () => this.sort(column)));
+  private head(column: string, text: string, meaning: string): HTMLElement {
+    const made = button(text, `${meaning} Click to sort by this column.`.trim(), () => this.sort(column));
+    made.setAttribute('aria-description', meaning);
+    const cell = element('th', { scope: 'col' }, made);
     this.heads.set(column, cell);
     return cell;
   }

@@ -1,6 +1,7 @@
 // The motion: angles and positions of tracks at any frame, and poses by forward kinematics.
 
 import { bytesOf, emptySamples, readFirstPart, readSecondPart, type Parts, type Samples } from './codec';
+import { shortNames } from './names';
 import type { Gaps, TakeData } from './report';
 
 export type Which = 'before' | 'after';
@@ -59,12 +60,14 @@ export class Take {
   private readonly rotationChannels: number[] = [];
   private readonly translatedChannels = new Map<number, number>();
   private readonly missing = new Map<string, Map<number, Uint8Array>>();
+  private readonly short: string[];
 
   private constructor(readonly data: TakeData, private readonly parts: Parts) {
     this.told = data.told;
     this.samples = emptySamples(data.quanta.length, data.told, data.two);
     this.points = data.names.length + (data.skeleton?.ends.length ?? 0);
     this.whole = data.stride === 1;
+    this.short = shortNames(data.names);
     const skeleton = data.skeleton;
     if (skeleton) {
       let next = 3;
@@ -112,6 +115,30 @@ export class Take {
   get rate(): number {
     return this.data.rate / this.data.step;
   }
+  /** The name of a track, as the file spells it. */
+  nameOf(track: number): string { return this.data.names[track] || `(no name, ${track + 1})`; }
+  /** The same for places with little space; different names stay different. */
+  shortName(track: number): string { return this.short[track] || this.nameOf(track); }
+  /** The tracks that a finding names: one, or several with commas between them. */
+  tracksOf(name: string | null): number[] {
+    const whole = this.data.names.indexOf(name ?? '');
+    return whole >= 0 ? [whole] : (name ?? '').split(', ').map((one) => this.data.names.indexOf(one)).filter((track) => track >= 0);
+  }
+
+  /** How far apart the two takes are in a frame, in the mean over all points that both have. */
+  distance(frame: number): number {
+    if (!this.data.two) return 0;
+    const before = this.pose(frame, 'before'), after = this.pose(frame, 'after');
+    let sum = 0, count = 0;
+    for (let p = 0; p < this.points; ++p) {
+      const way = Math.hypot(after[3 * p] - before[3 * p], after[3 * p + 1] - before[3 * p + 1], after[3 * p + 2] - before[3 * p + 2]);
+      if (!this.isShown(p) || Number.isNaN(way)) continue;
+      sum += way;
+      ++count;
+    }
+    return count > 0 ? sum / count : 0;
+  }
+
   /** The number that the file gives to a frame that is told. */
   number(frame: number): number {
     return frame * this.data.step + this.data.first_frame;

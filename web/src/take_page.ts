@@ -48,6 +48,7 @@ function addBody(take: Take, player: Player): [HTMLElement, Body | null] {
   }
   for (const [key, label, title] of options) {
     const made_toggle = toggle(label, title, body.options[key], (on) => {
+      if (key === 'apart') return body.setApart(on);
       body.options[key] = on;
       body.refresh();
       if (key === 'follow' && on) body.recentre();
@@ -88,8 +89,10 @@ function addCurves(take: Take, player: Player): [HTMLElement, Curves] {
   return [made, curves];
 }
 
+/** Presses a button above the body. */
+export function pressOption(option: string): void { document.querySelector<HTMLButtonElement>(`[data-option="${option}"]`)?.click(); }
+
 function listenToKeys(player: Player, take: Take, timeline: Timeline, body: Body | null, signal: AbortSignal): void {
-  const press = (option: string): void => document.querySelector<HTMLButtonElement>(`[data-option="${option}"]`)?.click();
   const keys: Record<string, (event: KeyboardEvent) => void> = {
     ' ': () => (player.playing ? player.pause() : player.play()),
     ArrowLeft: (event) => player.step(event.shiftKey ? -10 : -1),
@@ -106,7 +109,7 @@ function listenToKeys(player: Player, take: Take, timeline: Timeline, body: Body
     '2': () => body?.look('side'),
     '3': () => body?.look('top'),
     '4': () => body?.look('orbit'),
-    f: () => press('follow'),
+    f: () => pressOption('follow'),
     l: () => [...document.querySelectorAll('button')].find((one) => one.textContent === 'Loop')?.click(),
   };
   document.addEventListener('keydown', (event) => {
@@ -141,8 +144,7 @@ function lookAsBefore(now: Shown, before: Shown): void {
   now.player.choose(before.player.chosen);
   now.player.seek(before.player.frame);
   if (now.body && before.body) {
-    Object.assign(now.body.options, { follow: before.body.options.follow });
-    now.body.refresh();
+    for (const [option, on] of Object.entries(before.body.options)) if (now.body.options[option as keyof Body['options']] !== on) pressOption(option);
     now.body.seeFrom(before.body.viewpoint());
   }
 }
@@ -185,10 +187,8 @@ export async function showTake(page: HTMLElement, document_: ReportDocument, tak
   const table = new TrackTable(tableSection, take, player, entry);
   const [timelineSection] = section('Findings and changes', 'found');
   const timeline = new Timeline(timelineSection, take, player, [...entry.findings, ...warningsOf(entry, data.names)], (finding) => {
-    const tracks = (finding.track ?? '').split(', ').map((name) => data.names.indexOf(name)).filter((track) => track >= 0);
-    const whole = data.names.indexOf(finding.track ?? '');
-    if (whole >= 0) player.choose([whole]);
-    else if (tracks.length > 0) player.choose(tracks.slice(0, 4));
+    const tracks = take.tracksOf(finding.track);
+    if (tracks.length > 0) player.choose(tracks.slice(0, 4));
   });
   await pause();
   if (isOver()) throw new Error('another result replaces this one');
@@ -219,7 +219,9 @@ export async function showTake(page: HTMLElement, document_: ReportDocument, tak
   if (data.step > 1) page.querySelector('header')?.after(element('p', { class: 'note' }, `This take is long: the page shows 1 frame in ${data.step}. The findings cover all ${counted(data.frames, 'frame')}.`));
   if (take.told > 0 && data.names.length > 0) player.choose([table.worst]);
   else player.choose([]);
-  player.seek(take.firstSeen());
+  // The first frames may be a calibration pose.
+  player.seek(Math.max(take.firstSeen(), take.frameOf(data.first_frame + (entry.calibration_frames ?? 0))));
+  if (before === null && timeline.showWorst() !== null) table.reveal();
   body?.resize();
   body?.look('orbit');
   listenToKeys(player, take, timeline, body, ended.signal);

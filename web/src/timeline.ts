@@ -5,21 +5,17 @@ import type { Player } from './player';
 import type { Finding } from './report';
 import { oneTabStop } from './roving';
 import type { Take } from './take';
+import { rankOf, worstFrame, worstOf } from './worst';
 
 const laneHeight = 18;
-/** The order of the lanes; other kinds follow. */
-const order = ['warning', 'gap', 'spike', 'swap', 'frozen', 'bridged', 'slide', 'sink', 'length', 'euler_flip', 'repeated_frames', 'zero_frames', 'noise'];
 const mostListed = 200;
 
-function rank(kind: string): number {
-  const place = order.indexOf(kind);
-  return place < 0 ? order.length - 1.5 : place;
-}
-
-export function textOf(finding: Finding): string {
+/** With a take the names of its tracks are short. */
+export function textOf(finding: Finding, take?: Take): string {
   const frames = finding.first_frame === finding.last_frame ? `frame ${finding.first_frame}` : `frames ${finding.first_frame} to ${finding.last_frame}`;
   const parts = [`${words(finding.kind)} ${words(finding.verdict)}`.trim()];
-  if (finding.track) parts.push(isolated(finding.track));
+  const tracks = take?.tracksOf(finding.track) ?? [];
+  if (finding.track) parts.push(tracks.length > 0 ? tracks.map((track) => isolated((take as Take).shortName(track))).join(', ') : isolated(finding.track));
   parts.push(frames);
   if (finding.method) parts.push(`by ${finding.method}`);
   if (finding.amount !== null) parts.push(`${figure(finding.amount)} ${finding.unit ?? ''}`.trim());
@@ -38,6 +34,7 @@ export class Timeline {
   private readonly lanes = element('div', { class: 'lanes' });
   private readonly cursor = element('i', { class: 'time-cursor' });
   private readonly words = element('p', { class: 'selected', role: 'status' });
+  private readonly tally = element('span', { class: 'tally' });
   private readonly list = element('ol', { class: 'findings' });
   private readonly all: Finding[];
 
@@ -45,7 +42,7 @@ export class Timeline {
     private readonly onSelect: (finding: Finding) => void) {
     this.all = findings.map((finding, i) => ({ finding, i })).sort((a, b) => a.finding.first_frame - b.finding.first_frame || a.i - b.i).map(({ finding }) => finding);
     this.shown = [...this.all];
-    this.kinds = [...new Set(findings.map((finding) => finding.kind))].sort((a, b) => rank(a) - rank(b) || a.localeCompare(b));
+    this.kinds = [...new Set(findings.map((finding) => finding.kind))].sort((a, b) => rankOf(a) - rankOf(b) || a.localeCompare(b));
     // Smoothing is nearly everywhere: it is drawn, but the arrows skip it.
     if (this.kinds.length > 1 && this.kinds.includes('noise')) this.hidden.add('noise');
     if (findings.length === 0) {
@@ -54,7 +51,7 @@ export class Timeline {
     }
     const previous = button('\u2039', 'previous finding (,)', () => this.go(-1));
     const next = button('\u203a', 'next finding (.)', () => this.go(1));
-    holder.append(element('div', { class: 'timeline' }, this.lanes, element('div', { class: 'lane-field' }, this.canvas, this.cursor)), element('div', { class: 'finding' }, previous, next, this.words),
+    holder.append(element('div', { class: 'timeline' }, this.lanes, element('div', { class: 'lane-field' }, this.canvas, this.cursor)), element('div', { class: 'finding' }, previous, next, this.words, this.tally),
       element('details', {}, element('summary', {}, 'List of findings'), this.list));
     this.addLanes();
     oneTabStop(this.list, 'li');
@@ -98,7 +95,7 @@ export class Timeline {
     this.shown.splice(0, this.shown.length, ...this.all.filter((finding) => !this.hidden.has(finding.kind)));
     this.selected = current ? this.shown.indexOf(current) : -1;
     this.list.replaceChildren(...this.shown.slice(0, mostListed).map((finding, i) => {
-      const row = element('button', { type: 'button' }, textOf(finding));
+      const row = element('button', { type: 'button', title: textOf(finding) }, textOf(finding, this.take));
       row.addEventListener('click', () => this.select(i));
       return element('li', {}, row);
     }));
@@ -120,7 +117,24 @@ export class Timeline {
     this.canvas.setAttribute('aria-valuemax', String(this.shown.length));
     this.canvas.setAttribute('aria-valuenow', String(this.selected + 1));
     this.canvas.setAttribute('aria-valuetext', finding ? textOf(finding) : `${counted(this.shown.length, 'finding')}, none is chosen`);
-    this.words.textContent = finding ? textOf(finding) : `${this.counts()}. Click one to go to its frame.`;
+    this.words.textContent = finding ? textOf(finding, this.take) : 'Click a bar to go to its frame.';
+    this.words.title = finding ? textOf(finding) : '';
+    this.tally.textContent = this.counts();
+    this.list.querySelector('[aria-current]')?.removeAttribute('aria-current');
+    this.list.children[this.selected]?.setAttribute('aria-current', 'true');
+    const row = this.list.children[this.selected] as HTMLElement | undefined;
+    // Scrolls the list, not the page.
+    if (row) this.list.scrollTop = Math.max(0, row.offsetTop - this.list.offsetTop - this.list.clientHeight / 2);
+  }
+
+  /** Chooses the worst finding, and goes to the frame where the most is wrong or was changed; null: there is none. */
+  showWorst(): Finding | null {
+    const worst = worstOf(this.all);
+    if (worst === null) return null;
+    this.unhide(worst.kind);
+    this.select(this.shown.indexOf(worst));
+    this.player.jump(worstFrame(this.take, worst));
+    return worst;
   }
 
   go(by: number): void {
@@ -169,17 +183,19 @@ export class Timeline {
     return best;
   }
 
+  private unhide(kind: string): void {
+    if (!this.hidden.delete(kind)) return;
+    this.lanes.children[this.kinds.indexOf(kind)]?.setAttribute('aria-pressed', 'true');
+    this.filter();
+  }
+
   private click(event: MouseEvent): void {
     const finding = this.at(event);
     if (finding === null) {
       const width = this.player.to - this.player.from;
       return this.player.seek(Math.round(this.player.from + (event.offsetX / this.canvas.clientWidth) * width));
     }
-    if (this.hidden.has(finding.kind)) {
-      this.hidden.delete(finding.kind);
-      this.lanes.children[this.kinds.indexOf(finding.kind)]?.setAttribute('aria-pressed', 'true');
-      this.filter();
-    }
+    this.unhide(finding.kind);
     this.select(this.shown.indexOf(finding));
   }
 

@@ -1,7 +1,7 @@
 // The page that `kinemend view` serves: the page of a take, with controls that run it anew.
 
 import { jsonOf, type Parts } from './codec';
-import { button, choice, element } from './dom';
+import { button, choice, counted, element } from './dom';
 import { ContactEditor } from './contact_editor';
 import { GapEditor } from './gap_editor';
 import type { Sight } from './line_editor';
@@ -9,7 +9,7 @@ import { MissingEditor } from './missing_editor';
 import { field, optionControl, showProblem, type Option, type Value } from './option_control';
 import type { ReportDocument, TakeData } from './report';
 import { SaveDialog, type Saved } from './save_dialog';
-import { partsOf, type GapCurves, type GapPlan, type Session } from './served';
+import { partsOf, type GapCurves, type GapPlan, type Session, type ViewControls, type WhyNot } from './served';
 import { Take } from './take';
 import { showTake, type Shown } from './take_page';
 import { themeButton } from './theme';
@@ -62,7 +62,7 @@ class Controls {
   readonly element = element('section', { class: 'view-controls', 'aria-label': 'Controls' });
   private command: 'clean' | 'fill' = 'clean';
   private readonly general: Record<'clean' | 'fill', Record<string, Value>> = { clean: {}, fill: {} };
-  private preset: Session['presets'][number] | null = null;
+  private preset: ViewControls['presets'][number] | null = null;
   private method: string;
   /** Labels of controls whose values are not allowed, by "clean.strength". */
   private readonly refused = new Map<string, string>();
@@ -74,6 +74,9 @@ class Controls {
   private readonly rows = { clean: element('div', { class: 'fields' }), fill: element('div', { class: 'fields' }) };
   private readonly optionRow = element('div', { class: 'fields own' });
   private readonly presets = choice('preset', [['', 'no preset']], '', (name) => this.choosePreset(name));
+  private methods: HTMLSelectElement | null = null;
+  private whyNot: WhyNot = {};
+  private readonly unable = element('details', { class: 'unable', hidden: true });
   private readonly about = element('p', { class: 'empty' });
   private readonly byPlan = element('p', { class: 'empty' }, 'The gap plan below says how each gap is filled.');
   private readonly dialog: SaveDialog;
@@ -90,8 +93,11 @@ class Controls {
   private turn = 0;
   private shown: Shown | null = null;
   private readonly isJoints: boolean;
+  private onFirst: ViewStart['onFirst'];
 
-  constructor(private readonly page: HTMLElement, private readonly session: Session, private readonly transport: ViewTransport) {
+  constructor(private readonly page: HTMLElement, private readonly session: Session, private readonly transport: ViewTransport, { flags = {}, onFirst }: ViewStart = {}) {
+    this.general.clean = { ...flags };
+    this.onFirst = onFirst;
     this.method = this.presetMethod;
     this.dialog = new SaveDialog((file, replace) => this.save(file, replace), (saved) => this.afterSaving(saved), transport);
     this.isJoints = session.kind === 'joints';
@@ -111,7 +117,7 @@ class Controls {
     this.gapBox = element('details', { class: 'editor' }, element('summary', {}, 'Gap plan'), this.gaps.element);
     this.presets.dataset.flag = 'preset';
     this.presets.title = 'settings for a kind of motion';
-    this.presets.append(...session.presets.map(({ name, summary }) => element('option', { value: name, title: summary }, name)));
+    this.presets.append(...session.controls.presets.map(({ name, summary }) => element('option', { value: name, title: summary }, name)));
     const save = button('Save as\u2026', 'choose a file name and save the take', () => this.dialog.open(this.names[this.command] || (this.command === 'clean' ? session.cleaned : session.filled)));
     save.dataset.action = 'save';
     this.stopping.dataset.action = 'stop';
@@ -141,11 +147,15 @@ class Controls {
     });
     return field(label, title, made);
   }
-  private option(command: 'clean' | 'fill', label: string, option: Option): HTMLElement {
-    const set = command === 'clean' ? this.preset?.values[option.name] : undefined;
-    return optionControl(set === undefined ? option : { ...option, default: set }, this.general[command][option.name], {
-      change: (value) => this.set(command, option.name, value),
-      refuse: (told) => this.refuse(`${command}.${option.name}`, told),
+  /** A control of a flag of the program; `own`: what is otherwise here. */
+  private option(command: 'clean' | 'fill', label: string, name: string, own: Partial<Option> = {}): HTMLElement {
+    const flag = this.session.controls.flags[command].find((one) => one.name === name);
+    if (flag === undefined) throw new Error(`the program has no flag ${name}`);
+    const set = command === 'clean' ? this.preset?.values[name] : undefined;
+    const option: Option = { ...flag, ...own };
+    return optionControl(set === undefined ? option : { ...option, default: set }, this.general[command][name], {
+      change: (value) => this.set(command, name, value),
+      refuse: (told) => this.refuse(`${command}.${name}`, told),
     }, label);
   }
   /** Nothing is run for a value that is not allowed, and nothing says that it was. */
@@ -169,7 +179,7 @@ class Controls {
   private choosePreset(name: string): void {
     const own = this.general.clean;
     for (const set of Object.keys(this.preset?.values ?? {})) delete own[set];
-    this.preset = this.session.presets.find((one) => one.name === name) ?? null;
+    this.preset = this.session.controls.presets.find((one) => one.name === name) ?? null;
     for (const set of Object.keys(this.preset?.values ?? {})) delete own[set];
     for (const set of Object.keys(this.preset?.options ?? {})) delete this.options[set];
     this.method = this.presetMethod;
@@ -181,45 +191,58 @@ class Controls {
   private get presetMethod(): string { return String(this.preset?.values.method ?? this.session.default_method); }
 
   private fillMethods(): string[] {
-    return this.session.fill_methods.filter((one) => (this.isJoints ? one.joints : one.markers)).map(({ name }) => name);
+    return this.session.controls.fill_methods.filter((one) => (this.isJoints ? one.joints : one.markers)).map(({ name }) => name);
   }
 
   /** Also after another preset is chosen: its values are the defaults of the controls. */
   private addClean(): void {
-    const method = choice('method', this.session.methods.map(({ name }) => [name, name]), this.method, (value) => {
+    const method = choice('method', this.session.controls.methods.map(({ name }) => [name, name]), this.method, (value) => {
       this.method = value;
       this.drawOptions();
       this.later();
     });
     method.dataset.flag = 'method';
+    this.methods = method;
+    this.offerMethods();
     const nouns = this.isJoints ? 'joints' : 'markers';
     const pattern = this.isJoints ? 'Left*' : 'L*';
     for (const name of this.refused.keys()) if (name.startsWith('clean.')) this.refused.delete(name);
     this.rows.clean.replaceChildren(field('method', 'how to clean', method),
-      this.option('clean', 'source', { name: 'source', kind: 'choice', help: 'what recorded the motion; video, depth and suit: slow noise is taken out, too; keyframed: only gaps change; unknown: what the file says, else what the take shows', default: this.session.source, choices: ['optical', 'suit', 'video', 'depth', 'keyframed', 'unknown'] }),
-      this.option('clean', 'strength', { name: 'strength', kind: 'number', help: 'how much of the cleaning is applied: 0 keeps the input, 1 is the full result', default: 1, minimum: 0, maximum: 1 }),
+      this.option('clean', 'source', 'source', { default: this.session.source }),
+      this.option('clean', 'strength', 'strength'),
       this.text('clean', 'joints', `${nouns} to clean`, `${pattern} (all)`, `names or patterns, separated by commas; empty: all ${nouns}`),
       this.text('clean', 'exclude', `${nouns} to leave out`, 'none', `names or patterns of ${nouns} that are not changed`),
       this.text('clean', 'range', 'frames', '121:240 or 1s:2.5s', 'clean only these frames, by their numbers or in seconds; empty: all frames'),
-      this.option('clean', 'fill gaps', { name: 'fill', kind: 'choice', help: 'fill gaps with this method, after the noise is removed', default: 'off', choices: ['off', ...this.fillMethods()] }));
+      this.option('clean', 'fill gaps', 'fill', { choices: ['off', ...this.fillMethods()] }));
     if (this.isJoints) {
-      this.rows.clean.append(this.option('clean', 'hold feet', { name: 'feet', kind: 'choice', help: 'stop sliding of feet in ground contact; auto keeps intentional slides, force holds every contact', default: 'off', choices: ['off', 'auto', 'force'] }),
-        this.option('clean', 'largest change (deg)', { name: 'max_change_deg', kind: 'number', help: 'limit on how far a rotation may move from its input', default: 180, minimum: 0, maximum: 180, unit: 'deg' }),
-        this.option('clean', 'clean the root\u2019s position', { name: 'root_position', kind: 'switch', help: 'also clean where the root joint is, not only how it turns', default: true }));
+      this.rows.clean.append(this.option('clean', 'hold feet', 'feet'), this.option('clean', 'largest change (deg)', 'max_change_deg'),
+        this.option('clean', 'clean the root\u2019s position', 'root_position'));
     } else {
-      this.rows.clean.append(this.option('clean', 'undo label swaps', { name: 'fix_swaps', kind: 'switch', help: 'first give swapped markers their own labels again', default: false }));
+      this.rows.clean.append(this.option('clean', 'undo label swaps', 'fix_swaps'));
     }
-    this.rows.clean.append(this.optionRow);
+    this.rows.clean.append(this.optionRow, this.unable);
     this.drawOptions();
+  }
+
+  /** Methods that cannot clean this take cannot be chosen, and the page says why. */
+  private offerMethods(): void {
+    const reasons = Object.entries(this.whyNot);
+    for (const one of this.methods?.options ?? []) {
+      one.disabled = one.value in this.whyNot;
+      one.title = this.whyNot[one.value] ?? '';
+    }
+    this.unable.hidden = reasons.length === 0;
+    this.unable.replaceChildren(element('summary', {}, `${counted(reasons.length, 'method')} cannot clean this take`),
+      element('ul', {}, ...reasons.map(([name, reason]) => element('li', {}, element('b', {}, name), `: ${reason}`))));
   }
 
   /** Those of the method. */
   private drawOptions(): void {
-    const chosen = this.session.methods.find(({ name }) => name === this.method);
+    const chosen = this.session.controls.methods.find(({ name }) => name === this.method);
     const own = (this.options[this.method] ??= {});
     const set = this.preset?.options[this.method] ?? {};
     // The controls of the method before are gone, with what was typed in them.
-    for (const method of this.session.methods) for (const { name } of method.options) this.refused.delete(`clean.${name}`);
+    for (const method of this.session.controls.methods) for (const { name } of method.options) this.refused.delete(`clean.${name}`);
     this.optionRow.replaceChildren(element('p', { class: 'empty' }, chosen?.summary ?? ''), ...(chosen?.options ?? []).map((option) => optionControl(
       { ...option, default: set[option.name] ?? option.default }, own[option.name], {
         change: (value) => {
@@ -233,10 +256,10 @@ class Controls {
 
   private addFill(): void {
     const nouns = this.isJoints ? 'joints' : 'markers';
-    this.rows.fill.append(this.option('fill', 'method', { name: 'method', kind: 'choice', help: 'how to fill gaps', default: 'auto', choices: this.fillMethods() }),
-      this.text('fill', 'names', `${nouns} to fill`, `${this.isJoints ? 'Left*' : 'L*'} (all)`, `names or patterns, separated by commas; empty: all ${nouns}`),
+    this.rows.fill.append(this.option('fill', 'method', 'method', { choices: this.fillMethods() }),
+      this.text('fill', 'joints', `${nouns} to fill`, `${this.isJoints ? 'Left*' : 'L*'} (all)`, `names or patterns, separated by commas; empty: all ${nouns}`),
       this.text('fill', 'range', 'frames', '121:240 or 1s:2.5s', 'fill only gaps in these frames, by their numbers or in seconds; empty: all frames'),
-      this.option('fill', 'fill every gap', { name: 'fill_all', kind: 'switch', help: 'also fill gaps that the method would leave open as unreliable', default: false }));
+      this.option('fill', 'fill every gap', 'fill_all'));
     if (!this.isJoints) this.rows.fill.append(this.text('fill', 'donor', 'donor marker', 'LASI', 'the marker whose motion the method pattern copies'));
     this.rows.fill.append(this.byPlan);
   }
@@ -318,11 +341,16 @@ class Controls {
       if (turn !== this.turn) return;
       await this.take(report, take, await jsonOf<GapPlan>('plan', parts), () => turn !== this.turn);
       if (turn !== this.turn) return;
+      const whyNot = await jsonOf<WhyNot>('why_not', parts);
+      if (whyNot !== null) this.whyNot = whyNot;
+      this.offerMethods();
       this.page.dataset.ready = 'true';
       for (const control of this.rows[this.command].querySelectorAll<HTMLElement>('[aria-invalid]')) showProblem(control, '');
       this.status.classList.remove('error');
       this.status.textContent = 'done';
       this.page.dataset.runs = String(turn);
+      if (this.shown !== null) this.onFirst?.(this.shown);
+      this.onFirst = undefined;
       this.status.title = `shown after ${since(begun)} s, ${answered} s of them in the program`;
     } catch (error) {
       if (turn === this.turn) this.fail(this.transport.inWords(error));
@@ -414,10 +442,16 @@ export interface ViewPage {
   dispose(): void;
 }
 
-export function startView(page: HTMLElement, session: Session, transport: ViewTransport = serverTransport): ViewPage {
+/** How a page begins. `flags`: of `clean`; `onFirst`: told of the first result. */
+export interface ViewStart {
+  flags?: Record<string, Value>;
+  onFirst?: (shown: Shown) => void;
+}
+
+export function startView(page: HTMLElement, session: Session, transport: ViewTransport = serverTransport, start: ViewStart = {}): ViewPage {
   // A run of a page that is closed is stopped.
   window.addEventListener('pagehide', () => transport.leave());
-  if (session.other === '') return new Controls(page, session, transport);
+  if (session.other === '') return new Controls(page, session, transport, start);
   void showComparison(page, session);
   return { dispose: () => undefined };
 }

@@ -116,6 +116,15 @@ await step('the page waits for a take', async () => {
   await page.screenshot({ path: join(output, 'empty.png') });
 });
 
+await step('the example is cleaned at once, with its feet held, and moves before and after', async () => {
+  assert.match(await page.textContent('.drop'), /NPZ/);
+  await page.click('[data-action=example]');
+  await until(() => document.getElementById('page').dataset.ready === 'true');
+  assert.match(await page.textContent('.line'), /sliding_walk\.bvh.*--feet=auto/);
+  assert.match(await page.textContent('.feet'), /slide a frame/);
+  assert.deepEqual(await page.evaluate(() => [window.kinemend.player.playing, window.kinemend.body.options.apart]), [true, true]);
+});
+
 await step('a take that is dropped while the module starts waits for it', async () => {
   await page.reload();
   await until(() => document.getElementById('page').dataset.ready === 'waiting');

@@ -214,6 +214,18 @@ step('a preset sets the controls, and what is saved has the bytes of --preset', 
   assert.doesNotMatch(await page.textContent('.line'), /preset=|butterworth/);
 });
 
+step('methods that cannot clean the take are not offered, with the reason; ranges are those of the program', async () => {
+  kinemend('convert', 'walk.bvh', 'slow.bvh', '--fps', '60', '--force');
+  const { address } = await serve('slow.bvh', '-o', 'methods.bvh');
+  const page = await open(address);
+  const offered = await page.$$eval('[data-flag=method]:not([disabled]) option', (all) => all.filter((one) => !one.disabled).map((one) => one.value));
+  assert.ok(offered.includes('learned') && offered.includes('butterworth') && !offered.includes('recurrent') && !offered.includes('kalman-learned'), offered.join(' '));
+  assert.match(await page.textContent('.unable'), /recurrent: the network filters takes of 120 Hz only, and this one has 60/);
+  const help = kinemend('clean', '--help');
+  const [, least, most] = /--max-change-deg[^(]*\((\d+) to (\d+) deg/.exec(help.replace(/\s+/g, ' ')) ?? [];
+  if (least !== undefined) assert.deepEqual([await page.getAttribute('[data-flag=max_change_deg]', 'min'), await page.getAttribute('[data-flag=max_change_deg]', 'max')], [least, most]);
+});
+
 step('each control has a label that says what it does', async () => {
   const { address } = await serve('walk.bvh', '-o', 'labels.bvh');
   const page = await open(address);

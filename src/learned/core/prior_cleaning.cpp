@@ -325,7 +325,7 @@ CleanTrace clean_with_prior(const TakeView& take, const TrackSink& sink, const B
 
 namespace {
 
-class PriorCleaner final : public Cleaner {
+class PriorCleaner final : public ParticularCleaner {
  public:
   PriorCleaner(std::shared_ptr<const Model> model, PriorMethod method)
       : model_(std::move(model)), names_(name_map_at(method.map)), method_(std::move(method)) {}
@@ -337,6 +337,11 @@ class PriorCleaner final : public Cleaner {
                    const std::function<void(double)>& /*progress*/) const override {
     return clean_with_prior(take, sink, model_->layout, names_, method_.fill, method_.hold,
                             method_.filter);
+  }
+
+  std::string why_not(const Take& take) const override {
+    match_body(model_->layout, take, names_);
+    return method_.why_not_at ? method_.why_not_at(take.frame_rate_hz) : "";
   }
 
   LiveSupport live_support(double frame_rate_hz) const override {

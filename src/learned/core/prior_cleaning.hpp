@@ -63,6 +63,14 @@ CleanTrace clean_with_prior(const TakeView& take, const TrackSink& sink, const B
                             const NameMap& names, bool fill, PriorHold hold,
                             const PriorFilter& filter);
 
+/// A cleaner that does its own work on some takes only, and leaves others to `auto`.
+class ParticularCleaner : public Cleaner {
+ public:
+  /// Why it leaves every joint or marker of this take to `auto`; empty: it cleans some. Errors:
+  /// `ErrorKind::usage` of a take that `clean` refuses.
+  virtual std::string why_not(const Take& take) const = 0;
+};
+
 /// What makes a method of such a filter.
 struct PriorMethod {
   std::string name;
@@ -72,6 +80,9 @@ struct PriorMethod {
   PriorHold hold = PriorHold::noise;
   PriorFilter filter;
   std::string why_not_live{};  ///< where there is more to say than that it needs the whole take
+  /// Why the filter leaves all to `auto` at this frame rate; empty text: it does not. Null: at
+  /// none.
+  std::function<std::string(double frame_rate_hz)> why_not_at{};
 };
 /// A cleaner that does `clean_with_prior` to every take of joints or markers. Errors: as of
 /// `name_map_at`.

@@ -63,6 +63,13 @@ void fill_before_filter(const FilterNetwork& network, const BodyLayout& layout, 
   }
 }
 
+// Empty where the rate is that of the network.
+std::string wrong_rate(const FilterNetwork& network, double frame_rate_hz) {
+  if (has_rate_of(network, frame_rate_hz)) return {};
+  return fmt::format("the network filters takes of {:g} Hz only, and this one has {:g}",
+                     network.rate_hz, frame_rate_hz);
+}
+
 // A network of the paper filters the joints as they were measured; the root is left to `auto`, and
 // so is a take at another rate, since its filters are frames.
 void filter_as_in_the_paper(PriorWork& work, const PaperNetworks& networks,
@@ -70,13 +77,9 @@ void filter_as_in_the_paper(PriorWork& work, const PaperNetworks& networks,
   const FilterNetwork& network = networks.filter;
   PoseMatrix& poses = work.channels.poses;
   const std::size_t parts = poses.channels / 3;
-  if (!has_rate_of(network, work.channels.frame_rate_hz)) {
+  if (std::string reason = wrong_rate(network, work.channels.frame_rate_hz); !reason.empty()) {
     poses = work.fallback;
-    return add_fall_back(
-        work,
-        fmt::format("the network filters takes of {:g} Hz only, and this one has {:g}",
-                    network.rate_hz, work.channels.frame_rate_hz),
-        std::vector<double>(parts, 1.0));
+    return add_fall_back(work, std::move(reason), std::vector<double>(parts, 1.0));
   }
   for (std::size_t i = 0; i < poses.values.size(); ++i) {
     const bool is_measured = work.channels.observed[i] != 0 && work.suspect[i] == 0;
@@ -89,8 +92,8 @@ void filter_as_in_the_paper(PriorWork& work, const PaperNetworks& networks,
   work.rejected = work.suspect;
 }
 
-PriorFilter filter_of(const std::shared_ptr<const Model>& model,
-                      const std::shared_ptr<const Model>& gap_model) {
+std::shared_ptr<const PaperNetworks> networks_of(const std::shared_ptr<const Model>& model,
+                                                 const std::shared_ptr<const Model>& gap_model) {
   PaperNetworks networks{filter_network_of(*model), {}};
   if (networks.filter.inputs.has_masks)
     throw Error(ErrorKind::usage,
@@ -102,8 +105,7 @@ PriorFilter filter_of(const std::shared_ptr<const Model>& model,
                   "the gap model knows another body than the model: train both on the same takes");
     networks.gaps = gap_network_of(*gap_model);
   }
-  auto kept = std::make_shared<const PaperNetworks>(std::move(networks));
-  return [kept, model](PriorWork& work) { filter_as_in_the_paper(work, *kept, model->layout); };
+  return std::make_shared<const PaperNetworks>(std::move(networks));
 }
 
 constexpr const char* live_needs =
@@ -158,12 +160,17 @@ std::unique_ptr<Cleaner> make_recurrent(const RecurrentOptions& options,
   if (!options.gap_model.empty())
     gap_model = model_of(recurrent_learned(), options.gap_model, std::move(gap_model));
   if (options.live) return make_live(options, model, gap_model != nullptr);
-  return make_prior_cleaner(model, {.name = "recurrent",
-                                    .options = recurrent_table().values(options),
-                                    .map = options.map,
-                                    .fill = options.fill,
-                                    .filter = filter_of(model, gap_model),
-                                    .why_not_live = live_needs});
+  const auto networks = networks_of(model, gap_model);
+  return make_prior_cleaner(
+      model,
+      {.name = "recurrent",
+       .options = recurrent_table().values(options),
+       .map = options.map,
+       .fill = options.fill,
+       .filter = [networks, model](
+                     PriorWork& work) { filter_as_in_the_paper(work, *networks, model->layout); },
+       .why_not_live = live_needs,
+       .why_not_at = [networks](double rate_hz) { return wrong_rate(networks->filter, rate_hz); }});
 }
 
 Method recurrent_method() {
