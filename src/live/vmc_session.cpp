@@ -266,9 +266,10 @@ class VmcSession::Work {
         std::find(named_.begin(), named_.end(), printable) != named_.end())
       return;
     named_.push_back(printable);
-    notes_.push_back(fmt::format(
-        "bone {} is not in Unity's humanoid and passes unchanged; name it with --joints to clean it",
-        printable));
+    notes_.push_back(
+        fmt::format("bone {} is not in Unity's humanoid and passes unchanged; name it with "
+                    "--joints to clean it",
+                    printable));
   }
 
   void release() {

@@ -44,6 +44,7 @@ TEST_F(BatchSteps, ConvertsATree) {
 }
 
 TEST_F(BatchSteps, CleansAndConvertsInOneRun) {
+  fs::remove(folder / "raw/a.bvh");
   noisy("raw/a.bvh", "2");
   const Ran ran = run({"batch", "raw", "-o", "out", "--to", "trc"});
   EXPECT_EQ(ran.code, 0) << ran.err;

@@ -20,7 +20,8 @@ TEST_F(OptionNames, LettersMeanTheSameInEveryCommand) {
                                                        {'q', {"--quiet"}},
                                                        {'v', {"--verbose"}},
                                                        {'m', {"--method"}},
-                                                       {'j', {"--jobs"}}};
+                                                       {'j', {"--jobs"}},
+                                                       {'h', {"--help"}}};
   for (const std::string& command : all_commands) {
     const std::string help = run({command, "-h"}).out;
     for (const std::string& line : lines_of(help)) {

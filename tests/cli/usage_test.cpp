@@ -72,7 +72,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{{"clean", "a.bvh", "--range", "3:11"}, "a.bvh: --range: frame 11 is outside 1 to 10"},
         Case{{"clean", "a.bvh", "--range", "11:"}, "a.bvh: --range: frame 11 is outside 1 to 10"},
         Case{{"clean", "a.bvh", "b.bvh", "-o", "c.bvh"},
-             "clean: --output is for one take; use --output-dir for several"},
+             "clean: --output c.bvh is a file for one take, and there are 2; --output-dir c.bvh "
+             "writes them into a folder"},
         Case{{"clean", "a.bvh", "-o", "c.bvh", "--output-dir", "d"},
              "clean: --output and --output-dir cannot be combined"},
         Case{{"clean", "a.bvh", "./a.bvh", "--output-dir", "d"},
