@@ -142,7 +142,7 @@ Flag without_default(Flag flag) {
 
 Flag of_checks(Flag flag) {
   flag.group = "Checks";
-  flag.details = "Noise and spikes are found that clean would take out with this --source.";
+  flag.details = "The noise and the spikes listed are those that clean removes with this --source.";
   return flag;
 }
 

@@ -115,7 +115,7 @@ Leftover noise_left(const CleanReport& report, double metres_per_unit) {
   if (count == 0) return {};
   return {fmt::format("jitter on {} left, {} {} at most",
                       counted(count, is_joints ? "joint" : "marker"), figure(worst), report.unit),
-          fmt::format("{} took it for motion; --method butterworth --cutoff-hz 6 smooths it anyway",
+          fmt::format("{} takes it for motion; --method butterworth --cutoff-hz 6 smooths it anyway",
                       report.method)};
 }
 

@@ -60,7 +60,8 @@ class Noise(Shown):
     ninety_percent_below_hz : float or None
         The same of nine tenths.
     is_expected : bool
-        Not measured: slow noise that a model expects of takes like this one.
+        Not measured: noise that a model expects of takes like this one; with correlation 0 it is
+        slow.
     samples : {"every_frame", "held", "interpolated"}
         Where frames are fewer samples than they seem: how those of a lower rate were brought to
         that of the file.
@@ -551,7 +552,11 @@ class Track(Shown):
     name : str
         As the file spells it.
     noise : float or None
-        Clean, check: estimated noise per axis before; of clean 0 where the method estimates none.
+        Clean, check: noise per axis before, measured in the same way whatever the method; 0 for
+        tracks that may not change.
+    expected_noise : float or None
+        Clean: noise per axis that the model of the method expects and takes out, also where it
+        cannot be measured; only of methods that say it.
     left : float or None
         Clean: how far the result is expected to be off, per axis; only of methods that say it.
     rms_change : float or None
@@ -563,7 +568,8 @@ class Track(Shown):
     frames_repaired : int or None
         Clean: despiked or filled.
     peak_speed_before : float or None
-        Clean: a second, in `track_unit`; repaired samples left out.
+        Clean: a second, in `track_unit`, without spikes and missing samples; the same whatever the
+        method.
     peak_speed_after : float or None
         Clean: the same after.
     peak_frames : int or None
@@ -616,6 +622,7 @@ class Track(Shown):
 
     name: str
     noise: float | None = None
+    expected_noise: float | None = None
     left: float | None = None
     rms_change: float | None = None
     max_change: float | None = None
@@ -743,8 +750,8 @@ class Report(Shown):
     options : dict[str, bool | float | str] or None
         Clean: of the method, all with their values.
     noise : list[Noise] or None
-        Clean, check: what the noise of rotations and that of positions is like; none of what is
-        clean.
+        Clean, check: what the noise of rotations and that of positions is like, measured in the
+        same way whatever the method, and what a model expects (is_expected); none of what is clean.
     fall_backs : list[FallBack] or None
         Clean: what another method did in place of the one that was asked for.
     notes : list[str] or None

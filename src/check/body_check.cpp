@@ -84,9 +84,8 @@ void report_no_contact(const BodyPoints& body, Up up, const std::vector<Contact>
   if (low < least_low * frames || standing > most_standing * low) return;
   report.findings.push_back(
       {FindingKind::no_contact, Severity::note, "", 0, body.frames - 1, 100 * standing / low, "%",
-       "feet come near the floor and hardly ever rest on it: typical of video, whose slow errors "
-       "this take alone cannot tell from motion, and of a body that walks on the spot; if it comes "
-       "from video, try: kinemend clean --source video"});
+       "feet come near the floor and rarely rest on it, as in takes of video or of a body that "
+       "walks on the spot; if the take comes from video, try: kinemend clean --source video"});
 }
 
 void report_feet(const BodyPoints& body, Up up, const CheckSettings& settings,

@@ -83,8 +83,9 @@ void check_euler_flips(const Take& clip, CheckReport& report) {
   const std::vector<double> values = clip.source.document->channel_values();
   if (values.empty() || values.size() != frames * width) return;
   static constexpr std::array<const char*, 4> words{
-      "", "an angle jumps by a full turn although the joint does not move",
-      "the angles flip to others for the same rotation", "the angles jump at a gimbal lock"};
+      "", "has an angle that jumps by a full turn although the joint does not move",
+      "has angles that change to others of the same rotation",
+      "has angles that jump at a gimbal lock"};
   for (const AngleColumns& joint : angle_columns(clip.skeleton)) {
     for (std::size_t t = report.calibration_frames + 1; t < frames; ++t) {
       const double turn = degrees_per_radian * angle_between(clip.rotation(t - 1, joint.joint),

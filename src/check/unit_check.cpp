@@ -73,8 +73,9 @@ void check_unit(const Take& clip, const CheckSettings& settings, CheckReport& re
   } else if (!guess) {
     report.findings.push_back(finding_of(
         Severity::note, 0, report,
-        fmt::format("the body measures {:.3g}, which is a person's size in no usual unit",
-                    height)));
+        fmt::format(
+            "the height of the body is {:.3g}, which no usual unit makes the height of a person",
+            height)));
   }
 }
 

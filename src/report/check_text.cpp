@@ -45,11 +45,13 @@ std::string dashes_to_spaces(std::string_view name) {
 
 std::string finding_sentence(const Finding& finding, const TakeFacts& take,
                              const CheckReport& report) {
+  // "Frame 1 is a calibration pose": the frames are the subject.
+  if (finding.kind == FindingKind::calibration)
+    return frames_text(finding, take, report) + " " + printable(finding.words);
   std::string text = frames_text(finding, take, report) + ": ";
   if (!finding.track.empty()) text += printable_name(finding.track) + " ";
   text += printable(finding.words);
-  const bool says_all = finding.figure == 0 || finding.kind == FindingKind::calibration;
-  if (!says_all) text += fmt::format(" ({})", with_unit(finding.figure, finding.unit));
+  if (finding.figure != 0) text += fmt::format(" ({})", with_unit(finding.figure, finding.unit));
   return text;
 }
 
@@ -74,9 +76,9 @@ bool is_doubtful(const CheckReport& report) {
 std::string check_verdict(const CheckReport& report) {
   const std::size_t faults = faults_in(report);
   if (faults == 0 && is_doubtful(report))
-    return "no fault shows, but the take is probably noisy: see the notes";
+    return "no fault found, but the take is probably noisy: see the notes";
   if (faults == 0)
-    return "nothing wrong that shows; slow errors (video, depth cameras, suits) do not show in a "
+    return "no fault found; slow errors (video, depth cameras, suits) cannot be seen in a "
            "take alone";
   const auto serious = static_cast<std::size_t>(
       std::count_if(report.findings.begin(), report.findings.end(),

@@ -13,9 +13,14 @@ TEST_F(Check, FindsNothingInACleanTake) {
   synth("walk.bvh", "walk", "3");
   const Ran ran = run({"check", "walk.bvh", "--max-spikes", "0", "--max-frozen", "0"});
   EXPECT_EQ(ran.code, 0) << ran.err;
-  EXPECT_THAT(ran.out,
-              StartsWith("walk.bvh: nothing wrong that shows; slow errors (video, depth cameras, "
-                         "suits) do not show in a take alone\n"));
+  EXPECT_THAT(ran.out, StartsWith("walk.bvh: no fault found; slow errors (video, depth cameras, "
+                                  "suits) cannot be seen in a take alone\n"));
+}
+
+TEST_F(Check, SaysInASentenceThatAFrameIsACalibrationPose) {
+  ASSERT_EQ(run({"synth", "walk", "-o", "walk.bvh", "--t-pose-first"}).code, 0);
+  EXPECT_THAT(run({"check", "walk.bvh"}).out,
+              HasSubstr("frame 1 is a calibration pose, not part of the motion\n"));
 }
 
 TEST_F(Check, SaysWhatItLookedForWhereItFindsNothing) {
@@ -78,7 +83,7 @@ TEST_F(Check, GoesOnAfterAFileThatCannotBeRead) {
   put(folder / "bad.bvh", "HIERARCHY\nROOT\n");
   const Ran ran = run({"check", "bad.bvh", "walk.bvh"});
   EXPECT_EQ(ran.code, 3);
-  EXPECT_THAT(ran.out, HasSubstr("walk.bvh: nothing wrong that shows"));
+  EXPECT_THAT(ran.out, HasSubstr("walk.bvh: no fault found"));
   EXPECT_EQ(run({"check", "bad.bvh", "walk.bvh", "--gaps-out", "g.csv"}).code, 2);
 }
 

@@ -196,12 +196,12 @@ TEST(Report, ADocumentHoldsItsEntriesAsTheyAre) {
 TEST(Report, ADoubtIsNoFaultAndIsNotNothing) {
   CheckReport check;
   check.frames = 100;
-  EXPECT_THAT(verdict_of({joints_take(), check}), HasSubstr("nothing wrong that shows"));
+  EXPECT_THAT(verdict_of({joints_take(), check}), HasSubstr("no fault found"));
   for (const FindingKind kind : {FindingKind::no_contact, FindingKind::expected_noise}) {
     CheckReport doubtful = check;
     doubtful.findings = {{kind, Severity::note, "", 0, 99, 3.4, "deg", "is expected"}};
     EXPECT_EQ(verdict_of({joints_take(), doubtful}),
-              "no fault shows, but the take is probably noisy: see the notes");
+              "no fault found, but the take is probably noisy: see the notes");
     doubtful.findings.push_back(
         {FindingKind::spike, Severity::warning, "Arm", 20, 20, 40, "deg", "is a spike"});
     EXPECT_EQ(verdict_of({joints_take(), doubtful}), "0 serious, 1 warning");
