@@ -152,6 +152,7 @@ FORCE:
 
 test: $(RELEASE)/.built ## build and run the tests (real takes too where data/real or KINEMEND_DATA is a folder); says what it leaves out
 	@cat $(RELEASE)/left_out.txt
+	@[ -n "$$KINEMEND_LONG" ] || echo "Left out: tests that take minutes (KINEMEND_LONG=1 runs them)"
 	ctest --preset release -j $(JOBS)
 
 test-all: ## the same, with training, pages, browser, Python and Blender installed, so that nothing is left out

@@ -12,7 +12,7 @@ int main(int argc, char** argv) try {
   const CleanResult result = clean_take(noisy, *make_cleaner("learned"));
   const CleanReport& report = result.report;
   for (const TrackSummary& track : report.tracks) {
-    std::printf("%-16s noise %.2f %s, %zu frames repaired\n", track.name.c_str(), track.noise,
+    std::printf("%-16s noise %.2f %s, frames repaired: %zu\n", track.name.c_str(), track.noise,
                 report.unit.c_str(), track.frames_repaired);
   }
   write_file(argv[2], write_take(result.take), /*overwrite=*/true);  // in the layout of TAKE.bvh

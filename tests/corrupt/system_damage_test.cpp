@@ -8,6 +8,7 @@
 #include "corrupt/track_errors.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/kinematics.hpp"
+#include "long_tests.hpp"
 #include "noise_measures.hpp"
 #include "translations.hpp"
 
@@ -138,6 +139,7 @@ test::Spectrum density_of(corrupt::SystemNoise noise, double rate_hz, std::uint6
 }
 
 TEST(SystemNoise, HasTheSameSpectrumBelow25HzAtBothRates) {
+  KINEMEND_LONG_TEST();
   for (const auto& [name, about, noise] : corrupt::system_families()) {
     if (name == "inertial") continue;  // has next to nothing above its corner of 1.4 Hz
     for (double Vec3::*const axis : {&Vec3::x, &Vec3::z}) {

@@ -16,6 +16,7 @@
 #include "kinemend/experimental/synth.hpp"
 #include "kinemend/methods.hpp"
 #include "learned/corrector/turned_rig.hpp"
+#include "long_tests.hpp"
 
 namespace kinemend::quality {
 namespace {
@@ -175,7 +176,10 @@ TEST(HarmLaw, ACleanTakeOf24HzComesBack) { expect_law_at(24); }
 TEST(HarmLaw, ACleanTakeOf30HzComesBack) { expect_law_at(30); }
 TEST(HarmLaw, ACleanTakeOf60HzComesBack) { expect_law_at(60); }
 TEST(HarmLaw, ACleanTakeOf120HzComesBack) { expect_law_at(120); }
-TEST(HarmLaw, ACleanTakeOf240HzComesBack) { expect_law_at(240); }
+TEST(HarmLaw, ACleanTakeOf240HzComesBack) {
+  KINEMEND_LONG_TEST();
+  expect_law_at(240);
+}
 
 }  // namespace
 }  // namespace kinemend::quality

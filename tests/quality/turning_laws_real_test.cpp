@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "long_tests.hpp"
 #include "quality/real_takes.hpp"
 
 namespace kinemend::quality {
@@ -24,6 +25,7 @@ Take turned(Take clip, Vec3 speed_deg_s) {
 // About a level axis the root turns farther than its channels can say, and is left to `auto`: no
 // other joint may suffer.
 TEST(SlowTurns, OfAnyAxisLeaveSparseAsGood) {
+  KINEMEND_LONG_TEST();
   for (const char* name : {"02_05", "05_13"}) {
     const Take whole = real_clip(name);
     const Take truth = slice(whole, 0, std::min<std::size_t>(whole.frame_count(), 1200));

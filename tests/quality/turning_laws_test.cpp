@@ -8,6 +8,7 @@
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/synth.hpp"
 #include "kinemend/methods.hpp"
+#include "long_tests.hpp"
 #include "quality/quality.hpp"
 #include "registry/takes.hpp"
 #include "rotation/random_rotations.hpp"
@@ -104,6 +105,7 @@ class OfAnyMethod : public testing::TestWithParam<std::string> {
 // strengths chosen by evidence follow it; over many seeds the error of `auto` changes by -5 to 9 %
 // a motion, less and more alike.
 TEST_P(OfAnyMethod, TheErrorDoesNotDependOnHowTheTakeTurns) {
+  if (GetParam() == "sparse" || GetParam() == "example") KINEMEND_LONG_TEST();
   Squares still;
   std::vector<Take> truths = {about_its_middle(take_to_turn("walk", 3)),
                               about_its_middle(take_to_turn("wave", 2)),
@@ -149,6 +151,7 @@ TEST_P(OfAnyMethod, TheErrorDoesNotDependOnWhereTheTakeStands) {
 }
 
 TEST_P(OfAnyMethod, TheErrorDoesNotGrowWithTheLengthOfTheTake) {
+  if (GetParam() == "sparse") KINEMEND_LONG_TEST();
   for (const char* motion : {"turn", "stroll"}) {
     const Take once = take_to_turn(motion, 10), often = take_to_turn(motion, 50);
     Squares error_once, error_often;

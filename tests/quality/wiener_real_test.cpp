@@ -9,6 +9,7 @@
 
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
+#include "long_tests.hpp"
 #include "quality/quality.hpp"
 #include "quality/real_takes.hpp"
 
@@ -51,6 +52,7 @@ struct Group {
 class WienerOnRealTakes : public testing::TestWithParam<Group> {};
 
 TEST_P(WienerOnRealTakes, NeverLosesToTheBestGaussian) {
+  KINEMEND_LONG_TEST();
   const auto wiener = make_wiener();
   for (std::size_t d = 0; d < std::size(damagings); ++d) {
     double sum = 0;

@@ -90,7 +90,9 @@ async function open(name, options = {}) {
   assert.equal(await page.evaluate(() => window.broken), undefined);
   return page;
 }
+/** A picture to look at; drawing a whole page takes seconds, so there are none unless SCREENSHOTS is set. */
 const shot = async (page, name) => {
+  if (!process.env.SCREENSHOTS) return;
   await page.waitForTimeout(150);
   await page.screenshot({ path: join(output, `${name}.png`), fullPage: true, timeout: 120000 });
 };

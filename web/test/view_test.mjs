@@ -89,7 +89,9 @@ async function save(page, written, name) {
   await page.waitForSelector(`.saved:has-text("saved ${written}")`);
   assert.equal(await page.locator('dialog[open]').count(), 0);
 }
+/** A picture to look at; drawing a whole page takes seconds, so there are none unless SCREENSHOTS is set. */
 const shot = async (page, name) => {
+  if (!process.env.SCREENSHOTS) return;
   await page.waitForTimeout(200);
   await page.screenshot({ path: join(screenshots, `view_${name}.png`), fullPage: true, timeout: 120000 });
 };

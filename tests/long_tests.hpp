@@ -1,0 +1,17 @@
+// Tests that take longer than ten seconds and seldom fail alone run where KINEMEND_LONG is set, as
+// `make nightly` does.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace kinemend::test {
+
+/// Whether tests that take long are to run.
+inline bool runs_long_tests() { return std::getenv("KINEMEND_LONG") != nullptr; }
+
+}  // namespace kinemend::test
+
+#define KINEMEND_LONG_TEST() \
+  if (!kinemend::test::runs_long_tests()) GTEST_SKIP() << "long: KINEMEND_LONG=1 runs it"
