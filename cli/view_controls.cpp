@@ -24,12 +24,12 @@ Settings preset_settings(const Preset& preset) {
 }
 
 /// Flags that the page may set: none that reads or writes a file.
-constexpr std::array cleaning_flags = {
+constexpr std::array page_cleaning_flags = {
     "method", "source",   "strength", "max_change_deg", "max_change",
     "fill",   "fill_all", "feet",     "fix_swaps",      "peak_loss_limit",
     "joints", "exclude",  "range",    "root_position",  "preset"};
-constexpr std::array filling_flags = {"method", "joints",      "range",
-                                      "donor",  "longest_gap", "fill_all"};
+constexpr std::array page_filling_flags = {"method", "joints",      "range",
+                                           "donor",  "longest_gap", "fill_all"};
 
 /// The method that these flags choose: named, of the preset, or the default.
 const Method* method_of(const std::vector<AskedFlag>& flags) {
@@ -121,8 +121,8 @@ Json fill_methods_json() {
 
 Json view_controls() {
   return {{"flags",
-           {{"clean", flags_json("clean", cleaning_flags)},
-            {"fill", flags_json("fill", filling_flags)}}},
+           {{"clean", flags_json("clean", page_cleaning_flags)},
+            {"fill", flags_json("fill", page_filling_flags)}}},
           {"methods", methods_json()},
           {"presets", presets_json()},
           {"fill_methods", fill_methods_json()}};
@@ -142,8 +142,8 @@ void check_view_flag(const ViewAsked& asked, const std::string& name) {
     return std::find(list.begin(), list.end(), name) != list.end();
   };
   const bool known = asked.is_fill
-                         ? among(filling_flags)
-                         : among(cleaning_flags) || is_option(method_of(asked.flags), name);
+                         ? among(page_filling_flags)
+                         : among(page_cleaning_flags) || is_option(method_of(asked.flags), name);
   if (!known)
     throw Error(ErrorKind::usage, fmt::format("view: the page may not set {}", printable(name)));
 }
