@@ -113,10 +113,11 @@ Leftover noise_left(const CleanReport& report, double metres_per_unit) {
     worst = std::max(worst, track.noise);
   }
   if (count == 0) return {};
-  return {fmt::format("jitter on {} left, {} {} at most",
-                      counted(count, is_joints ? "joint" : "marker"), figure(worst), report.unit),
-          fmt::format("{} takes it for motion; --method butterworth --cutoff-hz 6 smooths it anyway",
-                      report.method)};
+  return {
+      fmt::format("jitter on {} left, {} {} at most",
+                  counted(count, is_joints ? "joint" : "marker"), figure(worst), report.unit),
+      fmt::format("{} takes it for motion; --method butterworth --cutoff-hz 6 smooths it anyway",
+                  report.method)};
 }
 
 // Noise that a check finds in the tracks that were to be cleaned.
