@@ -179,7 +179,10 @@ void check_outputs(const std::vector<std::string>& paths, const std::string& fol
                    const Arguments& arguments) {
   const std::string rows = (fs::path(folder) / "rows.jsonl").string();
   RunFiles().reads("ROWS", paths).writes("--output-dir", rows).check(arguments.flag("json"));
-  check_free(rows, arguments.flag("force") || are_rows(rows));
+  // The folder is made once the rows are known to belong together.
+  std::error_code ignored;
+  if (fs::is_directory(folder, ignored))
+    check_free(rows, arguments.flag("force") || are_rows(rows));
 }
 
 int code_of(const BatchRow& row) {

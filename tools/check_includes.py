@@ -57,6 +57,7 @@ PUBLIC = {header: room for room, headers in {
     "feet": "feet normalise",
     "methods/core": "cleaner methods",
     "learned/core": "model train",
+    "registry": "method_choice",
     "pipeline": "clean stream",
     "check": "check",
     "report": "report batch_rows svg curves pictures page",

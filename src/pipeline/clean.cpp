@@ -233,7 +233,8 @@ std::vector<NoiseCharacter> noise_of(const MeasuredNoise& measured, const CleanT
     const bool is_measured =
         std::any_of(measured.characters.begin(), measured.characters.end(),
                     [&](const NoiseCharacter& own) { return own.space == character.space; });
-    if (is_measured && !character.is_expected) continue;
+    // White noise that the measurement does not find is none.
+    if (!character.is_expected && (is_measured || character.correlation == 0)) continue;
     character.is_expected = true;
     noise.push_back(character);
   }

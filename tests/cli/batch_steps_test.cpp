@@ -52,7 +52,12 @@ TEST_F(BatchSteps, CleansAndConvertsInOneRun) {
   ASSERT_EQ(run({"convert", "clean.bvh", "a.trc"}).code, 0);
   // The first line holds the name of the file that was read.
   const std::string one = contents(folder / "out/a.trc"), two = contents(folder / "a.trc");
-  EXPECT_EQ(lines_of(one).back(), lines_of(two).back());
+  std::istringstream in_one_run(lines_of(one).back()), in_two(lines_of(two).back());
+  // The file between the two steps has rounded angles.
+  double a = 0, b = 0;
+  std::size_t numbers = 0;
+  for (; in_one_run >> a && in_two >> b; ++numbers) EXPECT_NEAR(a, b, 1e-4);
+  EXPECT_GT(numbers, 60U);
 }
 
 TEST_F(BatchSteps, ABatchWithNothingToDoIsRefused) {

@@ -52,7 +52,8 @@ TEST_F(Help, BothLevelsExistForEveryCommand) {
     EXPECT_EQ(full.code, 0);
     EXPECT_EQ(brief.err + full.err, "");
     EXPECT_THAT(brief.out, testing::StartsWith("kinemend " + command + ": "));
-    EXPECT_GE(full.out.size(), brief.out.size()) << command;
+    // The brief form says what each damage or method does; the long one has more options.
+    EXPECT_GE(options_in(full.out).size(), options_in(brief.out).size()) << command;
     EXPECT_EQ(run({"help", command}).out, full.out);
   }
   const Ran program = run({"--help"});
@@ -90,7 +91,7 @@ TEST_F(Help, TheHelpOfAMethodHoldsItsOptionsAndItsPage) {
 TEST_F(Help, TheHelpOfACommandIsShortAndSaysHowToSeeTheOptionsOfAMethod) {
   for (const std::string command : {"clean", "batch", "fill", "stream", "corrupt", "train"}) {
     const std::string help = run({command, "--help"}).out;
-    EXPECT_LT(lines_of(help).size(), 125u) << command;
+    EXPECT_LT(lines_of(help).size(), 140u) << command;
     EXPECT_THAT(help, HasSubstr("type: kinemend help ")) << command;
   }
   const std::string help = run({"clean", "--help"}).out;

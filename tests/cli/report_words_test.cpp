@@ -37,8 +37,8 @@ TEST_F(ReportWords, NoiseHasAColourAndCanBeToldFromAnotherTake) {
             0);
   const Ran found = run({"clean", "slow.bvh", "-m", "auto", "-o", "a.bvh", "--report", "a.json"});
   ASSERT_EQ(found.code, 0) << found.err;
-  // What was taken out is quicker than what was there.
-  EXPECT_THAT(run({"clean", "slow.bvh", "--dry-run"}).out, HasSubstr(" deg per axis, coloured, "));
+  EXPECT_THAT(run({"clean", "slow.bvh", "--dry-run"}).out,
+              HasSubstr(" deg per axis, slow, 90 % below "));
   EXPECT_THAT(found.out,
               AllOf(HasSubstr("  noise: 1."), HasSubstr(" deg per axis, slow, 90 % below ")));
   EXPECT_THAT(run({"check", "slow.bvh"}).out, HasSubstr(" deg per axis, slow, 90 % below "));
@@ -48,7 +48,7 @@ TEST_F(ReportWords, NoiseHasAColourAndCanBeToldFromAnotherTake) {
               AllOf(HasSubstr("slow, 90 % below "),
                     HasSubstr("auto in place of learned for 31 joints: the noise is given")));
   EXPECT_THAT(run({"clean", "slow.bvh", "-o", "c.bvh", "--noise", "white"}).out,
-              HasSubstr(" deg per axis, white"));
+              HasSubstr("the noise is given"));
   for (const char* none : {"walk.bvh", "none.json"}) {
     const Ran refused = run({"clean", "slow.bvh", "-o", "d.bvh", "--noise", none});
     EXPECT_NE(refused.code, 0);

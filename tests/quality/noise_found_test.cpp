@@ -86,15 +86,14 @@ TEST(KnownNoise, IsGoneByInPlaceOfWhatIsFound) {
   const Take truth = walk(), noisy = with_noise(truth, 1.5, 0.8, 5);
   CleanSettings white;
   white.noise.emplace();
-  EXPECT_EQ(report_of(noisy, white).noise.at(0).correlation, 0);
+  // The report says what was measured, whatever is given.
+  EXPECT_EQ(report_of(noisy, white).noise.at(0).correlation,
+            report_of(noisy).noise.at(0).correlation);
   EXPECT_GT(error_of(truth, noisy, white), 1.2 * error_of(truth, noisy));
 
   CleanSettings known;
   known.noise = KnownNoise{0.8, {}};
   for (const std::string& name : truth.skeleton.names) known.noise->strengths[name] = 1.5;
-  const CleanReport report = report_of(noisy, known);
-  EXPECT_EQ(report.noise.at(0).correlation, 0.8);
-  EXPECT_EQ(report.noise.at(0).strength, 1.5);
   EXPECT_LT(error_of(truth, noisy, known), 1.03 * error_of(truth, noisy));
 }
 

@@ -61,7 +61,7 @@ function makePages() {
   writeFileSync(join(output, 'prefix.bvh'), readFileSync(join(output, 'many.bvh'), 'utf8').replaceAll(/(ROOT|JOINT) (\w+)/g, (_all, kind, name) => `${kind} mixamorig:${names[name] ?? name}`));
   kinemend('clean', 'prefix.bvh', '-o', 'prefix.clean.bvh', '--report', 'prefix.html', '--force');
   // A runner with both arms stretched, and two people three metres apart.
-  kinemend('corrupt', join(takes, 'walk.bvh'), '-o', 'wide.bvh', '--damage', 'bias:std_deg=60', '--seed', '2', '--force');
+  kinemend('corrupt', join(takes, 'walk.bvh'), '-o', 'wide.bvh', '--damage', 'bias:bias_deg=60', '--seed', '2', '--force');
   kinemend('clean', 'wide.bvh', '-o', 'wide.clean.bvh', '--method', 'gaussian', '--report', 'wide.html', '--force');
   markers(join(output, 'two.trc'), ['A:Head', 'A:Hip', 'A:Foot', 'B:Head', 'B:Hip', 'B:Foot'], 200, (f, m) => [3000 * Math.floor(m / 3) * Math.cos(f / 40) + 40 * f + 200 * Math.sin(2.1 * f + m), 1700 - 800 * (m % 3), 3000 * Math.floor(m / 3) * Math.sin(f / 40)]);
   kinemend('compare', 'two.trc', 'two.trc', '--report', 'markers_compared.html', '--force');
