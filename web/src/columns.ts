@@ -8,6 +8,7 @@ const withoutUnit = /filled|refused|count|frames|gap|spikes|frozen|bridged|swaps
 const meanings: Record<string, string> = {
   // Tracks of `clean`.
   noise: 'How strongly the {track} trembles before cleaning: standard deviation on each axis, in {unit}.',
+  expected_noise: 'How much noise the model of the method expects in the {track} and takes out: standard deviation on each axis, in {unit}.',
   rms_change: 'How much cleaning changed the {track}: root mean square over all frames, in {unit}.',
   max_change: 'The largest change in any frame, in {unit}.',
   frames_changed: 'Number of frames in which the {track} was changed.',
