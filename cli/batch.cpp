@@ -225,7 +225,7 @@ Done clean_item(const BatchItem& item, const std::string& output, const Batch& b
 
 /// Where the result goes.
 std::string result_of(const BatchItem& item, const Batch& batch) {
-  const std::string output = (fs::path(batch.folder) / item.name).string();
+  std::string output = (fs::path(batch.folder) / item.name).string();
   if (batch.plan.to != nullptr) return output;
   return with_right_ending(output, item.input, batch.plan.reading.format);
 }

@@ -36,7 +36,7 @@ bool names_folder(const std::string& output) {
 /// The folder that the options name; empty: none.
 std::string folder_of(const Arguments& arguments, std::size_t inputs) {
   const std::string& command = arguments.command->name;
-  const std::string output = arguments.text("output"), folder = arguments.text("output_dir");
+  std::string output = arguments.text("output"), folder = arguments.text("output_dir");
   if (!output.empty() && !folder.empty())
     throw Error(ErrorKind::usage,
                 fmt::format("{}: --output and --output-dir cannot be combined", command));
