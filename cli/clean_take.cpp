@@ -127,7 +127,7 @@ std::string clean_one(TakeResult& read, const TakeJob& job, const CleanPlan& pla
   const std::string name = input_name(job.input);
   for (const Diagnostic& entry : read.diagnostics.entries())
     outcome.warnings.push_back(diagnostic_line(read.take.source, entry));
-  const std::string format =
+  std::string format =
       plan.to != nullptr ? std::string(plan.to->name) : format_for(job.output, read.take.source);
   if (plan.to == nullptr)
     check_can_hold(name, read.take, format);
@@ -187,7 +187,7 @@ void clean_job(const TakeJob& job, const CleanPlan& plan, const TakeProgress& pr
   options.progress = {};
   const std::vector<std::string> others = other_takes(read.take.source, plan);
   if (!others.empty()) check_keeps_format(job, read.take.source);
-  const std::string format = clean_one(read, job, plan, progress, outcome);
+  std::string format = clean_one(read, job, plan, progress, outcome);
   for (const std::string& other : others) {
     options.animation = other;
     read = read_take(write_take(read.take, format), read.take.source.name, options);
