@@ -223,7 +223,8 @@ nightly: ## what continuous integration leaves out: sanitisers, a fresh Debian, 
 	tools/lint --includers
 	$(MAKE) asan ASAN=asan-all
 	$(MAKE) libcxx-test libcxx-install-test windows-test windows-install-test
-	$(MAKE) fuzz soak test-all dist-test deb-test install-test first-test cluster-test bench-quick
+	KINEMEND_LONG=1 $(MAKE) test-all
+	$(MAKE) fuzz soak dist-test deb-test install-test first-test cluster-test bench-quick
 	tests/live/clients/node_osc_test $(RELEASE)/cli/kinemend
 
 clean: ## remove everything that was built

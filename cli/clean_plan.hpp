@@ -34,7 +34,7 @@ struct CleanPlan {
   std::optional<std::pair<std::string, std::string>> gaps, contacts;
   bool fix_swaps = false;
   bool cleans = true;  ///< false in a `batch --no-clean`, whose cleaner does nothing
-  /// Of `batch`: the format of the results; null: that of each input.
+  /// The format of the results of `batch`; null: each result has the format of its input.
   const Format* to = nullptr;
   bool all_takes = false;              ///< of `clean`: every take of a file that holds several
   std::vector<std::string> asked{};    ///< of `clean`: flags that the command line itself gives

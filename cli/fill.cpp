@@ -48,7 +48,7 @@ void fill_job(const TakeJob& job, const FillRun& run, const Arguments& arguments
   options.all = run.verbose;
   options.colours = Colours::of_out().on();
   outcome.text = to_text(filled.report, options);
-  // Of several takes the first line of each is shown, as clean does.
+  // A run of several takes shows the first line of each, as clean does.
   if (!options.details) outcome.text.resize(outcome.text.find('\n') + 1);
   if (run.json || run.reports.with_json()) outcome.json = outcome.report = to_json(filled.report);
   if (with_page)

@@ -50,8 +50,8 @@ struct FilledTake {
 /// is set. What `check` throws ends it.
 FilledTake fill_take(const FillRun& run, const TakeJob& job, bool with_before,
                      const FillCheck& check = {});
-/// What every method would make, in the first take, of the gap of one row of the run's plan.
-/// Errors: as of `fill_take`; `ErrorKind::usage` for a run without a plan.
+/// The curves by which every method would fill one gap of the first take: that of a row of the
+/// plan. Errors: as of `fill_take`; `ErrorKind::usage` for a run without a plan.
 GapCurves gap_curves(const FillRun& run, std::size_t row, const FillCheck& check);
 
 }  // namespace kinemend::cli

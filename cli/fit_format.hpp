@@ -26,7 +26,7 @@ Take in_unit(const Take& take, const std::string& unit, double metres);
 /// `ErrorKind::usage`.
 void check_can_fit(const Take& take, const Format& format);
 /// The take in the form that the format can hold: joints become markers in a format of markers.
-/// What the user should know is added to `notes`. Errors: as of `check_can_fit`.
+/// Adds notes for the user to `notes`. Errors: as of `check_can_fit`.
 Take fitted(Take take, const Format& format, const FitSettings& settings,
             std::vector<std::string>& notes);
 

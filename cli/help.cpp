@@ -18,7 +18,7 @@ namespace kinemend::cli {
 
 namespace {
 
-// Of a line: columns. Chosen by hand.
+// Columns of a line, chosen by hand.
 constexpr std::size_t help_column = 30, text_width = 100;
 
 /// A name and its text beside it, or below it if the name is long.

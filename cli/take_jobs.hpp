@@ -39,8 +39,8 @@ struct ResultNames {
 /// Plans the results of `inputs`: --output names a file, or a folder if it exists as one or ends in
 /// a slash; --output-dir names a folder; without both, results go beside their inputs.
 ///
-/// Of several inputs those that an earlier run wrote are left out: their names end in .WORD.EXT, or
-/// are the names of other results. If all inputs are such results, none is left out.
+/// Among several inputs, the results of an earlier run are left out: names that end in .WORD.EXT,
+/// or that are the names of other results. If all inputs are such results, none is left out.
 ///
 /// Errors: `ErrorKind::usage` for options that contradict each other and for two inputs with one
 /// result; `ErrorKind::cannot_write` for a folder that cannot be made.

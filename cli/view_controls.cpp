@@ -65,7 +65,7 @@ Json control_json(const OptionSpec& spec) {
   return control;
 }
 
-// Those of a command that the page may set.
+// The flags of a command that the page may set.
 Json flags_json(std::string_view command, std::span<const char* const> names) {
   Json list = Json::array();
   for (const Flag& flag : find_command(command)->flags) {
@@ -90,7 +90,7 @@ Json methods_json() {
   return list;
 }
 
-// What each preset sets, so that the page can show it in its controls.
+// The values that each preset sets, so that the page can show it in its controls.
 Json presets_json() {
   Json list = Json::array();
   for (const Preset& preset : presets()) {

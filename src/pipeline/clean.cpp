@@ -224,8 +224,8 @@ void hold_feet(const Work& work, Take& cleaned, InPlaceTrace& trace, CleanReport
   stage.finish();
 }
 
-// What was measured, and what the model of the method expects: of a space without measured noise,
-// and slow noise also beside that.
+// Joins the measured noise and the noise that the model of the method expects: slow noise, and
+// noise of a space in which none was measured.
 std::vector<NoiseCharacter> noise_of(const MeasuredNoise& measured, const CleanTrace& trace) {
   std::vector<NoiseCharacter> noise = measured.characters;
   if (trace.left.empty()) return noise;
@@ -233,7 +233,7 @@ std::vector<NoiseCharacter> noise_of(const MeasuredNoise& measured, const CleanT
     const bool is_measured =
         std::any_of(measured.characters.begin(), measured.characters.end(),
                     [&](const NoiseCharacter& own) { return own.space == character.space; });
-    // White noise that the measurement does not find is none.
+    // White noise shows from frame to frame, so the measurement finds it where there is any.
     if (!character.is_expected && (is_measured || character.correlation == 0)) continue;
     character.is_expected = true;
     noise.push_back(character);

@@ -21,7 +21,8 @@ struct Poses {
 /// The joints with their end sites, or the markers, at these frames, in the take's unit.
 Poses poses_of(const Take& clip, const std::vector<std::size_t>& frames);
 
-/// From the lowest to the highest of some numbers; empty where there are none.
+/// The lowest and the highest of the numbers that were added; without numbers, `low` is above
+/// `high`.
 struct Range {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();

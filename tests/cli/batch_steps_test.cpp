@@ -1,4 +1,6 @@
 // Tests of a batch that leaves cleaning out, converts, or only says what it would do.
+#include <sstream>
+
 #include "cli/program.hpp"
 
 namespace kinemend::test {

@@ -127,7 +127,7 @@ export class Timeline {
     if (row) this.list.scrollTop = Math.max(0, row.offsetTop - this.list.offsetTop - this.list.clientHeight / 2);
   }
 
-  /** Chooses the worst finding, and goes to the frame where the most is wrong or was changed; null: there is none. */
+  /** Chooses the worst finding and goes to the frame with the largest error or change. Returns null for a take without findings. */
   showWorst(): Finding | null {
     const worst = worstOf(this.all);
     if (worst === null) return null;

@@ -54,7 +54,7 @@ struct JudgedTracks {
   CleanedTracks verdicts;
 };
 
-// What `clean_tracks` makes of tracks of one space.
+// Tracks of one space, and the verdicts of `clean_tracks` on them.
 JudgedTracks judge_tracks(const TakeView& take, const std::vector<std::size_t>& numbers,
                           const TrackCleaningSettings& settings, ShareProgress* progress) {
   const std::size_t frames = take.frames, count = numbers.size();
