@@ -22,6 +22,9 @@ target_compile_options(kinemend_settings INTERFACE "$<$<CXX_COMPILER_ID:GNU,Clan
 # GCC 12 raises false alarms where it inlines `"text" + string` and `string = "text"` (its bug 105651). The library and the program avoid
 # such code where GCC does so; tests and experiments do not.
 set(kinemend_false_alarms "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-array-bounds>")
+if(KINEMEND_OTHER_ROOMS)
+  target_compile_options(kinemend_settings INTERFACE "$<$<CXX_COMPILER_ID:Clang>:SHELL:-include ${PROJECT_SOURCE_DIR}/cmake/same_json_layout.hpp>")
+endif()
 # What does little work is compiled in half the time.
 add_library(kinemend_light INTERFACE)
 target_compile_options(kinemend_light INTERFACE $<$<NOT:$<CONFIG:Debug>>:${KINEMEND_LIGHT_LEVEL}>)
