@@ -1,6 +1,7 @@
 // Tests of C3D files on the command line: what is kept, what is named as lost, and what is
 // repaired.
 #include "cli/c3d_law.hpp"
+#include "long_tests.hpp"
 
 namespace kinemend::test {
 namespace {
@@ -12,6 +13,7 @@ using testing::Not;
 using C3dFiles = C3dLaw;
 
 TEST_F(C3dFiles, KeepWhatAnOptionDoesNotConcernOrNameIt) {
+  KINEMEND_LONG_WHEN_SANITIZED();
   for (const char* const name : {"laboratory", "laboratory_integer", "plates_only", "analog_only",
                                  "rotation_section", "origin"})
     expect_lawful_in_every_option(c3d_fixture(name));

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "cli/program.hpp"
+#include "long_tests.hpp"
 
 namespace kinemend::test {
 namespace {
@@ -49,6 +50,7 @@ class ClosedStreams : public Program {
 };
 
 TEST_F(ClosedStreams, NeverEndUpInTheTake) {
+  KINEMEND_LONG_WHEN_SANITIZED();
   noisy("walk.bvh");
   const std::vector<std::vector<std::string>> commands = {
       {"clean", "walk.bvh", "-o", "out.bvh", "--force"},
