@@ -339,13 +339,14 @@ Take at_rate(const Take& clip, double rate_hz) {
 }
 
 // A kind of damage on all takes: the error that cleaning leaves on each.
-struct Kind {
+struct SweptKind {
   std::string name;
   std::vector<std::function<double(const Tuning&)>> errors;
 };
 
-std::vector<Kind> kinds_of(const std::vector<Take>& takes, const std::vector<Damage>& damages) {
-  std::vector<Kind> kinds;
+std::vector<SweptKind> kinds_of(const std::vector<Take>& takes,
+                                const std::vector<Damage>& damages) {
+  std::vector<SweptKind> kinds;
   for (const Damage& damage : damages) {
     kinds.push_back({damage.name, {}});
     for (const Take& clip : takes) {
@@ -358,7 +359,7 @@ std::vector<Kind> kinds_of(const std::vector<Take>& takes, const std::vector<Dam
   return kinds;
 }
 
-void add_markers(const std::vector<Take>& takes, std::vector<Kind>& kinds) {
+void add_markers(const std::vector<Take>& takes, std::vector<SweptKind>& kinds) {
   for (const MarkerDamage& damage : marker_damages()) {
     kinds.push_back({damage.name, {}});
     for (const Take& clip : takes) {
@@ -374,9 +375,9 @@ void add_markers(const std::vector<Take>& takes, std::vector<Kind>& kinds) {
 
 // Of each kind the mean over the takes of the logarithm of the error in degrees, to which a
 // hundredth is added: smaller errors do not differ for any use.
-std::vector<double> log_errors(const std::vector<Kind>& kinds, const Tuning& tuning) {
+std::vector<double> log_errors(const std::vector<SweptKind>& kinds, const Tuning& tuning) {
   std::vector<double> result;
-  for (const Kind& kind : kinds) {
+  for (const SweptKind& kind : kinds) {
     double sum = 0;
     for (const auto& error : kind.errors) sum += std::log(error(tuning) + 0.01);
     result.push_back(sum / static_cast<double>(kind.errors.size()));
@@ -386,7 +387,7 @@ std::vector<double> log_errors(const std::vector<Kind>& kinds, const Tuning& tun
 
 // Each constant times each factor, on these kinds of damage.
 void vary(const Arguments& arguments, const std::vector<Constant>& list,
-          const std::vector<Kind>& kinds, const std::vector<double>& factors, Table& table) {
+          const std::vector<SweptKind>& kinds, const std::vector<double>& factors, Table& table) {
   const std::vector<double> usual = log_errors(kinds, {});
   fmt::print("Error, degrees:");
   for (std::size_t d = 0; d < kinds.size(); ++d)
@@ -431,7 +432,7 @@ void sweep(const Arguments& arguments) {
   // What estimates the colour is slow: fewer values.
   Table special(arguments, "auto_sweep_colour.csv", columns);
   vary(arguments, constants_of_held(), kinds_of(takes, held_damages()), {0.5, 2}, special);
-  std::vector<Kind> coloured = kinds_of(takes, coloured_damages());
+  std::vector<SweptKind> coloured = kinds_of(takes, coloured_damages());
   add_markers(takes, coloured);
   vary(arguments, constants_of_colour(), coloured, {0.5, 2}, special);
   special.close();
@@ -440,7 +441,7 @@ void sweep(const Arguments& arguments) {
   table.close();
 }
 
-const Registration registration("auto_sweep", sweep);
+const Registration auto_sweep_entry("auto_sweep", sweep);
 
 }  // namespace
 }  // namespace kinemend::papers

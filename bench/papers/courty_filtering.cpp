@@ -205,7 +205,7 @@ void summary(const Arguments& arguments, const std::vector<Version>& versions) {
   table.close();
 }
 
-void experiment(const Arguments& arguments) {
+void courty_filtering(const Arguments& arguments) {
   const SynthOptions synth{"wave", 8, 120, 3, false};
   const NamedTake take = load_take(arguments, "26_01.bvh", synth);
   const Take truth = busiest_part(take.clip, 4, 150);
@@ -232,7 +232,7 @@ void experiment(const Arguments& arguments) {
   summary(arguments, versions);
 }
 
-const Registration registration("courty_filtering", experiment);
+const Registration courty_filtering_entry("courty_filtering", courty_filtering);
 
 }  // namespace
 }  // namespace kinemend::papers

@@ -38,7 +38,7 @@ Take damaged(const Take& truth, const Noise& noise) {
 
 // A row of the table: a method with the settings among which the best is taken, as the paper did
 // ("care was taken to find the optimal input parameters").
-struct Row {
+struct MethodRow {
   std::string name;
   std::string method;
   std::vector<OptionValues> settings;
@@ -76,7 +76,7 @@ std::vector<OptionValues> wavelet_settings() {
   return list;
 }
 
-std::vector<Row> rows(bool quick) {
+std::vector<MethodRow> rows(bool quick) {
   const int steps = quick ? 5 : 15;
   const OptionValues filter{{"smoother", false}, {"model", std::string("position")}};
   // sigma as the rotation angle of a channel.
@@ -99,7 +99,7 @@ struct Best {
   Take clip;
 };
 
-Best best_of(const Take& truth, const Take& noisy, const Row& row) {
+Best best_of(const Take& truth, const Take& noisy, const MethodRow& row) {
   Best best;
   for (const OptionValues& values : row.settings) {
     Take clip = noisy;
@@ -176,7 +176,7 @@ void add_row(Table& table, const std::string& name,
   table.add(cells);
 }
 
-void experiment(const Arguments& arguments) {
+void dean_psnr(const Arguments& arguments) {
   const SynthOptions synth{"run", arguments.quick ? 1.0 : 3.0, 120, 9, false};
   NamedTake take = load_take(arguments, "09_03.bvh", synth);
   if (arguments.quick)
@@ -205,7 +205,7 @@ void experiment(const Arguments& arguments) {
     shown.push_back({noises[n].name, "truth", take.clip});
     shown.push_back({noises[n].name, "noisy", noisy[n]});
   }
-  for (const Row& row : rows(arguments.quick)) {
+  for (const MethodRow& row : rows(arguments.quick)) {
     add_row(table, row.name, [&](std::size_t n) {
       Best best = best_of(take.clip, noisy[n], row);
       shown.push_back({noises[n].name, row.name, std::move(best.clip)});
@@ -217,7 +217,7 @@ void experiment(const Arguments& arguments) {
   knee(arguments, take.clip, shown);
 }
 
-const Registration registration("dean_psnr", experiment);
+const Registration dean_psnr_entry("dean_psnr", dean_psnr);
 
 }  // namespace
 }  // namespace kinemend::papers

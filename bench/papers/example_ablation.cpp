@@ -56,7 +56,7 @@ std::vector<Variant> variants() {
   return list;
 }
 
-bool is_of_an_arm(const std::string& name) {
+bool is_arm_joint(const std::string& name) {
   return name.find("Arm") != std::string::npos || name.find("Hand") != std::string::npos ||
          name.find("Finger") != std::string::npos || name.find("Thumb") != std::string::npos;
 }
@@ -66,7 +66,7 @@ Take without_arms(Take clip, std::size_t first, std::size_t count) {
   clip.observed.assign(clip.rotations.size(), 1);
   for (std::size_t f = first; f < std::min(clip.frame_count(), first + count); ++f) {
     for (std::size_t j = 0; j < clip.joint_count(); ++j) {
-      if (!is_of_an_arm(clip.skeleton.names[j])) continue;
+      if (!is_arm_joint(clip.skeleton.names[j])) continue;
       clip.observed[f * clip.joint_count() + j] = 0;
       clip.rotation(f, j) = {};
     }
@@ -141,10 +141,10 @@ std::vector<Group> groups(const Arguments& arguments) {
 }
 
 // For each condition and take.
-using Errors = std::vector<std::vector<double>>;
+using AblationErrors = std::vector<std::vector<double>>;
 
-Errors errors_of(const std::vector<Group>& tried, const Variant& v) {
-  Errors errors;
+AblationErrors errors_of(const std::vector<Group>& tried, const Variant& v) {
+  AblationErrors errors;
   for (const Condition& condition : conditions()) {
     errors.emplace_back();
     for (const Group& group : tried) {
@@ -163,7 +163,8 @@ Errors errors_of(const std::vector<Group>& tried, const Variant& v) {
 
 // Mean over takes from the first to the last of the logarithm of how many times as large, as a
 // percentage.
-double change(const Errors& errors, const Errors& usual, std::size_t first, std::size_t last) {
+double change(const AblationErrors& errors, const AblationErrors& usual, std::size_t first,
+              std::size_t last) {
   double sum = 0, count = 0;
   for (std::size_t c = 0; c < errors.size(); ++c) {
     for (std::size_t i = first; i < last; ++i) {
@@ -191,9 +192,9 @@ void ablation(const Arguments& arguments) {
       "model of kicks on\nwalks and a dance.\n\n");
   const TextTable text(columns);
   const std::size_t misfits = tried.size() > 1 ? tried.back().tests.size() : 0;
-  Errors usual;
+  AblationErrors usual;
   for (const Variant& v : variants()) {
-    const Errors errors = errors_of(tried, v);
+    const AblationErrors errors = errors_of(tried, v);
     const std::size_t takes = errors[0].size(), fits = takes - misfits;
     std::vector<double> row;
     for (std::size_t c = 0; c < errors.size(); ++c) {
@@ -210,7 +211,7 @@ void ablation(const Arguments& arguments) {
   table.close();
 }
 
-const Registration registration("example_ablation", ablation);
+const Registration example_ablation_entry("example_ablation", ablation);
 
 }  // namespace
 }  // namespace kinemend::papers

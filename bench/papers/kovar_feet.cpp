@@ -97,7 +97,7 @@ double legs_distance(const Take& truth, const Take& result) {
 }
 
 // Sums over takes.
-struct Row {
+struct FeetRow {
   double takes = 0, slide = 0, most_slide = 0, position = 0, knee_pop = 0, legs = 0, legs_cm = 0;
 
   void add(const Take& truth, const Take& result, const std::vector<FootContact>& contacts) {
@@ -127,7 +127,7 @@ void after_cleaning(const Arguments& arguments, const std::string& group,
                     const std::vector<std::string>& names, Table& table,
                     std::vector<NamedPops>& all_pops) {
   for (const char* method : {"gaussian", "auto"}) {
-    Row clean, plain, held;
+    FeetRow clean, plain, held;
     Pops pops;
     for (const std::string& name : names) {
       const Take truth = load_take(arguments, name + ".bvh", {}).clip;
@@ -286,7 +286,7 @@ void pairs(const Arguments& arguments, std::vector<NamedPops>& all_pops) {
   table.close();
 }
 
-void experiment(const Arguments& arguments) {
+void kovar_feet(const Arguments& arguments) {
   fmt::print(
       "Feet, noise of 1 degree on all axes. Slide: mean travel a frame at the contacts of the\n"
       "take as recorded; most: farthest within one; legs: RMS angle to the truth of hips, knees\n"
@@ -314,7 +314,7 @@ void experiment(const Arguments& arguments) {
   pop_table.close();
 }
 
-const Registration registration("kovar_feet", experiment);
+const Registration kovar_feet_entry("kovar_feet", kovar_feet);
 
 }  // namespace
 }  // namespace kinemend::papers

@@ -119,7 +119,7 @@ void figure_3(const Arguments& arguments) {
   table.close();
 }
 
-const Registration registration("lou_bases", figure_3);
+const Registration lou_bases_entry("lou_bases", figure_3);
 
 }  // namespace
 }  // namespace kinemend::papers

@@ -84,7 +84,7 @@ void comparisons(const Arguments& arguments) {
            "the joints' samples.");
 }
 
-const Registration registration("lou_comparison", comparisons);
+const Registration lou_comparison_entry("lou_comparison", comparisons);
 
 }  // namespace
 }  // namespace kinemend::papers

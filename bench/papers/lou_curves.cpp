@@ -68,7 +68,7 @@ void curves(const Arguments& arguments) {
   table.close();
 }
 
-const Registration registration("lou_curves", curves);
+const Registration lou_curves_entry("lou_curves", curves);
 
 }  // namespace
 }  // namespace kinemend::papers

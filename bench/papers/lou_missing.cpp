@@ -144,7 +144,7 @@ void figure_6(const Arguments& arguments) {
   table.close();
 }
 
-const Registration registration("lou_missing", figure_6);
+const Registration lou_missing_entry("lou_missing", figure_6);
 
 }  // namespace
 }  // namespace kinemend::papers

@@ -117,7 +117,7 @@ void priors(const Arguments& arguments) {
   table.close();
 }
 
-const Registration registration("lou_priors", priors);
+const Registration lou_priors_entry("lou_priors", priors);
 
 }  // namespace
 }  // namespace kinemend::papers

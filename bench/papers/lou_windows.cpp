@@ -75,7 +75,7 @@ void figure_9(const Arguments& arguments) {
   table.close();
 }
 
-const Registration registration("lou_windows", figure_9);
+const Registration lou_windows_entry("lou_windows", figure_9);
 
 }  // namespace
 }  // namespace kinemend::papers

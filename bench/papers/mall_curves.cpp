@@ -168,12 +168,12 @@ void free_shapes(const Arguments& arguments) {
   shapes.close();
 }
 
-void experiment(const Arguments& arguments) {
+void mall_curves(const Arguments& arguments) {
   errors_over_time(arguments);
   free_shapes(arguments);
 }
 
-const Registration registration("mall_curves", experiment);
+const Registration mall_curves_entry("mall_curves", mall_curves);
 
 }  // namespace
 }  // namespace kinemend::papers

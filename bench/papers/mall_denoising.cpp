@@ -14,13 +14,13 @@
 namespace kinemend::papers {
 namespace {
 
-struct HeldOut {
+struct NoisyHoldOut {
   std::string name, action;
 };
 
 // The hold-outs of all five draws.
-std::vector<HeldOut> hold_outs(const Arguments& arguments) {
-  std::vector<HeldOut> takes;
+std::vector<NoisyHoldOut> hold_outs(const Arguments& arguments) {
+  std::vector<NoisyHoldOut> takes;
   std::ifstream list(arguments.data / "cmu" / "recurrent-100.csv");
   for (std::string line; std::getline(list, line);) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
@@ -39,7 +39,7 @@ Take clip_of(const Arguments& arguments, const std::string& name) {
   return slice(clip, 0, std::min<std::size_t>(clip.frame_count(), 240));
 }
 
-using Errors = std::map<std::string, std::vector<double>>;  // of each method, by take
+using DenoisingErrors = std::map<std::string, std::vector<double>>;  // of each method, by take
 
 double mean_of(const std::vector<double>& values) {
   double sum = 0;
@@ -51,9 +51,10 @@ const std::vector<std::string> learned_and_auto{"auto", "wiener", "learned"};
 
 // One noise: the errors of all methods on all takes. Of the Gaussians the one that is best over
 // all takes stands for the best constant one.
-Errors errors_of(const Arguments& arguments, const std::vector<HeldOut>& takes, double k) {
+DenoisingErrors errors_of(const Arguments& arguments, const std::vector<NoisyHoldOut>& takes,
+                          double k) {
   const std::vector<double> widths{0.006, 0.009, 0.013, 0.018, 0.025, 0.035, 0.045};
-  Errors errors;
+  DenoisingErrors errors;
   std::map<double, std::vector<double>> gaussians;
   for (std::size_t i = 0; i < takes.size(); ++i) {
     const Take truth = clip_of(arguments, takes[i].name);
@@ -76,8 +77,8 @@ Errors errors_of(const Arguments& arguments, const std::vector<HeldOut>& takes, 
   return errors;
 }
 
-std::vector<double> of_action(const std::vector<double>& values, const std::vector<HeldOut>& takes,
-                              const std::string& action) {
+std::vector<double> of_action(const std::vector<double>& values,
+                              const std::vector<NoisyHoldOut>& takes, const std::string& action) {
   std::vector<double> chosen;
   for (std::size_t i = 0; i < takes.size(); ++i) {
     if (action == "all" || takes[i].action == action) chosen.push_back(values[i]);
@@ -87,10 +88,10 @@ std::vector<double> of_action(const std::vector<double>& values, const std::vect
 
 void amplitudes(const Arguments& arguments) {
   Table table(arguments, "mall_denoising.csv", "k,action,method,takes,rms_deg,of_gaussian_58");
-  const std::vector<HeldOut> takes = hold_outs(arguments);
+  const std::vector<NoisyHoldOut> takes = hold_outs(arguments);
   for (const double k : {0.1, 0.5, 0.9}) {
     if (arguments.quick && k != 0.5) continue;
-    const Errors errors = errors_of(arguments, takes, k);
+    const DenoisingErrors errors = errors_of(arguments, takes, k);
     for (const char* action : {"all", "walk", "jog", "run", "jump", "kick"}) {
       const double gaussian = mean_of(of_action(errors.at("gaussian 58 ms"), takes, action));
       for (const auto& [method, values] : errors) {
@@ -108,12 +109,12 @@ void amplitudes(const Arguments& arguments) {
   table.close();
 }
 
-struct Kind {
+struct DenoisingKind {
   std::string name;
   std::function<Take(const Take&, std::uint64_t)> damage;
 };
 
-std::vector<Kind> kinds() {
+std::vector<DenoisingKind> denoising_kinds() {
   using quality::of_lower_rate;
   const auto of = [](const std::string& name, const OptionValues& options) {
     return [name, options](const Take& c, std::uint64_t s) { return damaged(c, name, options, s); };
@@ -139,8 +140,8 @@ void other_noise(const Arguments& arguments) {
                                  "131_07", "135_09", "16_24", "35_14", "49_17"};
   if (arguments.quick || arguments.data.empty()) names = {"walk"};
   Table table(arguments, "mall_kinds.csv", "kind,method,takes,rms_deg,of_auto");
-  for (const Kind& kind : kinds()) {
-    Errors errors;
+  for (const DenoisingKind& kind : denoising_kinds()) {
+    DenoisingErrors errors;
     for (const std::string& name : names) {
       const Take whole = clip_of(arguments, name);
       const Take take = slice(whole, 0, std::min<std::size_t>(whole.frame_count(), 721));
@@ -167,12 +168,12 @@ void other_noise(const Arguments& arguments) {
   table.close();
 }
 
-void experiment(const Arguments& arguments) {
+void mall_denoising(const Arguments& arguments) {
   amplitudes(arguments);
   other_noise(arguments);
 }
 
-const Registration registration("mall_denoising", experiment);
+const Registration mall_denoising_entry("mall_denoising", mall_denoising);
 
 }  // namespace
 }  // namespace kinemend::papers

@@ -35,12 +35,12 @@ std::vector<Noise> noises() {
   return all;
 }
 
-struct Sums {
+struct EbfSums {
   double moving = 0, all = 0;
   std::size_t count = 0;
 };
 
-using Errors = std::map<std::string, Sums>;
+using EbfErrors = std::map<std::string, EbfSums>;
 
 class Comparison {
  public:
@@ -53,7 +53,7 @@ class Comparison {
 
   void run(Table& table, const Noise& noise) {
     const std::uint64_t draws = arguments_.quick ? 1 : 2;
-    std::map<std::string, Errors> groups;
+    std::map<std::string, EbfErrors> groups;
     for (std::size_t i = 0; i < takes_.size(); ++i) {
       const TakeErrors errors(take_of(arguments_, takes_[i]));
       for (std::uint64_t draw = 0; draw < draws; ++draw)
@@ -66,10 +66,10 @@ class Comparison {
  private:
   // Group plain: without the joints that turn over.
   void measure(const TakeErrors& errors, const Take& clip,
-               std::map<std::string, Errors>& groups) const {
+               std::map<std::string, EbfErrors>& groups) const {
     const auto add = [&](const std::string& method, const Take& result) {
       for (const bool plain : {true, false}) {
-        Sums& sums = groups[plain ? "plain" : "all joints"][method];
+        EbfSums& sums = groups[plain ? "plain" : "all joints"][method];
         const double error = errors.mean(result, plain);
         sums.moving += error;
         sums.all += error * std::sqrt(errors.share_that_moves(plain));
@@ -86,8 +86,8 @@ class Comparison {
   }
 
   // Of the constant Gaussians the best stands for all.
-  static void write(Table& table, const Noise& noise, const std::string& group, Errors& errors) {
-    Sums best;
+  static void write(Table& table, const Noise& noise, const std::string& group, EbfErrors& errors) {
+    EbfSums best;
     for (const auto& [method, sums] : errors) {
       if (method.rfind("constant", 0) == 0 && (best.count == 0 || sums.moving < best.moving))
         best = sums;
@@ -111,7 +111,7 @@ class Comparison {
   std::map<std::string, PaperNetwork> networks_;
 };
 
-void experiment(const Arguments& arguments) {
+void mall_ebf(const Arguments& arguments) {
   Comparison comparison(arguments);
   Table table(arguments, "mall_ebf.csv",
               "noise,group,method,clips,rms_deg,all_channels_deg,of_gaussian_58");
@@ -122,7 +122,7 @@ void experiment(const Arguments& arguments) {
   table.close();
 }
 
-const Registration registration("mall_ebf", experiment);
+const Registration mall_ebf_entry("mall_ebf", mall_ebf);
 
 }  // namespace
 }  // namespace kinemend::papers

@@ -56,12 +56,12 @@ double gap_error(const Take& truth, const Take& damaged, const Take& result) {
   return count > 0 ? std::sqrt(square / count) : 0;
 }
 
-struct Sums {
+struct GapSums {
   double error = 0;
   std::size_t count = 0;
 };
 
-void write(Table& table, const std::string& words, const std::map<std::string, Sums>& errors) {
+void write(Table& table, const std::string& words, const std::map<std::string, GapSums>& errors) {
   const double linear = errors.begin()->second.count > 0 && errors.count("slerp") > 0
                             ? errors.at("slerp").error
                             : errors.at("lerp and gaussian 58 ms").error;
@@ -78,7 +78,7 @@ void noise_and_gaps(const Arguments& arguments, const std::vector<HeldOut>& take
                     const PaperNetwork& ebd) {
   Table table(arguments, "mall_gaps_noise.csv", "damage,method,clips,rms_deg,of_straight_lines");
   const auto ebf = paper_network(arguments, "ebf");
-  std::map<std::string, Sums> errors;
+  std::map<std::string, GapSums> errors;
   for (std::size_t i = 0; i < takes.size(); ++i) {
     const Take truth = take_of(arguments, takes[i]);
     const Take noise = damaged(truth, "gaussian-channels", {{"k", 0.5}}, i);
@@ -116,7 +116,7 @@ std::string joints_with_gaps(const Take& clip) {
 // The methods' errors of one take, a number of gaps each.
 void fill_long_gaps(const Take& truth, const LongGap& gap, const PaperNetwork& ebd,
                     const std::vector<std::string>& methods, std::uint64_t first_seed,
-                    std::uint64_t draws, std::map<std::string, Sums>& errors) {
+                    std::uint64_t draws, std::map<std::string, GapSums>& errors) {
   for (std::uint64_t draw = 0; draw < draws; ++draw) {
     const Take clip = damaged(
         truth, "long-gap",
@@ -141,7 +141,7 @@ void long_gaps(const Arguments& arguments, const std::vector<HeldOut>& takes,
                                                  {"a limb, 0.5 s", "limb", 0.5},
                                                  {"a limb, 2 s", "limb", 2}}) {
     if (arguments.quick && gap.length_s != 0.5) continue;
-    std::map<std::string, Sums> errors;
+    std::map<std::string, GapSums> errors;
     for (std::size_t i = 0; i < takes.size(); ++i) {
       const Take truth = take_of(arguments, takes[i]);
       if (static_cast<double>(truth.frame_count()) >= 1.2 * gap.length_s * truth.frame_rate_hz)
@@ -170,7 +170,7 @@ void gaps_of_other_takes(const Arguments& arguments, const PaperNetwork& ebd) {
                                          {"a limb, 2 s of 20 s", {"", "limb", 2}, 20, 1},
                                          {"a joint, 5 s of 20 s", {"", "joint", 5}, 20, 1},
                                          {"a limb, 5 s of 20 s", {"", "limb", 5}, 20, 1}}) {
-    std::map<std::string, Sums> all;
+    std::map<std::string, GapSums> all;
     std::uint64_t seed = 0;
     for (const char* name :
          {"10_01", "02_06", "06_13", "13_30", "14_20", "36_05", "49_21", "131_09", "135_09"}) {
@@ -237,7 +237,7 @@ void gap_curves(const Arguments& arguments, const PaperNetwork& ebd) {
   table.close();
 }
 
-void experiment(const Arguments& arguments) {
+void mall_gaps(const Arguments& arguments) {
   const auto ebd = paper_network(arguments, "ebd");
   if (!ebd) {
     fmt::print("skipped: networks in {} are wanted (tools/train_paper DATA)\n",
@@ -252,7 +252,7 @@ void experiment(const Arguments& arguments) {
   gap_curves(arguments, *ebd);
 }
 
-const Registration registration("mall_gaps", experiment);
+const Registration mall_gaps_entry("mall_gaps", mall_gaps);
 
 }  // namespace
 }  // namespace kinemend::papers

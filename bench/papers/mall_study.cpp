@@ -447,7 +447,7 @@ void other_noises(const Arguments& arguments, const std::vector<StudyNetwork>& n
   table.close();
 }
 
-void experiment(const Arguments& arguments) {
+void mall_study(const Arguments& arguments) {
   const std::vector<StudyNetwork> networks = study_networks(arguments);
   if (networks.empty()) {
     fmt::print(
@@ -461,7 +461,7 @@ void experiment(const Arguments& arguments) {
   other_noises(arguments, networks);
 }
 
-const Registration registration("mall_study", experiment);
+const Registration mall_study_entry("mall_study", mall_study);
 
 }  // namespace
 }  // namespace kinemend::papers

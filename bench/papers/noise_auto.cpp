@@ -12,12 +12,12 @@ namespace {
 
 constexpr double noise_deg = 1.5;
 
-struct Kind {
+struct NoiseKind {
   std::string name;
   std::function<Take(const Take&, std::uint64_t)> damage;
 };
 
-std::vector<Kind> kinds() {
+std::vector<NoiseKind> noise_kinds() {
   using quality::of_lower_rate;
   const auto correlated = [](double correlation) {
     return [correlation](const Take& clip, std::uint64_t seed) {
@@ -45,7 +45,7 @@ double best_gaussian(const Take& truth, const Take& clip) {
   return best;
 }
 
-void experiment(const Arguments& arguments) {
+void noise_auto(const Arguments& arguments) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> sets{
       {"dev", {"02_09", "05_08", "06_06", "131_02", "16_11", "27_01", "35_33", "49_14", "135_05"}},
       {"held-out",
@@ -60,7 +60,7 @@ void experiment(const Arguments& arguments) {
       Take& clip = truths.back().clip;
       clip = slice(clip, 0, std::min<std::size_t>(clip.frame_count(), 721));
     }
-    for (const Kind& kind : kinds()) {
+    for (const NoiseKind& kind : noise_kinds()) {
       double untouched = 0, ours = 0;
       for (const NamedTake& take : truths) {
         const Take clip = kind.damage(take.clip, 5);
@@ -79,7 +79,7 @@ void experiment(const Arguments& arguments) {
   table.close();
 }
 
-const Registration registration("noise_auto", experiment);
+const Registration noise_auto_entry("noise_auto", noise_auto);
 
 }  // namespace
 }  // namespace kinemend::papers

@@ -84,7 +84,7 @@ double oscillation_left(const Oscillation& motion, const Take& clip, const Take&
   return xy / xx / motion.amplitude_deg;
 }
 
-void experiment(const Arguments& arguments) {
+void page_any_harm(const Arguments& arguments) {
   Table table(arguments, "any_harm.csv", "motion,noise_deg,method,share_left");
   const auto each = [&](const std::string& motion, double noise_deg,
                         const std::function<double(const Compared&)>& share_left) {
@@ -119,7 +119,7 @@ void experiment(const Arguments& arguments) {
   table.close();
 }
 
-const Registration registration("page_any_harm", experiment);
+const Registration page_any_harm_entry("page_any_harm", page_any_harm);
 
 }  // namespace
 }  // namespace kinemend::papers

@@ -93,13 +93,13 @@ void shaking_hands(const Arguments& arguments) {
   table.close();
 }
 
-void experiment(const Arguments& arguments) {
+void page_any_markers(const Arguments& arguments) {
   shaking_hands(arguments);
   markers_under_noise(arguments);
   optical_takes(arguments);
 }
 
-const Registration registration("page_any_markers", experiment);
+const Registration page_any_markers_entry("page_any_markers", page_any_markers);
 
 }  // namespace
 }  // namespace kinemend::papers

@@ -32,13 +32,13 @@ double best_gaussian(const Take& truth, const Take& clip) {
   return best;
 }
 
-struct Kind {
+struct AnyNoiseKind {
   std::string name;
   std::function<Take(const Take&, std::uint64_t)> damage;
   std::function<double(const Take&, const Take&)> measure = best_gaussian;
 };
 
-std::vector<Kind> kinds() {
+std::vector<AnyNoiseKind> any_noise_kinds() {
   using quality::of_lower_rate;
   const auto of = [](const std::string& name, const OptionValues& options) {
     return [name, options](const Take& c, std::uint64_t s) { return damaged(c, name, options, s); };
@@ -57,7 +57,7 @@ std::vector<Kind> kinds() {
 
 void every_noise(const Arguments& arguments) {
   Table table(arguments, "any_noise.csv", "noise,method,takes,share,rms_deg");
-  for (const Kind& kind : kinds()) {
+  for (const AnyNoiseKind& kind : any_noise_kinds()) {
     std::map<std::string, double> shares, errors;
     const std::vector<std::string> names = kept_takes(arguments);
     const auto count = static_cast<double>(names.size());
@@ -99,7 +99,7 @@ void white_and_spikes(const Arguments& arguments) {
 }
 
 // What is done to takes that need nothing.
-void clean_takes(const Arguments& arguments) {
+void any_noise_on_clean_takes(const Arguments& arguments) {
   Table table(arguments, "any_clean.csv", "method,takes,median_deg,worst_deg");
   std::vector<std::string> names;
   std::ifstream list(arguments.data / "cmu" / "recurrent-100.csv");
@@ -124,13 +124,13 @@ void clean_takes(const Arguments& arguments) {
   table.close();
 }
 
-void experiment(const Arguments& arguments) {
+void page_any_noise(const Arguments& arguments) {
   every_noise(arguments);
   white_and_spikes(arguments);
-  clean_takes(arguments);
+  any_noise_on_clean_takes(arguments);
 }
 
-const Registration registration("page_any_noise", experiment);
+const Registration page_any_noise_entry("page_any_noise", page_any_noise);
 
 }  // namespace
 }  // namespace kinemend::papers

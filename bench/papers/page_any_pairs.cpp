@@ -99,7 +99,7 @@ void add_made_pairs(std::map<std::string, Source>& sources) {
            sources["inertial"]);
 }
 
-void experiment(const Arguments& arguments) {
+void page_any_pairs(const Arguments& arguments) {
   std::map<std::string, Source> sources;
   std::size_t number = 0;
   for (const SystemPair& pair : pairs_below(arguments.data / "real2")) {
@@ -135,7 +135,7 @@ void experiment(const Arguments& arguments) {
   references.close();
 }
 
-const Registration registration("page_any_pairs", experiment);
+const Registration page_any_pairs_entry("page_any_pairs", page_any_pairs);
 
 }  // namespace
 }  // namespace kinemend::papers

@@ -40,7 +40,7 @@ Harm harm_of(const Take& take, const Compared& by) {
   return harm;
 }
 
-void experiment(const Arguments& arguments) {
+void page_any_worlds(const Arguments& arguments) {
   const Worlds worlds = clean_worlds(arguments);
   std::vector<Compared> methods = auto_and_learned;
   methods.push_back(learned_of_video);
@@ -80,7 +80,7 @@ void experiment(const Arguments& arguments) {
   table.close();
 }
 
-const Registration registration("page_any_worlds", experiment);
+const Registration page_any_worlds_entry("page_any_worlds", page_any_worlds);
 
 }  // namespace
 }  // namespace kinemend::papers

@@ -175,7 +175,7 @@ double armless_deg(const Arguments& arguments) {
   return worst;
 }
 
-void experiment(const Arguments& arguments) {
+void page_bodies(const Arguments& arguments) {
   noise(arguments);
   Table table(arguments, "page_bodies.csv", "what,takes,value");
   table.add({"circle", "1", figure(circle_cut_cm())});
@@ -187,7 +187,7 @@ void experiment(const Arguments& arguments) {
   makers(arguments);
 }
 
-const Registration registration("page_bodies", experiment);
+const Registration page_bodies_entry("page_bodies", page_bodies);
 
 }  // namespace
 }  // namespace kinemend::papers

@@ -81,12 +81,12 @@ void doubts(const Arguments& arguments) {
   table.close();
 }
 
-void experiment(const Arguments& arguments) {
+void page_check(const Arguments& arguments) {
   exchanged_labels(arguments);
   doubts(arguments);
 }
 
-const Registration registration("page_check", experiment);
+const Registration page_check_entry("page_check", page_check);
 
 }  // namespace
 }  // namespace kinemend::papers

@@ -105,12 +105,12 @@ void joints_by_length(const Arguments& arguments) {
   table.close();
 }
 
-void experiment(const Arguments& arguments) {
+void page_fill(const Arguments& arguments) {
   promises(arguments);
   joints_by_length(arguments);
 }
 
-const Registration registration("page_fill", experiment);
+const Registration page_fill_entry("page_fill", page_fill);
 
 }  // namespace
 }  // namespace kinemend::papers

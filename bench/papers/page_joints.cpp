@@ -146,14 +146,14 @@ void correlated_noise(const Arguments& arguments) {
   table.close();
 }
 
-void experiment(const Arguments& arguments) {
+void page_joints(const Arguments& arguments) {
   correlated_noise(arguments);
   frames_of_joints(arguments);
   methods_on_own_takes(arguments);
   damaged_takes(arguments);
 }
 
-const Registration registration("page_joints", experiment);
+const Registration page_joints_entry("page_joints", page_joints);
 
 }  // namespace
 }  // namespace kinemend::papers

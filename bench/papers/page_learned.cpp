@@ -23,7 +23,7 @@ std::vector<std::string> names_below(const std::filesystem::path& folder) {
 }
 
 // Clean takes, every fourth of the library: how many come back bit for bit.
-void clean_takes(const Arguments& arguments) {
+void learned_on_clean_takes(const Arguments& arguments) {
   Table table(arguments, "page_clean.csv", "method,takes,unchanged,hardly_changed");
   std::vector<std::string> names;
   const std::vector<std::string> all = names_below(arguments.data);
@@ -130,13 +130,13 @@ void dances(const Arguments& arguments) {
   shares_of_gaussian(arguments, "page_dances.csv", names, model);
 }
 
-void experiment(const Arguments& arguments) {
-  clean_takes(arguments);
+void page_learned(const Arguments& arguments) {
+  learned_on_clean_takes(arguments);
   learned_methods(arguments);
   dances(arguments);
 }
 
-const Registration registration("page_learned", experiment);
+const Registration page_learned_entry("page_learned", page_learned);
 
 }  // namespace
 }  // namespace kinemend::papers

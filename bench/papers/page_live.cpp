@@ -24,7 +24,7 @@ void methods_that_run_live(const Arguments& arguments) {
   table.close();
 }
 
-const Registration registration("page_live", methods_that_run_live);
+const Registration page_live_entry("page_live", methods_that_run_live);
 
 }  // namespace
 }  // namespace kinemend::papers

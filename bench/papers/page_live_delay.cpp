@@ -59,7 +59,7 @@ void error_against_delay(const Arguments& arguments) {
   table.close();
 }
 
-const Registration registration("page_live_delay", error_against_delay);
+const Registration page_live_delay_entry("page_live_delay", error_against_delay);
 
 }  // namespace
 }  // namespace kinemend::papers

@@ -63,7 +63,7 @@ void live_feet(const Arguments& arguments) {
   table.close();
 }
 
-const Registration registration("page_live_feet", live_feet);
+const Registration page_live_feet_entry("page_live_feet", live_feet);
 
 }  // namespace
 }  // namespace kinemend::papers

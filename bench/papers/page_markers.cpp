@@ -95,12 +95,12 @@ void gaps(const Arguments& arguments) {
   table.close();
 }
 
-void experiment(const Arguments& arguments) {
+void page_markers(const Arguments& arguments) {
   noise(arguments);
   gaps(arguments);
 }
 
-const Registration registration("page_markers", experiment);
+const Registration page_markers_entry("page_markers", page_markers);
 
 }  // namespace
 }  // namespace kinemend::papers

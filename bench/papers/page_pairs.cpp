@@ -9,7 +9,7 @@
 namespace kinemend::papers {
 namespace {
 
-void experiment(const Arguments& arguments) {
+void page_pairs(const Arguments& arguments) {
   const std::vector<MarkerPair> pairs = camera_pairs(arguments);
   PairErrors automatic, white, best;
   const auto add = [&](PairErrors& sum, const PairErrors& is, const PairErrors& was) {
@@ -43,7 +43,7 @@ void experiment(const Arguments& arguments) {
   table.close();
 }
 
-const Registration registration("page_pairs", experiment);
+const Registration page_pairs_entry("page_pairs", page_pairs);
 
 }  // namespace
 }  // namespace kinemend::papers

@@ -47,7 +47,7 @@ bool counts_for_regret(const std::string& method) {
 }
 
 // The figures of each take on which the method ran, by the number of the take.
-using Errors = std::map<std::size_t, std::vector<double>>;
+using RegretErrors = std::map<std::size_t, std::vector<double>>;
 
 Take cleaned_case(const RegretRow& row, const RegretCase& given, const Cleaner& cleaner,
                   Source source = Source::unknown) {
@@ -68,9 +68,9 @@ std::vector<double> best_cut_errors(const RegretRow& row, const RegretCase& give
   return best;
 }
 
-std::map<std::string, Errors> measured(const RegretRow& row) {
+std::map<std::string, RegretErrors> measured(const RegretRow& row) {
   static const std::vector<NamedCleaner> all = cleaners_compared();
-  std::map<std::string, Errors> errors;
+  std::map<std::string, RegretErrors> errors;
   for (std::size_t i = 0; i < row.cases.size(); ++i) {
     const RegretCase given = row.cases[i]();
     errors[untouched][i] = given.errors(given.take);
@@ -95,7 +95,8 @@ struct Mean {
 };
 
 // Over the takes on which `other` ran.
-Mean mean_of(const Errors& errors, const Errors& before, const Errors& other, std::size_t figure) {
+Mean mean_of(const RegretErrors& errors, const RegretErrors& before, const RegretErrors& other,
+             std::size_t figure) {
   Mean mean;
   const auto count = static_cast<double>(other.size());
   for (const auto& [number, unused] : other) {
@@ -108,7 +109,8 @@ Mean mean_of(const Errors& errors, const Errors& before, const Errors& other, st
 }
 
 // The methods that ran on all that the default ran on, or on the first take where they are slow.
-bool is_comparable(const std::string& method, const Errors& errors, const Errors& of_default) {
+bool is_comparable(const std::string& method, const RegretErrors& errors,
+                   const RegretErrors& of_default) {
   return counts_for_regret(method) && (is_slow(method) || errors.size() == of_default.size());
 }
 
@@ -117,9 +119,9 @@ struct Regret {
   double regret = 0;
 };
 
-Regret regret_of(const std::map<std::string, Errors>& all, std::size_t figure) {
-  const Errors& before = all.at(untouched);
-  const Errors& of_default = all.at(default_method);
+Regret regret_of(const std::map<std::string, RegretErrors>& all, std::size_t figure) {
+  const RegretErrors& before = all.at(untouched);
+  const RegretErrors& of_default = all.at(default_method);
   Regret result{default_method, 1};
   for (const auto& [method, errors] : all) {
     if (!is_comparable(method, errors, of_default)) continue;
@@ -137,7 +139,7 @@ class RegretTables {
         rows_(arguments, "regret.csv", "row,unit,takes,best,best_share,regret") {}
 
   void add(const RegretRow& row) {
-    const std::map<std::string, Errors> all = measured(row);
+    const std::map<std::string, RegretErrors> all = measured(row);
     for (std::size_t figure = 0; figure < row.figures.size(); ++figure) {
       const std::string name =
           row.figures[figure].empty() ? row.name : row.name + ", " + row.figures[figure];
@@ -162,7 +164,7 @@ class RegretTables {
 
  private:
   void add_method(const RegretRow& row, const std::string& name, const std::string& method,
-                  const Errors& errors, const std::map<std::string, Errors>& all,
+                  const RegretErrors& errors, const std::map<std::string, RegretErrors>& all,
                   std::size_t number) {
     if (row.is_clean && method == untouched) return;
     const Mean mean = mean_of(errors, all.at(untouched), errors, number);
@@ -175,9 +177,9 @@ class RegretTables {
   }
 
   void add_regret(const RegretRow& row, const std::string& name,
-                  const std::map<std::string, Errors>& all, std::size_t number) {
+                  const std::map<std::string, RegretErrors>& all, std::size_t number) {
     const Regret regret = regret_of(all, number);
-    const Errors& best = all.at(regret.best);
+    const RegretErrors& best = all.at(regret.best);
     rows_.add({quoted(name), row.unit, fmt::format("{}", row.cases.size()), regret.best,
                figure(mean_of(best, all.at(untouched), best, number).share),
                figure(regret.regret)});
@@ -189,13 +191,13 @@ class RegretTables {
   std::vector<double> regrets_;
 };
 
-void experiment(const Arguments& arguments) {
+void page_regret(const Arguments& arguments) {
   RegretTables tables(arguments);
   for (const RegretRow& row : regret_rows(arguments)) tables.add(row);
   tables.close();
 }
 
-const Registration registration("page_regret", experiment);
+const Registration page_regret_entry("page_regret", page_regret);
 
 }  // namespace
 }  // namespace kinemend::papers

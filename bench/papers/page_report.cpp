@@ -57,7 +57,7 @@ void sizes_of_pages(const Arguments& arguments) {
   table.close();
 }
 
-const Registration registration("page_report", sizes_of_pages);
+const Registration page_report_entry("page_report", sizes_of_pages);
 
 }  // namespace
 }  // namespace kinemend::papers

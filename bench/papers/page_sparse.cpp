@@ -12,12 +12,12 @@
 namespace kinemend::papers {
 namespace {
 
-struct Kind {
+struct SparseKind {
   std::string name;
   std::function<Take(const Take&)> damage;
 };
 
-std::vector<Kind> kinds() {
+std::vector<SparseKind> sparse_kinds() {
   using quality::of_lower_rate;
   const auto of = [](const std::string& name, const OptionValues& options) {
     return [name, options](const Take& c) { return damaged(c, name, options, 5); };
@@ -51,7 +51,7 @@ std::vector<Take> takes(const Arguments& arguments) {
 void noises(const Arguments& arguments, const std::vector<Take>& truths) {
   Table table(arguments, "sparse_kinds.csv", "kind,takes,noisy_deg,auto_deg,sparse_deg,of_auto");
   const auto count = static_cast<double>(truths.size());
-  for (const Kind& kind : kinds()) {
+  for (const SparseKind& kind : sparse_kinds()) {
     double before = 0, automatic = 0, sparse = 0, share = 0;
     for (const Take& take : truths) {
       const Take clip = kind.damage(take);
@@ -125,7 +125,7 @@ void gaps(const Arguments& arguments, const std::vector<Take>& truths) {
 }
 
 // Every fourth of the library.
-void clean_takes(const Arguments& arguments) {
+void sparse_on_clean_takes(const Arguments& arguments) {
   Table table(arguments, "sparse_clean.csv", "method,takes,unchanged,mean_deg,largest_deg");
   std::set<std::string> all;
   for (const char* part : {"cmu/bvh", "cmu/bvh-rotations"}) {
@@ -155,14 +155,14 @@ void clean_takes(const Arguments& arguments) {
   table.close();
 }
 
-void experiment(const Arguments& arguments) {
+void page_sparse(const Arguments& arguments) {
   const std::vector<Take> truths = takes(arguments);
   noises(arguments, truths);
   gaps(arguments, truths);
-  clean_takes(arguments);
+  sparse_on_clean_takes(arguments);
 }
 
-const Registration registration("page_sparse", experiment);
+const Registration page_sparse_entry("page_sparse", page_sparse);
 
 }  // namespace
 }  // namespace kinemend::papers

@@ -309,7 +309,7 @@ void families(const Arguments& arguments) {
   table.close();
 }
 
-void experiment(const Arguments& arguments) {
+void system_noise(const Arguments& arguments) {
   families(arguments);
   const bool has_pairs = std::filesystem::is_directory(arguments.data / "real");
   Table table(arguments, "system_noise.csv",
@@ -328,7 +328,7 @@ void experiment(const Arguments& arguments) {
   table.close();
 }
 
-const Registration registration("system_noise", experiment);
+const Registration system_noise_entry("system_noise", system_noise);
 
 }  // namespace
 }  // namespace kinemend::papers

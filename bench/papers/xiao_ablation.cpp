@@ -47,7 +47,7 @@ std::vector<XiaoVariant> xiao_variants() {
   return variants;
 }
 
-void experiment(const Arguments& arguments) {
+void xiao_ablation(const Arguments& arguments) {
   Table table(arguments, "xiao_ablation.csv", "motion,variant,noise,own_mean_cm");
   for (const XiaoGroup& group : xiao_groups(arguments)) {
     OptionValues local = xiao_training(arguments);
@@ -68,7 +68,7 @@ void experiment(const Arguments& arguments) {
   table.close();
 }
 
-const Registration registration("xiao_ablation", experiment);
+const Registration xiao_ablation_entry("xiao_ablation", xiao_ablation);
 
 }  // namespace
 }  // namespace kinemend::papers

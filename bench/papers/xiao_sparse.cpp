@@ -191,13 +191,13 @@ class Comparison {
   LeastErrors least_;
 };
 
-void experiment(const Arguments& arguments) {
+void xiao_sparse(const Arguments& arguments) {
   Comparison comparison(arguments);
   for (const XiaoGroup& group : xiao_groups(arguments)) comparison.compare(group);
   comparison.close();
 }
 
-const Registration registration("xiao_sparse", experiment);
+const Registration xiao_sparse_entry("xiao_sparse", xiao_sparse);
 
 }  // namespace
 }  // namespace kinemend::papers

@@ -113,7 +113,7 @@ void sizes(const Arguments& arguments, const XiaoGroup& group, Lines& lines) {
               *make_sparse(plain_options(lambda), model), noise_20_db);
 }
 
-void experiment(const Arguments& arguments) {
+void xiao_variants(const Arguments& arguments) {
   const std::vector<XiaoGroup> groups = xiao_groups(arguments);
   Lines represented(arguments, "xiao_representation.csv");
   Table times(arguments, "xiao_time.csv", "motion,learning,cleaning");
@@ -129,7 +129,7 @@ void experiment(const Arguments& arguments) {
   learned_from.close();
 }
 
-const Registration registration("xiao_variants", experiment);
+const Registration xiao_variants_entry("xiao_variants", xiao_variants);
 
 }  // namespace
 }  // namespace kinemend::papers
