@@ -20,7 +20,6 @@ struct OmpSettings {
 /// Implementation of the K-SVD Algorithm using Batch Orthogonal Matching Pursuit", algorithm 2):
 /// atoms are chosen greedily by their correlation with the residual, which is updated by the Gram
 /// matrix alone,
-/// matrix alone,
 ///
 ///     alpha = alpha_0 - G_I gamma,    alpha_0 = D^T z,    G = D^T D
 ///

@@ -20,12 +20,11 @@ struct DescentSettings {
 /// atoms that it uses, so that only their Gram matrix is needed. Atoms whose slope exceeds lambda
 /// are added; one product gives the slopes for all signals of a batch. The absolute loss is
 /// majorised by squares,
-/// majorised by squares,
 ///
 ///     |r| <= r^2 / (2 |r_0|) + |r_0| / 2
+///
 /// with r_0 the residual of the turn before: a few problems of squares from a warm start. The
 /// result is near the minimum, not exactly in it. `gaps` are empty.
-/// near the minimum, not in it. `gaps` are empty.
 SparseSolution descend_sparse(const Dictionary& dictionary, const SparseProblem& problem,
                               const DescentSettings& settings = {});
 
