@@ -27,13 +27,12 @@ struct ChartTuning {
 
 /// The constants of `noise_levels` and `estimate_whitening`. Deviations are in degrees, per axis.
 struct NoiseTuning {
-  double minimum_bias = 1.01;  ///< the smaller of two estimates is biased low
-  double least_axis_share =
-      0.5;                   ///< of the largest deviation; smaller axes are ignored once whitened
-  double least_level = 0.5;  ///< of tracks to be whitened, at 120 Hz: motion is not isotropic
-  double log_ratio = 0.35;   ///< least logarithm of the ratio of deviations, in a long take
-  double chance_log_ratio = 5;  ///< added to it by chance, over sqrt(number of differences)
-  double largest_ratio = 10;    ///< of deviations, which limits the whitening
+  double minimum_bias = 1.01;     ///< the smaller of two estimates is biased low
+  double least_axis_share = 0.5;  ///< of the largest deviation, for axes used once whitened
+  double least_level = 0.5;       ///< of tracks to be whitened, at 120 Hz: motion is not isotropic
+  double log_ratio = 0.35;        ///< least logarithm of the ratio of deviations, in a long take
+  double chance_log_ratio = 5;    ///< added to it by chance, over sqrt(number of differences)
+  double largest_ratio = 10;      ///< of deviations, which limits the whitening
   std::size_t fewest_differences = 60;
   std::size_t most_differences = 4000;  ///< evenly spread; limits the time
   int rounds = 12;                      ///< of Tyler's fixed-point iteration
@@ -119,8 +118,7 @@ struct SmoothingTuning {
 /// (correlations, strengths, cutoffs) and limits of time and memory are defined where they are
 /// used.
 struct ColourTuning {
-  double least_noise =
-      0.05;  ///< degrees at 120 Hz: least median white noise of a take to be examined
+  double least_noise = 0.05;  ///< degrees at 120 Hz: least median white noise to examine
   // Evidence.
   std::size_t few_windows = 4;      ///< in which white noise is recognised
   std::size_t few_marked = 3;       ///< marked samples in a run that is interpolated
@@ -151,7 +149,7 @@ struct ColourTuning {
   double slow_correlation = 0.8;  ///< from which noise is slow
   double longest_s = 30;          ///< of each of the two stretches used
   double most_of_quiet = 4;       ///< times that of the windows, at most
-  double trembling_s = 0.04;  ///< deviation of the Gaussian that removes the remainder above 5 Hz
+  double trembling_s = 0.04;  ///< deviation of the Gaussian that removes what is left above 5 Hz
   // Quiet spans of slow noise do not determine their motion well.
   double share_of_constant = 0.2;  ///< `signal::AdaptiveSettings`
 };
