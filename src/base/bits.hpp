@@ -3,7 +3,7 @@
 
 namespace kinemend {
 
-/// As std::bit_cast, which the standard library of Emscripten lacks.
+/// Like std::bit_cast, which the standard library of Emscripten lacks.
 template <class To, class From>
 constexpr To bits_as(const From& from) {
   static_assert(sizeof(To) == sizeof(From));

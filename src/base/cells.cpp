@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::string_view blanks = " \t";
 
-// Removes and returns a cell, and the comma after it; nothing for a quote without an end, or with
-// more text after it.
+// Removes and returns a cell, and the comma after it; none for a quote without an end, or with more
+// text after it.
 std::optional<std::string> take_cell(std::string_view& line) {
   line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
   std::string cell;
@@ -93,14 +93,14 @@ std::string cell_of(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"') result += '"';
-    // A line's end would end the row.
+    // A line break would end the row.
     result += c == '\n' || c == '\r' ? ' ' : c;
   }
   return result + '"';
 }
 
 std::optional<std::int64_t> whole_number(std::string_view cell, std::int64_t least) {
-  // More than any take has, and such that sums of two do not overflow. By definition.
+  // More than any take has; sums of two such numbers do not overflow. By definition.
   constexpr std::int64_t most = std::int64_t{1} << 53;
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);

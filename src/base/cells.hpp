@@ -1,5 +1,5 @@
-// Small tables that people edit: cells separated by commas, quoted if they have to be; `#`
-// comments.
+// Small tables that people edit: cells separated by commas, quoted if necessary; `#` starts a
+// comment.
 #pragma once
 
 #include <cstddef>
@@ -23,15 +23,15 @@ struct CellLine {
   std::size_t number = 0;
   std::vector<std::string> cells;
 };
-/// The lines that are neither blank nor comments. A quoted cell may hold commas and doubled quotes,
-/// but no line end. `name` is for messages. Errors: `unreadable_input` with the line for a quote
-/// without an end, or with more text after it.
+/// The lines that are neither blank nor comments. A quoted cell may contain commas and doubled
+/// quotes, but no line break. `name` is for messages. Errors: `unreadable_input` with the line for
+/// a quote without an end, or with more text after it.
 std::vector<CellLine> cell_lines(std::string_view text, std::string_view name);
 
-/// The text as a cell that `cell_lines` reads back: quoted if it has to be.
+/// The text as a cell that `cell_lines` reads back: quoted if necessary.
 std::string cell_of(std::string_view text);
 
-/// A whole number of a cell, from `least` to 2^53; none for anything else.
+/// The whole number in a cell, from `least` to 2^53; none for anything else.
 std::optional<std::int64_t> whole_number(std::string_view cell, std::int64_t least);
 
 }  // namespace kinemend

@@ -17,7 +17,7 @@ class Descriptor {
     if (number_ > platform::standard_error) platform::close_file(number_);
   }
   int get() const { return number_; }
-  // What is left unwritten on some file systems shows only here.
+  // Returns false on failure: some file systems report failed writes only at closing.
   bool close() { return platform::close_file(std::exchange(number_, -1)); }
 
  private:

@@ -6,7 +6,7 @@
 
 namespace kinemend {
 
-/// hi + lo, where hi is the double next to the sum.
+/// hi + lo, where hi is the double nearest to the sum.
 struct DoubleDouble {
   double hi = 0, lo = 0;
 };
@@ -29,7 +29,7 @@ constexpr double upper_half(double a) {
   return c - (c - a);
 }
 
-/// a b without error, for |a|, |b| < 2^996 whose product is no denormal number.
+/// a b without error, for |a|, |b| < 2^996 whose product is not denormal.
 constexpr DoubleDouble exact_product(double a, double b) {
   const double product = a * b;
   const double a_hi = upper_half(a), a_lo = a - a_hi, b_hi = upper_half(b), b_lo = b - b_hi;

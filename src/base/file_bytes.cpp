@@ -14,7 +14,7 @@ namespace kinemend {
 
 namespace {
 
-// Bytes that are read at first where the size is unknown. For speed, not swept.
+// Bytes that are read at first if the size is unknown. For speed, not swept.
 constexpr std::size_t unknown_size = 65536;
 
 [[noreturn]] void fail(std::string_view name, int number) {
@@ -22,7 +22,7 @@ constexpr std::size_t unknown_size = 65536;
 }
 
 std::string read_all(int descriptor, std::size_t expected, std::string_view name) {
-  // One byte more, so that the end is seen without growing.
+  // One byte more, so that the end is detected without growing.
   std::string bytes(expected + 1, '\0');
   std::size_t used = 0;
   for (;;) {

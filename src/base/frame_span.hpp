@@ -17,7 +17,7 @@ struct FrameSpan {
 
 /// Frames in `seconds`, rounded, at least `least`.
 inline std::size_t frames_in(double seconds, double frame_rate_hz, std::size_t least) {
-  // Frames at most; chosen by hand.
+  // The largest number of frames; chosen by hand.
   constexpr double most = 1e9;
   const double frames = std::round(seconds * frame_rate_hz);
   return std::max(least, static_cast<std::size_t>(std::min(frames, most)));

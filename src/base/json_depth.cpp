@@ -9,7 +9,7 @@ std::string_view json_within_depth(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if (in_string) {
-      // The character behind a backslash does not end the string.
+      // The character after a backslash does not end the string.
       if (c == '\\') ++i;
       in_string = c != '"';
     } else if (c == '"') {

@@ -23,7 +23,7 @@ std::vector<std::string> names_of(const auto& entries) {
 }
 
 /// The entry of that name. Errors: `ErrorKind::usage`: `unknown method "gausian"; did you mean
-/// gaussian? (there are ...)` for an `unknown` of `unknown method`; `listed` says what the list is.
+/// gaussian? (there are ...)` if `unknown` is `unknown method`; `listed` introduces the list.
 const auto& find_named(const auto& entries, std::string_view name, std::string_view unknown,
                        std::string_view listed = "there are") {
   const auto found = std::find_if(entries.begin(), entries.end(),
@@ -35,7 +35,7 @@ const auto& find_named(const auto& entries, std::string_view name, std::string_v
                           suggestion(name, names), listed, fmt::join(names, ", ")));
 }
 
-/// The option of a method. Errors: `ErrorKind::usage`, naming `taker` and what it takes.
+/// The option of a method. Errors: `ErrorKind::usage`, naming `taker` and its options.
 inline const OptionSpec& find_option(const std::vector<OptionSpec>& options, std::string_view name,
                                      std::string_view taker) {
   return find_named(options, name, fmt::format("{} has no option", taker), "it takes");

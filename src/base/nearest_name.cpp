@@ -1,4 +1,4 @@
-// Suggests the name that a misspelt one may stand for.
+// Suggests the name that a misspelt one may mean.
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
@@ -33,8 +33,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 // The most edits between a name and its suggestion: a third of the letters of the longer one, and
-// one in a shorter name. Two thirds of the letters then agree. Two edits in words of up to five
-// letters would make unrelated words near, such as "on" and "off", or "undo" and "info".
+// one in a shorter name. Two thirds of the letters then agree. With two edits in words of up to
+// five letters, unrelated words would be near, such as "on" and "off", or "undo" and "info".
 std::size_t most_edits(std::string_view a, std::string_view b) {
   const std::size_t length = std::max(a.size(), b.size());
   return length < 2 ? 0 : std::max<std::size_t>(1, length / 3);

@@ -1,4 +1,4 @@
-// Spreads work over threads: those of oneTBB where the library is built with it, else a pool.
+// Spreads work over threads: those of oneTBB if the library is built with it, else a pool.
 #include "base/parallel.hpp"
 
 #ifdef KINEMEND_TBB
@@ -28,14 +28,14 @@ std::atomic<bool> uses_pool{false};
 constexpr bool uses_pool = true;
 #endif
 
-// What `StopWatch` watches for this thread; null: nothing.
+// The stop flag of the `StopWatch` of this thread; null: none.
 thread_local const std::atomic<bool>* watched_stop = nullptr;
 
 void end_if_stopped() {
   if (watched_stop != nullptr && *watched_stop) throw WorkStopped();
 }
 
-// Lets a piece of work, on whichever thread, see the stop that whoever spreads it watches.
+// Makes a piece of work, on any thread, watch the stop flag of the thread that spread it.
 class WatchOf {
  public:
   explicit WatchOf(const std::atomic<bool>* stop) : before_(std::exchange(watched_stop, stop)) {}
@@ -55,7 +55,7 @@ IndexWork watched(const IndexWork& work) {
   };
 }
 
-// A range of a long take can take a minute: it is done in parts.
+// A range of a long take can take a minute, so it is processed in parts that check for a stop.
 RangeWork watched(const RangeWork& work, std::size_t least) {
   return [&work, least, stop = watched_stop](std::size_t first, std::size_t last) {
     constexpr std::size_t most_parts = 64;
@@ -73,7 +73,7 @@ RangeWork watched(const RangeWork& work, std::size_t least) {
 void for_each_range_in_pool(std::size_t first, std::size_t last, std::size_t least,
                             const RangeWork& work) {
   // For speed, not swept.
-  constexpr std::size_t parts_per_thread = 4;  // so that an early end of one leaves work for others
+  constexpr std::size_t parts_per_thread = 4;  // so that a thread that ends early finds more work
   if (first >= last) return;
   const std::size_t count = last - first;
   const std::size_t most_parts = std::max<std::size_t>(1, count / std::max<std::size_t>(1, least));

@@ -1,4 +1,4 @@
-// Runs independent pieces of work in parallel where that is worth it.
+// Runs independent pieces of work in parallel if that is faster.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ using RangeWork = std::function<void(std::size_t first, std::size_t last)>;
 void for_each_parallel(std::size_t count, std::size_t samples, const IndexWork& work);
 
 /// Calls `work(i)` for each i below `count`, in parallel. After the first exception, which is
-/// thrown again, no further piece begins.
+/// rethrown, no further piece begins.
 void for_each_index(std::size_t count, const IndexWork& work);
 
 /// Calls `work` for ranges that together are [first, last), in parallel. A range has at least about
@@ -27,7 +27,8 @@ void for_each_range(std::size_t first, std::size_t last, std::size_t least, cons
 /// Whether a piece of work that runs beside this one, or around it, has thrown.
 bool work_is_cancelled();
 
-/// What happens to the pieces of a long text or file, of which a limited number is held at a time.
+/// The stages of each piece of a long text or file; only a limited number of pieces is held at a
+/// time.
 struct PieceStages {
   IndexWork choose;  ///< in order; may be empty
   IndexWork write;   ///< in any order, in parallel; may be empty
@@ -64,11 +65,11 @@ Sum sum_in_halves(std::size_t count, std::size_t most, const Summand& summand) {
   return count == 0 ? Sum{} : total(total, 0, count);
 }
 
-/// While it lives, work is spread by the threads of the standard library, also where the library is
-/// built with oneTBB. For tests and measurements; not while other work runs.
+/// While it lives, threads of the standard library do the work, even if the library is built with
+/// oneTBB. For tests and measurements; not while other work runs.
 class StandardThreads {
  public:
-  /// `threads`: 0: as many as the machine has.
+  /// `threads`: 0: the number of hardware threads.
   explicit StandardThreads(std::size_t threads = 0);
   ~StandardThreads();
   StandardThreads(const StandardThreads&) = delete;

@@ -3,10 +3,10 @@
 
 namespace kinemend::portable {
 
-// They use additions, multiplications, divisions and square roots of doubles alone, which IEEE 754
-// defines to the last bit. Nearly every value is the double next to the exact one; none is further
-// from it than the next (tests/base/portable_test.cpp). Special values are those of C: what is not
-// a number gives what is not a number, infinities their limits.
+// They use only additions, multiplications, divisions and square roots of doubles, which IEEE 754
+// defines to the last bit. Nearly every value is the double nearest to the exact one; the others
+// are the next nearest (tests/base/portable_test.cpp). Special values are those of C: NaN gives
+// NaN, infinities give their limits.
 
 [[nodiscard]] double exp(double x);
 /// e^x - 1.
@@ -39,7 +39,7 @@ struct SineAndCosine {
 /// sqrt(x^2 + y^2).
 [[nodiscard]] double hypot(double x, double y);
 
-// Of single precision: the double precision in between makes them as exact.
+// In single precision; computing in double precision makes them as exact.
 [[nodiscard]] float exp(float x);
 [[nodiscard]] float log(float x);
 [[nodiscard]] float asinh(float x);

@@ -90,8 +90,8 @@ double exp_of(double hi, double lo) {
   return value_of(scaled_exp(hi, lo));
 }
 
-// 128 steps from 1 to 2; the table holds those from sqrt(1/2) to sqrt(2), and the inverse of each
-// with 10 bits, so that products with half a double are exact.
+// There are 128 steps from 1 to 2; the table holds those from sqrt(1/2) to sqrt(2), and the inverse
+// of each with 10 bits, so that products with half a double are exact.
 constexpr int log_steps = 128, first_log_step = 90, last_log_step = 182;
 struct LogEntry {
   double inverse = 1;
@@ -170,7 +170,7 @@ double short_log(double x) {
   return exponent * log_of_2.hi + (entry->log.hi + rest);
 }
 
-// What a logarithm gives where it is no finite number; 0 where it is one.
+// The logarithm of a number that has no finite one: zero, a negative number, infinity or NaN.
 double special_log(double x) {
   if (x == 0) return -infinity;
   if (x < 0) return not_a_number;
@@ -182,7 +182,7 @@ bool has_log(double x) { return x > 0 && x < infinity; }
 bool is_whole(double y) { return std::floor(y) == y; }
 bool is_odd(double y) { return is_whole(y) && std::fabs(y) < 0x1p53 && std::fmod(y, 2) != 0; }
 
-// |x|^y where a sign is not at stake: x of zero or infinity, or y of infinity.
+// x|^y for x of zero or infinity, or infinite y, where the sign of x is handled elsewhere.
 double special_power(double x, double y) {
   if (std::isinf(y)) {
     if (x == 1) return 1;
@@ -292,7 +292,7 @@ float log(float x) {
 float asinh(float x) {
   const auto size = static_cast<double>(std::fabs(x));
   if (!std::isfinite(x)) return x;
-  // log(1 + u), of which 1 + u has lost what u less the rounded sum keeps.
+  // This is log(1 + u), corrected for the rounding error of 1 + u.
   const double u = size + size * size / (1 + std::sqrt(1 + size * size)), sum = 1 + u;
   return std::copysign(static_cast<float>(short_log(sum) + (u - (sum - 1)) / sum), x);
 }

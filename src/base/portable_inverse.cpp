@@ -1,4 +1,5 @@
-// Arcs from a table of arc tangents and a short series, and lengths, in numbers of 106 bits.
+// Arc functions from a table of arc tangents and a short series, and lengths, in numbers of 106
+// bits.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -39,7 +40,7 @@ constexpr auto arc_table = [] {
   return table;
 }();
 
-// c v without error but in the last bits of v.lo, for c of 7 bits.
+// c v without error except in the last bits of v.lo, for c of 7 bits.
 DoubleDouble times(double c, DoubleDouble v) {
   const double upper = upper_half(v.hi);
   return quick_sum(c * upper, c * (v.hi - upper) + c * v.lo);
@@ -90,7 +91,7 @@ int exponent_of(double size) {
   return exponent;
 }
 
-// Angles, without the sign of y, where one number is 0 or infinite, or both are far apart.
+// Angles, without the sign of y, if one number is 0 or infinite, or both are far apart.
 double special_angle(double y, double x) {
   const double size = std::fabs(y), width = std::fabs(x);
   if (std::isinf(size)) {

@@ -28,13 +28,14 @@ constexpr DoubleDouble series_sine(DoubleDouble v, bool is_cosine) {
 }
 
 constexpr DoubleDouble angle_step = two_pi * DoubleDouble{1.0 / turn_steps};
-// A step in three parts, of which the first two have 33 bits: exact times whole numbers below 2^20.
+// A step in three parts. The first two have 33 bits, so they are exact times whole numbers below
+// 2^20.
 constexpr double angle_step_upper = upper_bits(angle_step.hi, 0x1p-37);
 constexpr double angle_step_middle =
     upper_bits((angle_step.hi - angle_step_upper) + angle_step.lo, 0x1p-70);
 constexpr double angle_step_lower =
     ((angle_step.hi - angle_step_upper) - angle_step_middle) + angle_step.lo;
-// Up to here the three parts are enough.
+// Up to this angle the three parts are enough.
 constexpr double largest_small_angle = 32768;
 
 // Sines of the steps of a quarter, and of its end.
@@ -72,7 +73,7 @@ Reduced reduced_small(double angle) {
           quick_sum(sum.hi, sum.lo + (middle.lo - lower.lo))};
 }
 
-// The bits of 1 / (2 pi) behind the point (Payne and Hanek 1983).
+// The fraction bits of 1 / (2 pi) (Payne and Hanek 1983).
 constexpr std::array<std::uint32_t, 40> turns_per_radian = {
     0x28BE60DBU, 0x9391054AU, 0x7F09D5F4U, 0x7D4D3770U, 0x36D8A566U, 0x4F10E410U, 0x7F9458EAU,
     0xF7AEF158U, 0x6DC91B8EU, 0x909374B8U, 0x01924BBAU, 0x82746487U, 0x3F877AC7U, 0x2C4A69CFU,
@@ -81,7 +82,7 @@ constexpr std::array<std::uint32_t, 40> turns_per_radian = {
     0xD3D18FD9U, 0xA797FA8BU, 0x5D49EEB1U, 0xFAF97C5EU, 0xCF41CE7DU, 0xE294A4BAU, 0x9AFED7ECU,
     0x47E35742U, 0x1580CC11U, 0xBF1EDAEAU, 0xFC33EF08U, 0x26BD0D87U};
 
-// 32 of these bits, from the one of weight 2^-(first + 1) on; those before the point are 0.
+// 32 of these bits, from the one of weight 2^-(first + 1) on; those of the integer part are 0.
 std::uint32_t bits_from(int first) {
   const auto word = [](int index) -> std::uint64_t {
     return index < 0 ? 0 : turns_per_radian[static_cast<std::size_t>(index)];
@@ -91,13 +92,13 @@ std::uint32_t bits_from(int first) {
 }
 
 // For largest_small_angle <= angle < infinity: the angle is m 2^e with a whole m of 53 bits, and
-// whole turns drop out of m times the 192 bits of 1 / (2 pi) behind the weight 2^-e.
+// whole turns drop out of m times the 192 bits of 1 / (2 pi) below the weight 2^-e.
 Reduced reduced_large(double angle) {
   int exponent = 0;
   const auto whole = static_cast<std::uint64_t>(std::ldexp(std::frexp(angle, &exponent), 53));
   exponent -= 53;
   constexpr int limbs = 6;
-  std::array<std::uint32_t, limbs> product{};  // of a turn, the uppermost first
+  std::array<std::uint32_t, limbs> product{};  // in turns, the uppermost first
   for (int part = 0; part < 2; ++part) {
     const std::uint64_t factor = part == 0 ? whole & 0xFFFFFFFFU : whole >> 32U;
     std::uint64_t carry = 0;
@@ -109,7 +110,7 @@ Reduced reduced_large(double angle) {
     }
   }
   const std::uint32_t step = (product[0] + (1U << 24U)) >> 25U;
-  // What is left, in units of 2^-32, 2^-64 and so on of a turn.
+  // The remainder, in units of 2^-32, 2^-64 and so on of a turn.
   const auto left = static_cast<std::int32_t>(product[0] - (step << 25U));
   DoubleDouble turns{static_cast<double>(left) * 0x1p-32};
   double weight = 0x1p-64;
@@ -124,7 +125,7 @@ Reduced reduced(double angle) {
   return angle > 0 ? size : Reduced{0U - size.step, -size.rest};
 }
 
-// sin(a + r) = sin a + (cos a sin r + sin a (cos r - 1)), of which sin a + cos a r counts most.
+// sin(a + r) = sin a + (cos a sin r + sin a (cos r - 1)); its main part is sin a + cos a r.
 DoubleDouble sine_near(DoubleDouble sine, DoubleDouble cosine, DoubleDouble r) {
   const double square = r.hi * r.hi;
   const double sine_rest =
@@ -147,7 +148,7 @@ DoubleDouble cosine_of(const Reduced& angle) {
   return sine_of({angle.step + quarter_steps, angle.rest});
 }
 
-// Their sine and tangent are the angle itself: a denormal product would lose bits.
+// Tiny angles are their own sine and tangent: a denormal product would lose bits.
 bool is_tiny(double angle) { return std::fabs(angle) < 0x1p-27; }
 
 constexpr double no_angle = std::numeric_limits<double>::quiet_NaN();

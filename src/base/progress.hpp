@@ -15,7 +15,7 @@ class ShareProgress {
   ShareProgress(const ShareProgress&) = delete;
   ShareProgress& operator=(const ShareProgress&) = delete;
 
-  /// Begins the next part of the work, which ends at the share `done` and has so many steps.
+  /// Begins the next part of the work, which ends at the share `done` and has `steps` steps.
   void begin_part(double done, std::size_t steps) {
     if (!tell_) return;
     const std::lock_guard lock(mutex_);
@@ -35,7 +35,7 @@ class ShareProgress {
         steps_ > 0 ? static_cast<double>(count_) / static_cast<double>(steps_) : 0.0;
     report(from_ + share * (to_ - from_));
   }
-  /// The share that is done, for work that knows it.
+  /// Sets the completed share, for work that knows it.
   void reach(double done) {
     if (!tell_) return;
     const std::lock_guard lock(mutex_);
@@ -44,7 +44,7 @@ class ShareProgress {
 
  private:
   void report(double done) {
-    // Of all work; chosen by hand.
+    // Share of all work; chosen by hand.
     constexpr double least_step = 0.005;
     if (done < told_ + least_step) return;
     told_ = done;

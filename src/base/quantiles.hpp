@@ -7,8 +7,8 @@
 
 namespace kinemend {
 
-/// From the median size of normal numbers of mean 0, or a median absolute deviation, to their
-/// standard deviation: 1 / Phi^-1(3/4). By definition.
+/// Factor from the median size of normal numbers of mean 0, or a median absolute deviation, to
+/// their standard deviation: 1 / Phi^-1(3/4). By definition.
 inline constexpr double deviations_per_median = 1.482602218505602;
 /// Median length of a vector of three independent standard normal components: the root of the
 /// median of the chi-squared distribution of three degrees of freedom. By definition.
@@ -22,13 +22,13 @@ inline double of_rank(std::vector<double>& values, std::size_t rank) {
   return *place;
 }
 
-/// The value that a share (0..1) of the values do not exceed; 0 if there are none. Reorders them.
+/// The value that a share (0..1) of the values do not exceed; 0 for no values. Reorders them.
 inline double quantile_of(std::vector<double>& values, double share) {
   if (values.empty()) return 0;
   return of_rank(values, static_cast<std::size_t>(share * static_cast<double>(values.size() - 1)));
 }
 
-/// The median, for an even number the lower of the two middle values; 0 if there are none. Reorders
+/// The median, for an even number the lower of the two middle values; 0 for no values. Reorders
 /// them.
 inline double median_of(std::vector<double>& values) { return quantile_of(values, 0.5); }
 /// The same with the upper of the two middle values.

@@ -1,4 +1,4 @@
-// Quotes what files and command lines say for a message, and finds the ends of UTF-8 characters.
+// Quotes text of files and command lines for messages, and finds the ends of UTF-8 characters.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,8 @@
 
 namespace kinemend {
 
-/// The character that a text begins with. A byte that begins none has the size 1 and is not valid.
+/// The character at the start of a text. A byte that starts no character has size 1 and is not
+/// valid.
 struct Character {
   std::uint32_t code = 0;
   std::size_t size = 1;
@@ -17,12 +18,12 @@ struct Character {
 /// Precondition: the text is not empty.
 Character first_character(std::string_view text);
 
-/// Whether a character commands a terminal, ends a line or turns the direction of the text around
+/// Whether a character controls a terminal, ends a line or changes the direction of the text around
 /// it.
 bool commands_terminal(std::uint32_t code);
 
-/// What a file holds at some place, for a message: in quotes, at most 40 characters of it, with a
-/// dot for what is no UTF-8 or would command a terminal; `the end of the file` when it is empty.
+/// Text of a file for a message: in quotes, at most 40 characters of it, with a dot for invalid
+/// UTF-8 and control characters; `the end of the file` when it is empty.
 std::string quote(std::string_view found);
 
 }  // namespace kinemend

@@ -29,7 +29,7 @@ std::string temporary_folder() {
   if (!error) return folder.string();
   const char* named = std::getenv("TMPDIR");
   const std::string wanted = named != nullptr ? named : "/tmp";
-  // Standard libraries differ in what they say of a folder that does not exist.
+  // Standard libraries differ in their result for a folder that does not exist.
   std::error_code ignored;
   const bool exists = std::filesystem::exists(wanted, ignored);
   fail(ErrorKind::cannot_write, wanted, "cannot be made", exists ? error.value() : ENOENT);

@@ -13,14 +13,13 @@ namespace kinemend {
 
 /// Records of bytes that are written once and can then be read in any order, any number of times.
 /// They are kept in memory up to a limit, and beyond it in a file in the temporary folder. The file
-/// has no name, so that nothing is left of it however the program ends. Several threads may read at
-/// once.
+/// has no name, so that it disappears however the program ends. Several threads may read at once.
 class Spool {
  public:
   /// `most_memory`: bytes of records to keep in memory.
   explicit Spool(std::size_t most_memory) : room_(most_memory) {}
 
-  /// Returns the number of the record: 0, 1, ... Errors: `ErrorKind::cannot_write`, naming the
+  /// Returns the index of the record: 0, 1, ... Errors: `ErrorKind::cannot_write`, naming the
   /// folder.
   std::size_t append(std::span<const std::byte> bytes);
   /// Fills `bytes` from byte `from` of the record on, which must be long enough. Errors:
@@ -43,7 +42,7 @@ class Spool {
   void write_to_file(std::span<const std::byte> bytes);
 
   std::vector<Record> records_;
-  std::size_t room_;  // left in memory
+  std::size_t room_;  // bytes left in memory
   std::unique_ptr<Descriptor> file_;
   std::uint64_t file_end_ = 0;
 };

@@ -1,4 +1,4 @@
-// Formats text for people: tables, wrapped lines, figures, colours, and escaped text.
+// Formats text for display: tables, wrapped lines, figures, colours, and escaped text.
 #include "kinemend/experimental/text.hpp"
 
 #include <fmt/format.h>
@@ -37,7 +37,7 @@ std::string painted(Paint paint, std::string_view text, bool on) {
 }
 
 std::size_t display_width(std::string_view text) {
-  // Bytes that continue a UTF-8 character take no column of their own.
+  // Continuation bytes of a UTF-8 character take no column of their own.
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
   }));
@@ -48,10 +48,10 @@ namespace {
 // Chosen by hand.
 constexpr std::size_t longest_word = 80;       // characters
 constexpr std::size_t longest_message = 2000;  // bytes
-constexpr std::size_t head_of_message = 1200;  // bytes of a longer one; the rest is its end
+constexpr std::size_t head_of_message = 1200;  // bytes of a longer one, before its end
 constexpr std::string_view omitted = "...";
 
-// The character as it is shown: itself, or its code in ASCII.
+// The character as displayed: itself, or its code in ASCII.
 std::string shown(const Character& character, std::string_view text) {
   if (!character.is_valid)
     return fmt::format("\\x{:02x}", static_cast<unsigned char>(text.front()));
@@ -60,7 +60,7 @@ std::string shown(const Character& character, std::string_view text) {
                                 : fmt::format("\\u{:04x}", character.code);
 }
 
-// `most`: characters as shown; of a longer text the rest is left out.
+// `most`: characters as displayed; the rest of a longer text is left out.
 std::string escaped(std::string_view text, std::size_t most = std::string_view::npos) {
   std::string result;
   std::size_t count = 0;
@@ -79,7 +79,7 @@ bool is_cut(std::string_view word) {
   return word.ends_with(omitted) && display_width(word) <= longest_word + omitted.size();
 }
 
-// Cuts long words of a text that is escaped already. Paths are left whole, as their end says most.
+// Shortens long words of an escaped text. Paths are kept whole, as their end is informative.
 std::string with_short_words(std::string_view text) {
   std::string result;
   while (!text.empty()) {
@@ -94,7 +94,7 @@ std::string with_short_words(std::string_view text) {
   return result;
 }
 
-// Where a text may be cut: not amid a character.
+// The start of the character at `place`, where a text may be cut.
 std::size_t boundary(std::string_view text, std::size_t place) {
   while (place > 0 && (static_cast<unsigned char>(text[place]) & 0xC0) == 0x80) --place;
   return place;
@@ -166,10 +166,10 @@ std::string figure(double value) {
   if (size >= 10) return fmt::format("{:.1f}", value);
   if (size >= 1) return fmt::format("{:.2f}", value);
   if (size < 1e-6) return fmt::format("{:.3g}", value);
-  // Three digits that count, whatever the unit: lengths in metres are small.
+  // Three significant digits, whatever the unit: lengths in metres are small.
   const int decimals = 2 - static_cast<int>(std::floor(portable::log10(size)));
   std::string text = fmt::format("{:.{}f}", value, decimals);
-  // Not more zeros than figures from 1 on have.
+  // Trailing zeros beyond two decimals are dropped.
   for (int d = decimals; d > 2 && text.back() == '0'; --d) text.pop_back();
   return text;
 }

@@ -19,7 +19,7 @@ namespace {
 struct Job {
   std::size_t count = 0;
   const IndexWork* work = nullptr;
-  Job* around = nullptr;  // the job that this one is a part of
+  Job* around = nullptr;  // the job that this one is part of
   std::atomic<std::size_t> next{0};
   std::atomic<bool> is_cancelled{false};
   std::size_t helpers = 0;   // under the pool's mutex
@@ -126,7 +126,7 @@ class Pool {
     for (;;) {
       work_came_.wait(lock, [&] { return ends_ || (!jobs_.empty() && busy_ + 1 < limit()); });
       if (ends_) return;
-      // The innermost work first: others wait for it.
+      // The innermost job first: others wait for it.
       Job& job = *jobs_.back();
       if (job.next >= job.count) {
         remove(job);

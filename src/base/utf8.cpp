@@ -1,4 +1,4 @@
-// Decodes characters, and knows those that command a terminal.
+// Decodes characters, and recognises those that control a terminal.
 #include "base/quote.hpp"
 
 namespace kinemend {
@@ -7,7 +7,7 @@ Character first_character(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byte(0);
   if (lead < 0x80) return {lead, 1, true};
-  // Lead bytes of two to four bytes, and the least code that needs as many.
+  // Lead bytes of two to four bytes, and the lowest code that needs that many.
   const std::size_t size = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
   constexpr std::uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
   if (lead < 0xC2 || lead > 0xF4 || text.size() < size) return {};

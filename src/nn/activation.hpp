@@ -11,10 +11,10 @@ namespace kinemend::nn {
 /// Functions of single numbers.
 enum class Activation : std::uint8_t { none, relu, tanh, exp };
 
-/// In place. Within 2e-7 of the function (relative for `exp`), and the same bits on every
-/// processor. exp of numbers beyond +-87 is that of +-87.
+/// Applies the function in place, within 2e-7 of the exact value (relative for `exp`), with the
+/// same bits on every processor. exp of numbers beyond +-87 is that of +-87.
 void activate(Activation activation, std::span<float> values);
-/// Of each row.
+/// The same for each row.
 void activate(Activation activation, const MutableMatrixViewF& rows);
 
 }  // namespace kinemend::nn

@@ -18,8 +18,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::ScalableTag<float>;
 using V = hn::Vec<Tag>;
 
-// e^x = 2^n e^r, r within half of ln 2, by the minimax polynomial of Cephes. Products and sums are
-// apart, so that every processor rounds alike.
+// e^x = 2^n e^r, with r within half of ln 2, by the minimax polynomial of Cephes. Products and sums
+// are not fused, so that every processor rounds alike.
 HWY_INLINE V exp_lanes(Tag d, V x) {
   x = hn::Min(hn::Max(x, hn::Set(d, -87.0F)), hn::Set(d, 87.0F));
   const V n = hn::Round(hn::Mul(x, hn::Set(d, 1.44269504F)));
@@ -45,7 +45,7 @@ HWY_INLINE V tanh_lanes(Tag d, V x) {
   return hn::Sub(one, hn::Div(two, hn::Add(one, exp_lanes(d, hn::Mul(two, x)))));
 }
 
-// `function` of whole vectors, then of what is left, padded with zeros.
+// Applies `function` to whole vectors, then to the remainder, padded with zeros.
 template <class Function>
 HWY_INLINE void for_lanes(float* values, std::size_t count, const Function& function) {
   const Tag d;
@@ -70,7 +70,7 @@ void relu_f32(float* values, std::size_t count) {
   for_lanes(values, count, [](Tag d, V x) HWY_ATTR { return hn::Max(x, hn::Zero(d)); });
 }
 
-// Some lanes of a row, or all where they are whole.
+// The first lanes of a row, or all if they are a whole vector.
 struct Lanes {
   Tag d;
   std::size_t from;

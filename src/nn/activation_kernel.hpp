@@ -11,8 +11,8 @@ void tanh_of(float* values, std::size_t count);
 void sigmoid_of(float* values, std::size_t count);
 void relu_of(float* values, std::size_t count);
 
-/// A step of an LSTM's memory from its gates i, f, g and o, `units` each, one behind the other, to
-/// which their functions have not been applied: c = s(f) c + s(i) tanh(g), h = s(o) tanh(c).
+/// A step of an LSTM's memory from its gates i, f, g and o before activation, `units` each, one
+/// after the other: c = s(f) c + s(i) tanh(g), h = s(o) tanh(c).
 void lstm_gates(float* gates, std::size_t units, float* cell, float* state);
 
 }  // namespace kinemend::nn

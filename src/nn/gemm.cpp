@@ -12,11 +12,11 @@ namespace kinemend::nn {
 
 namespace {
 
-// Below so many products, threads cost more than they bring. For speed, not swept.
+// Below this number of multiply-adds, threads cost more than they gain. For speed, not swept.
 constexpr std::size_t least_parallel_products = std::size_t{1} << 21;
 constexpr std::size_t rows_per_task = 32;
-// Of a symmetric product so many columns at once are made from the diagonal down: two panels of the
-// widest vectors.
+// Columns of a symmetric product that are computed at once, from the diagonal down: two panels of
+// the widest vectors.
 template <class Real>
 // For speed, not swept.
 constexpr std::size_t symmetric_columns = 48 * sizeof(double) / sizeof(Real);
@@ -27,7 +27,7 @@ std::size_t packed_columns(std::size_t columns) {
   return (columns + panel - 1) / panel * panel;
 }
 
-// What rows [first, first + depth) of b, packed, bring to c.
+// Adds the contribution of rows [first, first + depth) of b, packed, to c.
 template <class Real>
 void multiply_packed(const BasicMatrixView<Real>& a, std::size_t first, std::size_t depth,
                      const Real* packed, const BasicMutableMatrixView<Real>& c, Product product) {
@@ -37,7 +37,7 @@ void multiply_packed(const BasicMatrixView<Real>& a, std::size_t first, std::siz
   if (c.rows <= rows_per_task || c.rows * c.columns * depth < least_parallel_products) {
     rows(0, c.rows);
   } else {
-    // Whole blocks, so that only the last task meets a remainder of rows.
+    // Whole blocks, so that only the last task has a remainder of rows.
     const std::size_t blocks = (c.rows + rows_per_task - 1) / rows_per_task;
     for_each_range(0, blocks, 1, [&](std::size_t first_block, std::size_t last_block) {
       rows(first_block * rows_per_task, std::min(last_block * rows_per_task, c.rows));
@@ -45,7 +45,7 @@ void multiply_packed(const BasicMatrixView<Real>& a, std::size_t first, std::siz
   }
 }
 
-// `panels(first, depth)`: rows of b, packed.
+// `panels(first, depth)` returns packed rows of b.
 template <class Real, class Panels>
 void multiply_in_depth(const BasicMatrixView<Real>& a, std::size_t depth,
                        const BasicMutableMatrixView<Real>& c, Product product,

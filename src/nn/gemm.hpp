@@ -1,4 +1,4 @@
-// Products of dense matrices, in double and (with an F behind the name) in single precision.
+// Products of dense matrices, in double and (with the suffix F) in single precision.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ struct BasicMatrixView {
   std::size_t row_stride = 0;
   std::size_t column_stride = 1;
 
-  /// The part from a row or column on, as large as it is said to be.
+  /// The part of the given size that starts at a row and column.
   BasicMatrixView block(std::size_t row, std::size_t column, std::size_t row_count,
                         std::size_t column_count) const {
     return {values + row * row_stride + column * column_stride, row_count, column_count, row_stride,
@@ -46,18 +46,18 @@ using MutableMatrixViewF = BasicMutableMatrixView<float>;
 
 enum class Product { overwrite, add };
 
-/// c = a b, or c += a b. Shapes match; c overlaps neither a nor b. `a` is read in place, so that
-/// views of overlapping rows cost nothing; `b` is copied block by block. Each element is summed in
-/// the same order on every processor and with any number of threads, without fused multiply-add,
-/// in the precision of the matrices: of a sum of n terms the error is at most (n + 2) u times the
-/// sum of their sizes, u = 2^-53 or 2^-24.
+/// Computes c = a b, or c += a b. Shapes must match; c overlaps neither a nor b. `a` is read in
+/// place, so that views of overlapping rows cost nothing; `b` is copied block by block. Each
+/// element is summed in the same order on every processor and with any number of threads, without
+/// fused multiply-add, in the precision of the matrices: the error of a sum of n terms is at most
+/// (n + 2) u times the sum of their sizes, u = 2^-53 or 2^-24.
 void multiply(const MatrixView& a, const MatrixView& b, const MutableMatrixView& c,
               Product product = Product::overwrite);
 void multiply(const MatrixViewF& a, const MatrixViewF& b, const MutableMatrixViewF& c,
               Product product = Product::overwrite);
 
-/// The same where a b is symmetric, with about half of the work: what is above the diagonal of c
-/// becomes what is below it.
+/// The same for a symmetric product a b, with about half of the work: the part of c above the
+/// diagonal is copied from below it.
 void multiply_symmetric(const MatrixView& a, const MatrixView& b, const MutableMatrixView& c,
                         Product product = Product::overwrite);
 void multiply_symmetric(const MatrixViewF& a, const MatrixViewF& b, const MutableMatrixViewF& c,
@@ -69,14 +69,14 @@ class BasicPackedMatrix {
  public:
   BasicPackedMatrix() = default;
   explicit BasicPackedMatrix(const BasicMatrixView<Real>& b);
-  /// Of the `values` of another one of this shape, rounded.
+  /// From the `values` of another packed matrix of this shape, rounded.
   BasicPackedMatrix(std::size_t rows, std::size_t columns, std::span<const float> values);
 
   std::size_t rows() const noexcept { return rows_; }
   std::size_t columns() const noexcept { return columns_; }
   /// In the order in which products read them.
   std::span<const Real> values() const noexcept { return panels_; }
-  /// From row `first` on, a multiple of the kernel's depth.
+  /// The panels from row `first` on, a multiple of the kernel's depth.
   const Real* panels(std::size_t first) const noexcept;
 
  private:
@@ -86,7 +86,7 @@ class BasicPackedMatrix {
 using PackedMatrix = BasicPackedMatrix<double>;
 using PackedMatrixF = BasicPackedMatrix<float>;
 
-/// The same, bit by bit, as with the matrix that was packed.
+/// The same result, bit by bit, as with the matrix that was packed.
 void multiply(const MatrixView& a, const PackedMatrix& b, const MutableMatrixView& c,
               Product product = Product::overwrite);
 void multiply(const MatrixViewF& a, const PackedMatrixF& b, const MutableMatrixViewF& c,

@@ -21,7 +21,7 @@ using Tag = hn::ScalableTag<Real>;
 
 // For speed, not swept.
 constexpr std::size_t panel_vectors = 3;
-// A tile of rows x panel_vectors sums, a row of b and one of a have to fit the registers.
+// A tile of rows x panel_vectors sums, a row of b and one of a must fit the registers.
 #if HWY_TARGET <= HWY_AVX3 || HWY_ARCH_ARM_A64
 constexpr std::size_t tile_rows = 8;
 #else
@@ -43,7 +43,7 @@ void pack(const BasicMatrixView<Real>& b, std::size_t first, std::size_t depth, 
     const std::size_t count = std::min(width, b.columns - begin);
     const Real* from = b.values + first * b.row_stride + begin * b.column_stride;
     for (std::size_t k = 0; k < depth; k += pack_rows) {
-      // Of some rows column by column: where columns lie contiguous, cache lines are used whole.
+      // Copies some rows column by column: if columns are contiguous, cache lines are used whole.
       const std::size_t rows = std::min(pack_rows, depth - k);
       for (std::size_t c = 0; c < count; ++c) {
         const Real* column = from + k * b.row_stride + c * b.column_stride;
@@ -65,7 +65,7 @@ struct Tile {
   Real* c;
   std::size_t c_stride;
   std::size_t columns;  // of c, at most vectors * lanes
-  bool adds;            // to what c holds
+  bool adds;            // to the values in c
 };
 
 // The tile's sums stay in registers over the whole depth.
@@ -157,7 +157,7 @@ void rows_of_product(const BasicMatrixView<Real>& a, std::size_t first, std::siz
   }
 }
 
-// Dispatch takes functions, no templates.
+// Dispatch requires functions, not templates.
 std::size_t panel_columns_f64() { return panel_columns<double>(); }
 std::size_t panel_columns_f32() { return panel_columns<float>(); }
 void pack_f64(const MatrixView& b, std::size_t first, std::size_t depth, double* packed) {

@@ -19,8 +19,8 @@ std::size_t gemm_panel_columns<double>();
 template <>
 std::size_t gemm_panel_columns<float>();
 
-/// Copies rows [first, first + depth) of b panel by panel: of each panel its rows one after
-/// another, `gemm_panel_columns()` values each, zeros where b has no more columns.
+/// Copies rows [first, first + depth) of b panel by panel: the rows of each panel one after the
+/// other, `gemm_panel_columns()` values each, padded with zeros beyond the columns of b.
 void pack_panels(const MatrixView& b, std::size_t first, std::size_t depth, double* packed);
 void pack_panels(const MatrixViewF& b, std::size_t first, std::size_t depth, float* packed);
 

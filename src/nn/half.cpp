@@ -1,4 +1,4 @@
-// Converts between doubles and the bits of half-precision numbers, without help from the processor.
+// Converts between doubles and the bits of half-precision numbers without processor support.
 #include "nn/half.hpp"
 
 #include <cmath>
@@ -16,7 +16,8 @@ constexpr double subnormal_step = 0x1p-24;
 constexpr unsigned dropped_bits = 52 - 10;
 constexpr std::uint64_t bias_difference = 1023 - 15;
 
-// Of a finite `size` from `least_normal` on. A carry out of the mantissa goes where it belongs.
+// Rounds a finite `size` from `least_normal` on. A carry out of the mantissa correctly increments
+// the exponent.
 std::uint16_t normal_half(double size) {
   const auto bits = bits_as<std::uint64_t>(size);
   const std::uint64_t is_odd = (bits >> dropped_bits) & 1;
@@ -31,7 +32,7 @@ std::uint16_t to_half(double value) {
   const double size = std::abs(value);
   if (std::isnan(value)) return static_cast<std::uint16_t>(sign | 0x7E00);
   if (size >= overflow) return static_cast<std::uint16_t>(sign | 0x7C00);
-  // The largest subnormal may round up to the least normal, whose bits are the next ones.
+  // The largest subnormal may round up to the least normal, whose bits follow directly.
   const auto half = size < least_normal
                         ? static_cast<std::uint16_t>(std::nearbyint(size / subnormal_step))
                         : normal_half(size);

@@ -5,9 +5,9 @@
 
 namespace kinemend {
 
-/// The nearest half, of two equally near the even one; an infinity from 65520 on.
+/// The nearest half, with ties to even; infinity from 65520 on.
 std::uint16_t to_half(double value);
-/// Exact; infinite or no number where the half is.
+/// Exact; infinity and NaN are kept.
 double from_half(std::uint16_t half);
 
 }  // namespace kinemend

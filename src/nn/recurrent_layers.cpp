@@ -30,13 +30,13 @@ void check_gates(const std::string& name, const Dense& input, const Dense& state
                           input.outputs(), state.outputs(), state.inputs()));
 }
 
-// The rest of a step, from what the input brings to the gates.
+// Completes a step from the input's contribution to the gates.
 void step_from_gates(const Lstm& layer, RecurrentState& state) {
   multiply(row_of(state.hidden), layer.state, mutable_row(state.gates), Product::add);
   lstm_gates(state.gates.data(), layer.units(), state.cell.data(), state.hidden.data());
 }
 
-// From frame to frame, with what the inputs bring to the gates.
+// Steps through the frames, given the inputs' contributions to the gates.
 void go_on(const Lstm& layer, Direction direction, const MatrixViewF& gates, RecurrentState& state,
            const MutableMatrixViewF& y) {
   for (std::size_t i = 0; i < gates.rows; ++i) {
@@ -82,7 +82,7 @@ void run_on(const Lstm& layer, Direction direction, const MatrixViewF& gates, Re
   go_on(layer, direction, gates, state, y);
 }
 
-// The products with the inputs of all frames are made together.
+// The products with the inputs of all frames are computed together.
 void run(const Lstm& layer, Direction direction, const MatrixViewF& x,
          const MutableMatrixViewF& y) {
   assert(x.columns == layer.inputs() && y.columns == layer.units() && x.rows == y.rows);

@@ -22,11 +22,11 @@ struct Lstm {
   std::size_t units() const noexcept { return state.rows(); }
 };
 
-/// From `<name>.input.weight` ([4 H, inputs]), `<name>.state.weight` ([4 H, H]) and
+/// Reads `<name>.input.weight` ([4 H, inputs]), `<name>.state.weight` ([4 H, H]) and
 /// `<name>.input.bias`, `<name>.state.bias`. Errors: as of `read_dense`.
 Lstm read_lstm(const NamedTensors& tensors, const std::string& name);
 
-/// What such a layer remembers from frame to frame, and its scratch: all that a step needs.
+/// The state of such a layer between frames, and the scratch of a step.
 struct RecurrentState {
   std::vector<float> hidden;  ///< H
   std::vector<float> cell;    ///< H
@@ -34,17 +34,17 @@ struct RecurrentState {
 };
 RecurrentState start(const Lstm& layer);
 
-/// One frame; `state.hidden` is the output. Allocates nothing.
+/// Runs one frame; `state.hidden` is the output. Does not allocate.
 void step(const Lstm& layer, std::span<const float> x, RecurrentState& state);
 
-/// Back to a state of zeros.
+/// Resets the state to zeros.
 void restart(RecurrentState& state);
-/// Some frames from a state, which becomes that of the last of them: `gates` (T x 4 H) is what
-/// `layer.input` makes of the inputs, y is T x H. Allocates nothing.
+/// Runs some frames from a state, which becomes that of the last of them: `gates` (T x 4 H) is the
+/// output of `layer.input`, y is T x H. Does not allocate.
 void run_on(const Lstm& layer, Direction direction, const MatrixViewF& gates, RecurrentState& state,
             const MutableMatrixViewF& y);
 
-/// All frames from a state of zeros: x is T x inputs, y T x H.
+/// Runs all frames from a state of zeros: x is T x inputs, y T x H.
 void run(const Lstm& layer, Direction direction, const MatrixViewF& x, const MutableMatrixViewF& y);
 
 }  // namespace kinemend::nn

@@ -1,5 +1,5 @@
-// Loads and stores the first lanes of a vector, at any address and without touching what lies
-// beyond. Included again for each instruction set.
+// Loads and stores the first lanes of a vector, at any address and without accessing memory beyond
+// them. Included again for each instruction set.
 #if defined(KINEMEND_NN_SOME_LANES) == defined(HWY_TARGET_TOGGLE)
 #ifdef KINEMEND_NN_SOME_LANES
 #undef KINEMEND_NN_SOME_LANES
@@ -15,8 +15,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace kinemend::nn::HWY_NAMESPACE {
 
-// Highway's own functions for this want aligned addresses, and read whole vectors, where the
-// processor has no masks.
+// On processors without masks, Highway's own functions for this need aligned addresses, and read
+// whole vectors.
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
 template <class D>
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<D> load_some(D d, const hwy::HWY_NAMESPACE::TFromD<D>* values,

@@ -42,7 +42,7 @@ void store(Word word, std::string& bytes) {
     bytes += static_cast<char>(static_cast<unsigned char>(word >> (8 * i)));
 }
 
-// How each type is kept: what a word of it is worth, and the word of a value that fits.
+// The rules of each type: decoding a word, encoding a value, and whether a value fits.
 struct Half {
   using Word = std::uint16_t;
   static double decode(Word word) { return from_half(word); }
@@ -70,7 +70,7 @@ struct Whole {
   }
 };
 
-// Calls `action` with the type's rules.
+// Calls `action` with the rules of the type.
 template <class Action>
 void with_type(TensorType type, Action&& action) {
   switch (type) {
@@ -112,7 +112,7 @@ Tensor read_tensor(const TensorEntry& entry, std::string_view bytes, std::size_t
 }
 
 void check_shape(std::string_view name, const Tensor& tensor) {
-  // Divided, as the product may be more than any number.
+  // Divides instead of multiplying, as the product may overflow.
   std::size_t rest = tensor.size();
   bool is_empty = false, divides = tensor.shape.size() <= most_dimensions;
   for (const std::size_t length : tensor.shape) {

@@ -43,7 +43,7 @@ const StoredType& stored_type(TensorType type) {
   return stored_types[static_cast<std::size_t>(type)];
 }
 
-// Walks over the header for the JSON parser, and lets others see how far it is.
+// Iterates over the header for the JSON parser, and exposes the position reached.
 class Cursor {
  public:
   using iterator_category = std::input_iterator_tag;
@@ -70,8 +70,8 @@ class Cursor {
   const char** seen_;
 };
 
-// Takes the parser's events. What the format has no place for is refused as soon as it is met, so
-// that neither depth nor size of the JSON matters.
+// Receives the parser's events. Content that the format does not allow is rejected at once, so that
+// neither depth nor size of the JSON matters.
 class HeaderReader : public nlohmann::json_sax<Json> {
  public:
   HeaderReader(std::string_view file, std::string_view header, std::string_view name)
@@ -227,12 +227,12 @@ class HeaderReader : public nlohmann::json_sax<Json> {
     return "";
   }
 
-  // In a message an empty text is one, not the file's end.
+  // In a message an empty text must not appear as the file's end.
   static std::string quote_text(std::string_view text) {
     return text.empty() ? "\"\"" : quote(text);
   }
 
-  // Of a token that ends `back` bytes before the place that the parser has read up to.
+  // The offset of a token that ends `back` bytes before the parser's position.
   std::size_t offset(std::ptrdiff_t back) const {
     const std::ptrdiff_t read = seen_ - file_.data();
     return static_cast<std::size_t>(std::max<std::ptrdiff_t>(read - back, length_bytes));
@@ -287,13 +287,13 @@ std::string_view header_of(std::string_view bytes, std::string_view name) {
                          fmt::format("expected a header that begins with {{, found {}",
                                      quote(bytes.substr(length_bytes, 20))));
   }
-  // To the parser this would be the end.
+  // The parser would take a zero byte for the end.
   if (const std::size_t zero = header.find('\0'); zero != header.npos)
     throw Error::at_byte(name, length_bytes + zero, "expected a header in JSON, found a zero byte");
   return header;
 }
 
-// Nothing where it is more than a file can hold.
+// None if the count overflows.
 std::optional<std::size_t> value_count(const std::vector<std::size_t>& shape) {
   std::size_t count = 1;
   for (const std::size_t length : shape) {
@@ -324,7 +324,7 @@ void check_span(TensorEntry& entry, std::size_t data_size, std::string_view name
   entry.count = *count;
 }
 
-// Sorts the entries and makes sure that they cover the data without overlap or hole.
+// Sorts the entries and checks that they cover the data without overlap or gap.
 void check_cover(std::vector<TensorEntry>& entries, std::size_t data_size, std::string_view name) {
   std::sort(entries.begin(), entries.end(), [](const TensorEntry& a, const TensorEntry& b) {
     return std::tie(a.begin, a.end, a.name) < std::tie(b.begin, b.end, b.name);

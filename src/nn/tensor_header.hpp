@@ -1,4 +1,4 @@
-// The header of a safetensors file: JSON that says where each tensor lies.
+// The header of a safetensors file: JSON with the position of each tensor.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace kinemend {
 
-// Dimensions of a tensor: a limit, chosen by hand.
+// The most dimensions of a tensor, chosen by hand.
 inline constexpr std::string_view metadata_key = "__metadata__";
 inline constexpr std::size_t most_dimensions = 32;
 
@@ -24,7 +24,7 @@ struct TensorEntry {
   std::string name;
   TensorType type = TensorType::f32;
   std::vector<std::size_t> shape;
-  std::size_t count = 0;  ///< of values
+  std::size_t count = 0;  ///< number of values
   std::size_t begin = 0;  ///< of its bytes, from the start of the data
   std::size_t end = 0;
 };

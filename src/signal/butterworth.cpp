@@ -21,8 +21,8 @@ std::vector<Biquad> butterworth_lowpass(int order, double cutoff_hz, double rate
           fmt::format("cutoff {} Hz is not between 0 and half of the rate of {} Hz", cutoff_hz,
                       rate_hz));
 
-  // The analog poles lie on a half circle of radius w; z = (2 + s) / (2 - s) takes them into the
-  // unit circle, w being prewarped for the bilinear transform.
+  // The analog poles lie on a half circle of radius w; z = (2 + s) / (2 - s) maps them into the
+  // unit circle, with w prewarped for the bilinear transform.
   const double w = 2 * portable::tan(std::numbers::pi * cutoff_hz / rate_hz);
   std::vector<Biquad> sections;
   if (order % 2 == 1) {
@@ -53,7 +53,7 @@ std::size_t default_pad_frames(const std::vector<Biquad>& sections, std::size_t 
 
 std::size_t settling_frames(const std::vector<Biquad>& sections, double tolerance) {
   require(tolerance > 0 && tolerance < 1,
-          // Frames at most. Chosen by hand, not swept.
+          // The largest number of frames. Chosen by hand, not swept.
           fmt::format("settling tolerance {} is not between 0 and 1", tolerance));
   constexpr double longest = 1e6;
   double radius = 0;

@@ -1,4 +1,4 @@
-// Checks of arguments that the filters share.
+// Argument checks that the filters share.
 #pragma once
 
 #include <cstddef>

@@ -7,7 +7,7 @@ namespace kinemend::signal {
 
 void NoisePrecision::set_channel(std::size_t channel, double correlation,
                                  std::span<const std::uint8_t> missing) {
-  const double variance = 1 - correlation * correlation;  // of what is new in a frame
+  const double variance = 1 - correlation * correlation;  // of the innovation in a frame
   const auto is_missing = [&](std::size_t t) { return !missing.empty() && missing[t] != 0; };
   log_determinant[channel] = observed[channel] = 0;
   for (std::size_t t = 0; t < weight.frames; ++t) {
@@ -35,7 +35,7 @@ ColouredEvidence evidence_of(const ChannelBlock& y, const NoisePrecision& precis
   system.factor(precision.weight, penalty);
   system.refine(precision.weight, penalty, y, x, scratch);
   ColouredEvidence evidence;
-  // What the fit is the least of: it does not depend on the fit's last digits.
+  // The minimum of the fit's objective, which hardly depends on the fit's last digits.
   const auto c = difference_coefficients(model.order);
   for (std::size_t t = 0; t < y.frames; ++t) {
     for (std::size_t i = 0; i < block_channels; ++i) {

@@ -13,20 +13,20 @@
 namespace kinemend::signal {
 
 /// The precision of such noise of variance 1 on eight channels: `weight` along the diagonal,
-/// `coupling` of each frame with the next. A sample that is missing has none, and noise behind it
-/// is taken to be new.
+/// `coupling` of each frame with the next. A missing sample has neither, and noise after it is
+/// independent of that before.
 struct NoisePrecision {
   ChannelBlock weight, coupling;
   BlockRow log_determinant{}, observed{};  ///< of unused channels 0
 
   explicit NoisePrecision(std::size_t frames) : weight(frames, 1), coupling(frames) {}
-  /// Of one channel; `missing` is empty where none is. `correlation`: of neighbouring frames, 0 to
-  /// below 1.
+  /// Sets the precision of one channel; `missing` is empty if no sample is missing. `correlation`:
+  /// of neighbouring frames, from 0 to below 1.
   void set_channel(std::size_t channel, double correlation, std::span<const std::uint8_t> missing);
 };
 
-/// What the evidence of a channel is made of: -2 log p(y) under noise of variance s is
-/// `squares / s + logarithms + differences log s`, but for what is the same for all models.
+/// The parts of a channel's evidence: -2 log p(y) under noise of variance s is `squares / s +
+/// logarithms + differences log s`, up to terms that all models share.
 struct ColouredEvidence {
   BlockRow squares{}, logarithms{}, differences{};
 };

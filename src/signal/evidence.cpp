@@ -59,7 +59,7 @@ void box_average(ChannelBlock& block, std::size_t half) {
     return row;
   };
   const BlockRow first = row_at(0);
-  // The former values of rows that have been overwritten and are still needed.
+  // The former values of overwritten rows that are still needed.
   std::vector<BlockRow> before(half + 1, first);
   const double scale = 1.0 / static_cast<double>(2 * half + 1);
   BlockRow sum{};
@@ -78,7 +78,7 @@ void box_average(ChannelBlock& block, std::size_t half) {
   }
 }
 
-// The squared differences of the fit, added to their posterior variances.
+// Adds the squared differences of the fit to their posterior variances.
 void add_squared_differences(const ChannelBlock& x, std::size_t order, ChannelBlock& variances) {
   const auto c = difference_coefficients(order);
   for (std::size_t t = 0; t < variances.frames; ++t) {
@@ -124,7 +124,7 @@ std::vector<SmoothingModel> models_of_orders(std::span<const std::size_t> orders
 
 ModelGrid::ModelGrid(std::size_t frames, double frame_rate_hz, const CutoffGrid& cutoffs)
     : frames_(frames), frame_rate_hz_(frame_rate_hz) {
-  // Those that `auto` chooses from by definition (docs/methods/auto-details.md).
+  // The orders that `auto` chooses from, by definition (docs/methods/auto-details.md).
   constexpr std::size_t orders[] = {1, 2, 3};
   models_ = models_of_orders(orders, cutoffs, frames, frame_rate_hz);
   factors_.resize(models_.size());
@@ -162,7 +162,7 @@ void smooth_with(const ModelGrid& grid, std::span<const std::size_t> models, Cha
   ChannelBlock x(y.frames);
   for (std::size_t i = 0; i < models.size(); ++i) {
     const auto here = models.begin() + static_cast<std::ptrdiff_t>(i);
-    // Solved with an earlier channel.
+    // An earlier channel has solved this model.
     if (std::find(models.begin(), here, models[i]) != here) continue;
     solve_shared(grid.factor(models[i]), given, x);
     for (std::size_t k = i; k < models.size(); ++k) {
@@ -194,7 +194,7 @@ ChannelBlock smooth_adaptively(const ChannelBlock& y, const ChannelBlock& weight
                                std::span<const SmoothingModel> models, double frame_rate_hz,
                                const AdaptiveSettings& settings, const ChannelBlock* coupling) {
   const std::size_t order = models[0].order, differences = y.frames - order;
-  // The variance of one squared difference is too large: three at least.
+  // The variance of one squared difference is too large, so at least three are averaged.
   const auto half_window = static_cast<std::size_t>(
       std::max(1.0, std::round((settings.window_s * frame_rate_hz - 1) / 2)));
   BlockRow constant;  // constant variance of the differences, by the model

@@ -21,8 +21,8 @@ struct SmoothingModel {
   double strength = 0;    ///< noise variance over the variance of the differences
 };
 
-/// Models of each of these orders with these cutoffs, where they are below 0.45 of the rate. Those
-/// of one order stand together.
+/// Models of each of these orders with these cutoffs, if below 0.45 of the rate. Models of one
+/// order are adjacent.
 std::vector<SmoothingModel> models_of_orders(std::span<const std::size_t> orders,
                                              const CutoffGrid& cutoffs, std::size_t frames,
                                              double frame_rate_hz);
@@ -56,38 +56,38 @@ std::vector<std::size_t> most_likely_models(const ChannelBlock& y,
 /// Smooths the first channels of `y` in place, each with the model of that index.
 void smooth_with(const ModelGrid& grid, std::span<const std::size_t> models, ChannelBlock& y);
 
-/// The models of all channels of a matrix; empty when there is none for so few frames.
+/// The models of all channels of a matrix; empty if no model exists for its few frames.
 std::vector<std::size_t> most_likely_models(const PoseMatrix& matrix,
                                             std::span<const double> noise_variance,
                                             const ModelGrid& grid, std::size_t group = 1);
 
-/// Chosen by hand; docs/methods/auto-details.md states what others do (`smoothing.adaptive`).
+/// Chosen by hand; docs/methods/auto-details.md states what other values do (`smoothing.adaptive`).
 struct AdaptiveSettings {
-  /// Of the moving average of squared differences, applied twice; three frames at least.
+  /// Window of the moving average of squared differences, applied twice; at least three frames.
   double window_s = 0.05;
-  double share_of_constant = 0;  ///< of the variance by the model that stays
+  double share_of_constant = 0;  ///< share of the model's constant variance in the result
   int iterations = 4;
 };
 
 /// Smooths the channels of `matrix` in place with strengths that follow the motion: starting from
 /// each channel's `model`, the variance of the differences is estimated about each frame
 /// (expectation-maximisation: squared differences of the fit plus their posterior variances) and
-/// the fit is repeated. `missing` is F x D, not 0 where a sample has no weight; empty: none.
+/// the fit is repeated. `missing` is F x D, not 0 for samples without weight; empty: none.
 void smooth_adaptively(PoseMatrix& matrix, std::span<const std::uint8_t> missing,
                        std::span<const double> noise_variance,
                        std::span<const SmoothingModel> models, double frame_rate_hz,
                        const AdaptiveSettings& settings = {});
 
-/// The same of a block whose channels have models of one order, one per channel; further channels
-/// are not used. `weight`: 1 / noise variance, 0 where a sample is missing; 1 of unused channels.
-/// `coupling`: that of `WeightedSystem`, of noise that is not white; nullptr: none.
+/// The same for a block whose channels have models of one order, one per channel; further channels
+/// are not used. `weight`: 1 / noise variance, 0 for missing samples; 1 for unused channels.
+/// `coupling`: as of `WeightedSystem`, for coloured noise; nullptr: none.
 ChannelBlock smooth_adaptively(const ChannelBlock& y, const ChannelBlock& weight,
                                std::span<const double> noise_variance,
                                std::span<const SmoothingModel> models, double frame_rate_hz,
                                const AdaptiveSettings& settings = {},
                                const ChannelBlock* coupling = nullptr);
-/// Calls work(channels), in parallel, for blocks of up to eight channels of one order: all of them,
-/// those of order 0 left out.
+/// Calls work(channels), in parallel, for blocks of up to eight channels of one order. All channels
+/// are covered, except those of order 0.
 void for_each_of_one_order(std::span<const SmoothingModel> models,
                            const std::function<void(const std::vector<std::size_t>&)>& work);
 

@@ -10,12 +10,12 @@
 namespace kinemend::signal {
 
 /// Writes the row at `frame` of the matrix extended by repeated point reflection at its ends: x[-k]
-/// = 2 x[0] - x[k], x[n+k] = 2 x[n] - x[n-k] with n = F - 1. `frame` is any; F >= 1.
+/// = 2 x[0] - x[k], x[n+k] = 2 x[n] - x[n-k] with n = F - 1. `frame` may have any value; F >= 1.
 void point_reflected_row(const PoseMatrix& matrix, std::ptrdiff_t frame, double* out);
 
-/// Visits windows of a matrix that is overwritten meanwhile: calls work(centre, first, count),
-/// where `centre` is row `first` in a copy of the input with `radius` point-reflected or original
-/// rows before and behind the `count` rows. `work` may write rows first to first + count - 1 of the
+/// Visits windows of a matrix that is being overwritten: calls work(centre, first, count), where
+/// `centre` is row `first` in a copy of the input with `radius` point-reflected or original rows
+/// before and after the `count` rows. `work` may write rows first to first + count - 1 of the
 /// matrix.
 template <class Work>
 void for_each_chunk(PoseMatrix& matrix, std::size_t radius, const Work& work) {

@@ -26,8 +26,8 @@ void symmetric_fir(PoseMatrix& matrix, const std::vector<double>& half_weights) 
 // By definition: Smooth Keys of Blender.
 constexpr double mean_weights[] = {2.0 / 12, 3.0 / 12, 2.0 / 12};  // at distance 0, 1 and 2
 
-// The frames next to the ends as Blender has them. The second neighbour before frame 2 is frame 0,
-// but Blender's test for it (index - 2 > 0) leaves it out.
+// The frames next to the ends as in Blender. The second neighbour before frame 2 is frame 0, but
+// Blender's test for it (index - 2 > 0) leaves it out.
 struct BlenderEnds {
   std::vector<std::pair<std::size_t, std::vector<double>>> rows;
 

@@ -1,4 +1,4 @@
-// Fourth differences of channels, which show noise and hardly any motion.
+// Fourth differences of channels, which contain the noise and hardly any motion.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace kinemend::signal {
 
-/// Frames before the one of a fourth difference that it needs. By definition.
+/// The number of earlier frames that a fourth difference needs. By definition.
 constexpr std::size_t fourth_difference_span = 4;
 /// Variance of the fourth difference of white noise of variance 1; that of motion is small. By
 /// definition: 1 + 16 + 36 + 16 + 1.

@@ -10,8 +10,9 @@ namespace kinemend {
 
 namespace {
 
-// The longest padding of a take that is shorter than its padding: the cost goes by the frames of a
-// take, whatever rate its file states. At 6 Hz it settles at any rate up to 1.1 kHz.
+// The longest padding of a take that is shorter than its padding. It bounds the cost by the frames
+// of a take, whatever rate its file states. A cutoff of 6 Hz settles within it at any rate up to
+// 1.1 kHz.
 constexpr std::size_t most_repeated_frames = 1024;
 
 // The steady state of a filter for the constant input `row`.
@@ -81,7 +82,7 @@ void CausalState::step(std::span<double> frame) {
     start_at_rest(sections_, frame.data(), channels_, memory_);
     started_ = true;
   }
-  // The message takes memory, which a frame that is as it should be must not.
+  // Only a frame of the wrong size may cost an allocation, for the message.
   if (frame.size() != channels_)
     throw Error(ErrorKind::usage, "a frame with another number of channels than the first");
   signal::filter_rows({frame.data(), static_cast<std::ptrdiff_t>(channels_), 1, channels_},

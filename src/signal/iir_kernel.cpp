@@ -11,8 +11,8 @@ HWY_BEFORE_NAMESPACE();
 namespace kinemend::signal::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Transposed direct form II over channels `begin` to `end` of one row, `sections` of them one after
-// the other while the sample is in a register. Memory: two rows a section.
+// Transposed direct form II over channels `begin` to `end` of one row, with `sections` of them in
+// sequence while the sample is in a register. Memory: two rows per section.
 template <std::size_t sections, class D>
 HWY_INLINE void filter_columns(D d, double* row, std::size_t begin, std::size_t end,
                                std::size_t channels, const Biquad* biquads, double* memory) {

@@ -40,8 +40,8 @@ void wavelet_synthesis_rows(const double* low, const double* high, std::size_t f
 /// Compare-and-exchange pairs that sort `width` values ascending.
 using SortingNetwork = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// out[t] = median of x[t - half_window .. t + half_window]; the network needs to sort no more than
-/// the median.
+/// out[t] = median of x[t - half_window .. t + half_window]; the network only needs to sort the
+/// median.
 void median_rows(const double* centre, std::size_t frames, std::size_t channels,
                  std::size_t half_window, const SortingNetwork& network, double* out);
 
@@ -49,8 +49,8 @@ struct Ranked {
   double value;
   double next;  ///< of the next higher rank; infinite at the end
 };
-/// The value that would stand at `rank` were the `count` values sorted. Overwrites `values` and
-/// `scratch`, which is as large.
+/// The value at `rank` if the `count` values were sorted. Overwrites `values` and `scratch`, which
+/// has the same size.
 Ranked select_rank(double* values, std::size_t count, std::size_t rank, double* scratch);
 
 }  // namespace kinemend::signal

@@ -13,16 +13,16 @@ namespace kinemend::signal {
 
 namespace {
 
-// Of the differences (docs/methods/auto-details.md, "Spikes").
+// Order of the differences (docs/methods/auto-details.md, "Spikes").
 constexpr std::size_t order = 2;
-// Rows of the fit that are computed at a time, which fit the L2 cache. For speed, not swept.
+// Rows of the fit that are computed at a time; they fit the L2 cache. For speed, not swept.
 constexpr std::size_t tile_frames = 2048;
 // Relative influence below which a difference is neglected: below the precision of a double. By
 // definition.
 constexpr double negligible = 1e-18;
 
-// Number of differences after which the influence of one is negligible: the rows of a factor that
-// has converged are a recursion with constant coefficients, which decays by its largest root.
+// Number of differences after which the influence of one is negligible: the rows of a converged
+// factor are a recursion with constant coefficients, which decays by its largest root.
 std::size_t memory_of(const SharedFactor& factor) {
   const std::size_t differences = factor.frames - order;
   const std::size_t rows = factor.inverse_diagonal.size();
@@ -39,7 +39,7 @@ std::size_t memory_of(const SharedFactor& factor) {
 }  // namespace
 
 LeaveOneOut::LeaveOneOut(std::size_t frames, double frame_rate_hz, const CutoffGrid& cutoffs) {
-  // A larger strength loses precision, as in `ModelGrid`; the weight keeps from a division by zero.
+  // A larger strength loses precision, as in `ModelGrid`; the weight prevents a division by zero.
   // Chosen by hand, not swept.
   constexpr double largest_strength = 1e10, least_weight = 1e-3;
   if (frames <= order + 1) return;
@@ -60,8 +60,8 @@ LeaveOneOut::LeaveOneOut(std::size_t frames, double frame_rate_hz, const CutoffG
   });
 }
 
-// The backward recursion of a tile starts as many differences behind it as influence it, so that
-// the tile stays in the cache.
+// The backward recursion of a tile starts only as many differences after it as influence it, so
+// that the tile stays in the cache.
 void LeaveOneOut::fit(std::size_t smoother, const LaneBlock& y, const FitVisitor& visit) const {
   const SharedRows factor = rows_of(factors_[smoother]);
   const std::size_t frames = y.frames, differences = frames - order;

@@ -33,14 +33,14 @@ class LeaveOneOut {
   LeaveOneOut(std::size_t frames, double frame_rate_hz, const CutoffGrid& cutoffs = {0.3, 30, 10});
 
   std::size_t smoothers() const noexcept { return factors_.size(); }
-  /// The weight of all other samples in the fit of each, F; at least a thousandth. A sample less
-  /// its fit, divided by it, is the error of its prediction.
+  /// The weight of all other samples in the fit of each, F; at least a thousandth. The prediction
+  /// error of a sample is the sample less its fit, divided by this weight.
   const std::vector<double>& weights_of_others(std::size_t smoother) const {
     return weights_[smoother];
   }
 
-  /// Of each track the smoother that predicts best: the least sum of squared errors, each limited
-  /// to the track's `caps`.
+  /// The smoother that predicts each track best: the least sum of squared errors, each limited to
+  /// the track's `caps`.
   std::array<std::size_t, lane_tracks> best_smoothers(const LaneBlock& y,
                                                       const BlockRow& caps) const;
 

@@ -16,7 +16,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<double, block_channels>;
 using Vector = hn::Vec<Tag>;
 
-// That of `LeaveOneOut`, by definition.
+// The order of `LeaveOneOut`, by definition.
 constexpr std::size_t order = 2;
 constexpr double coefficients[] = {1, -2, 1};
 
@@ -30,7 +30,7 @@ HWY_INLINE void put(Vector value, double* data, std::size_t row, std::size_t col
   hn::StoreU(value, Tag(), data + row * lane_row + column * hn::Lanes(Tag()));
 }
 
-// The row of the factor that serves a difference.
+// The row of the factor for a difference.
 HWY_INLINE std::size_t stored(const SharedRows& factor, std::size_t t) {
   return t < factor.stored - 1 ? t : factor.stored - 1;
 }

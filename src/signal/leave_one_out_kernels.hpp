@@ -15,13 +15,13 @@ namespace kinemend::signal {
 void lanes_forward(const SharedRows& factor, std::size_t first, std::size_t last, const double* y,
                    double* v, std::size_t v_first);
 /// u[t] = v[t] / pivot - sum_k L[t + k, t] u[t + k] from last - 1 down to first, as if there were
-/// no differences behind `last`; kept in `u`, whose first row is `first`, up to `kept`.
+/// no differences from `last` on; stored in `u`, whose first row is `first`, up to `kept`.
 void lanes_backward(const SharedRows& factor, std::size_t first, std::size_t kept, std::size_t last,
                     const double* v, std::size_t v_first, double* u);
 /// x[t] = y[t] - strength sum_k c[k] u[t - k] for frames [first, last), into rows of `x` from 0 on.
 void lanes_fit(const SharedRows& factor, std::size_t first, std::size_t last, const double* y,
                const double* u, std::size_t u_first, double* x);
-/// Adds up min(|(y - x) / weight|^2, cap) of each of eight tracks over `rows` rows.
+/// Sums min(|(y - x) / weight|^2, cap) of each of eight tracks over `rows` rows.
 void lanes_errors(std::size_t rows, const double* y, const double* x, const double* weight,
                   const double* caps, double* sums);
 

@@ -11,7 +11,7 @@ namespace kinemend {
 
 namespace {
 
-// The frames whose window exceeds the take: all of a short one.
+// Calls `work` for the frames whose window exceeds the take: all frames of a short one.
 template <class Work>
 void for_each_end_frame(std::size_t frames, std::size_t half_window, const Work& work) {
   const std::size_t first_end = std::min(half_window, frames);
@@ -46,7 +46,7 @@ PoseMatrix shrinking_medians(const PoseMatrix& matrix, std::size_t half_window) 
   return medians;
 }
 
-// Both ends at once, from the original values.
+// Applies Tukey's rule to both ends, from the original values.
 void end_point_rule(PoseMatrix& matrix) {
   const std::size_t last = matrix.frames - 1;
   for (std::size_t c = 0; c < matrix.channels; ++c) {
@@ -58,7 +58,7 @@ void end_point_rule(PoseMatrix& matrix) {
   }
 }
 
-// Frames with a complete window: `work(centre, first, count)` for each run of them inside a chunk.
+// Calls `work(centre, first, count)` for each run of frames with a complete window inside a chunk.
 template <class Work>
 void for_each_inner_chunk(PoseMatrix& matrix, std::size_t half_window, const Work& work) {
   if (matrix.frames <= 2 * half_window) return;

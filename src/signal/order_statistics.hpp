@@ -9,7 +9,7 @@
 
 namespace kinemend::signal {
 
-/// The mean of the two middle values for an even count, 0 for none.
+/// The median: the mean of the two middle values for an even count; 0 for no values.
 double median(std::span<const double> values);
 
 /// Calls work(channel, values) for each channel with a contiguous copy of rows `first` to `first +
@@ -18,7 +18,7 @@ double median(std::span<const double> values);
 template <class Work>
 void for_each_column(const double* rows, std::size_t count, std::size_t channels,
                      const Work& work) {
-  // Columns that are gathered at once: for speed, not swept.
+  // Columns that are copied at once: for speed, not swept.
   constexpr std::size_t block = 8;
   std::vector<double> columns(block * count);
   for (std::size_t first = 0; first < channels; first += block) {

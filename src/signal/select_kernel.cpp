@@ -29,7 +29,7 @@ HWY_INLINE Split split_at(double* values, std::size_t count, double pivot, doubl
   std::size_t i = 0;
   for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d)) {
     const auto value = hn::LoadU(d, values + i);
-    // A store may write a whole vector: at the front that is never further than what has been read.
+    // A store may write a whole vector: at the front it never passes what has been read.
     split.less += hn::CompressStore(value, hn::Lt(value, middle), d, values + split.less);
     split.greater += hn::CompressStore(value, hn::Gt(value, middle), d, greater + split.greater);
   }

@@ -28,8 +28,8 @@ HWY_INLINE Vector difference_at(const double* y, std::size_t t) {
   return sum;
 }
 
-// Differences [first, last) of one vector of columns. `sums` and `before` (order rows) are those of
-// the first model; both continue over models and calls.
+// Adds differences [first, last) of one vector of columns. `sums` and `before` (order rows) are
+// those of the first model; both continue over models and calls.
 template <std::size_t order, std::size_t models>
 HWY_INLINE void add_residuals(const SharedRows* factors, std::size_t first, std::size_t last,
                               const double* y, double* sums, double* before) {

@@ -7,7 +7,7 @@ namespace kinemend::signal {
 
 /// Batcher's odd-even merge sort for any width.
 SortingNetwork sorting_network(std::size_t width);
-/// Those of its exchanges on which the middle value depends.
+/// The exchanges of that network on which the middle value depends.
 SortingNetwork median_network(std::size_t width);
 
 }  // namespace kinemend::signal

@@ -5,12 +5,11 @@
 
 namespace kinemend {
 
-/// Eigenvalues, ascending, and the orthonormal eigenvectors of a symmetric N x N matrix, of which
-/// the lower half is read. Compiled once: the solver's templates are among the largest of the
-/// library.
+/// Eigenvalues, ascending, and the orthonormal eigenvectors of a symmetric N x N matrix; only its
+/// lower half is read. Compiled once: the solver's templates are among the largest of the library.
 struct SymmetricEigen {
   Eigen::VectorXd values;   ///< N
-  Eigen::MatrixXd vectors;  ///< N x N, one a column
+  Eigen::MatrixXd vectors;  ///< N x N, one per column
 };
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
 

@@ -17,7 +17,8 @@ namespace {
 
 using signal::CoefficientRange;
 
-// While the coarsest level has as many coefficients as the filter is long; at least one level.
+// The most levels at which the coarsest has about as many coefficients as the filter has taps; at
+// least one level.
 int automatic_levels(std::size_t frames, std::size_t filter_length) {
   int levels = 0;
   std::size_t length = frames;
@@ -34,7 +35,7 @@ double universal_threshold(std::size_t count) {
 
 // SureShrink's threshold for coefficients in units of the noise (Donoho & Johnstone 1995, eq. 11
 // and section 2.4). Stein's estimate of the risk at the k-th smallest square s_k is n - 2 (k + 1) +
-// sum_{i<=k} s_i + (n - 1 - k) s_k. Where the mean square barely exceeds that of the noise, the
+// sum_{i<=k} s_i + (n - 1 - k) s_k. If the mean square barely exceeds that of the noise, the
 // variance of the estimate is too large, and the universal threshold is used.
 double sure_threshold(std::span<double> coefficients) {
   const std::size_t count = coefficients.size();

@@ -50,7 +50,7 @@ void wavelet_analysis_rows(const double* x, std::size_t count, std::size_t chann
   }
 }
 
-// Every second tap, from `tap` down, on neighbouring rows of both bands.
+// Uses every second tap, from `tap` down, on neighbouring rows of both bands.
 template <std::size_t vectors, class D>
 HWY_INLINE std::size_t synthesis_columns(D d, const double* low, const double* high,
                                          std::size_t tap, std::size_t begin, std::size_t channels,
@@ -84,8 +84,7 @@ void wavelet_synthesis_rows(const double* low, const double* high, std::size_t f
   const hn::ScalableTag<double> wide;
   const hn::CappedTag<double, 1> narrow;
   for (std::size_t t = 0; t < frames; ++t, out += channels) {
-    // Row t is reached from coefficient t / 2 on: by tap L - 2 for an even row, L - 1 for an odd
-    // one.
+    // Row t starts at coefficient t / 2: with tap L - 2 if t is even, L - 1 if it is odd.
     const std::size_t tap = h.size() - 2 + t % 2;
     const std::size_t offset = t / 2 * channels;
     std::size_t c =

@@ -19,7 +19,7 @@ std::vector<double> mirror_filter(std::span<const double> h) {
   return g;
 }
 
-// Rows -(L - 2) to the last one that a kept coefficient's filter covers.
+// Rows from -(L - 2) to the last one that the filter of a kept coefficient covers.
 std::vector<double> extended_rows(const PoseMatrix& matrix, std::size_t before, std::size_t total) {
   std::vector<double> rows(total * matrix.channels);
   std::copy(matrix.values.begin(), matrix.values.end(),

@@ -9,23 +9,23 @@
 
 namespace kinemend::signal {
 
-/// A wavelet transform of all channels. Each level continues its input of n rows by point
-/// reflection and keeps every coefficient whose filter touches a row: floor((n + L - 1) / 2) of
-/// each band, so that the inverse is exact.
+/// A wavelet transform of all channels. Each level extends its input of n rows by point reflection
+/// and keeps every coefficient whose filter touches a row: floor((n + L - 1) / 2) of each band, so
+/// that the inverse is exact.
 struct WaveletTransform {
   std::vector<PoseMatrix> details;  ///< finest first
   PoseMatrix smooth;
-  std::vector<std::size_t> lengths;  ///< rows that went into each level
+  std::vector<std::size_t> lengths;  ///< input rows of each level
 };
 
 WaveletTransform forward_transform(const PoseMatrix& matrix, std::span<const double> scaling_filter,
                                    int levels);
-/// Writes the inverse into `matrix`, which has the original size.
+/// Writes the inverse to `matrix`, which has the original size.
 void inverse_transform(WaveletTransform transform, std::span<const double> scaling_filter,
                        PoseMatrix& matrix);
 
-/// The coefficients of one level whose filters lie inside the n input rows; all of them if none
-/// does.
+/// The coefficients of one level whose filters lie inside the n input rows; all of them if there
+/// are none.
 struct CoefficientRange {
   std::size_t first;
   std::size_t count;

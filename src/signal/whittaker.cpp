@@ -178,7 +178,7 @@ void WeightedSystem::difference_variances(ChannelBlock& variances) {
 
 BlockRow WeightedSystem::log_determinants() const {
   // Not swept.
-  constexpr std::size_t together = 16;  // pivots whose product is far from what a number can hold
+  constexpr std::size_t together = 16;  // pivots whose product is far from overflow and underflow
   BlockRow result{};
   for (std::size_t first = 0; first < frames_; first += together) {
     BlockRow product;

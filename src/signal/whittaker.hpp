@@ -50,7 +50,7 @@ constexpr std::array<double, largest_order + 1> difference_coefficients(std::siz
 /// (up to 1/2): (2 sin(pi cutoff))^(-2 order).
 double strength_of_cutoff(double cutoff, std::size_t order);
 
-/// Cutoffs in equal ratios.
+/// Cutoffs spaced by equal ratios.
 struct CutoffGrid {
   double lowest_hz, highest_hz;
   std::size_t count;  ///< at least 2
@@ -77,8 +77,8 @@ struct SharedFactor {
 SharedFactor factor_shared(std::size_t frames, std::size_t order, double strength);
 /// x = A^-1 y with A = I + strength (D^d)^T D^d; returns y^T (I - A^-1) y of each channel.
 BlockRow solve_shared(const SharedFactor& factor, const ChannelBlock& y, ChannelBlock& x);
-/// What `solve_shared` returns of each of these factors, without their solutions. Factors of one
-/// order are adjacent.
+/// The results of `solve_shared` for each of these factors, without their solutions. Factors of one
+/// order must be adjacent.
 std::vector<BlockRow> shared_residuals(std::span<const SharedFactor> factors,
                                        const ChannelBlock& y);
 /// The diagonal of I - A^-1, F values: the weight of all other samples in the fit of each.
@@ -96,9 +96,9 @@ class WeightedSystem {
   /// `weight`: F rows, not negative, at least `order` of them positive; `penalty`: F - order rows,
   /// positive.
   void factor(const ChannelBlock& weight, const ChannelBlock& penalty);
-  /// Sets `x` to A^-1 (weight y) by one step of iterative refinement from any values: it adds A^-1
-  /// (weight (y - x) - (D^d)^T penalty D^d x), whose rounding error is relative to the error of
-  /// `x`. `scratch`: F rows.
+  /// Sets `x` to A^-1 (weight y) by one step of iterative refinement from any initial values: it
+  /// adds A^-1 (weight (y - x) - (D^d)^T penalty D^d x), whose rounding error is relative to the
+  /// error of `x`. `scratch`: F rows.
   void refine(const ChannelBlock& weight, const ChannelBlock& penalty, const ChannelBlock& y,
               ChannelBlock& x, ChannelBlock& scratch);
   /// The posterior variance of each difference, diag(D^d A^-1 (D^d)^T): F - order rows.

@@ -61,7 +61,7 @@ HWY_INLINE void solve_shared_column(const SharedRows& factor, const double* y, d
     }
     hn::StoreU(value, d, at(x, t));
   }
-  // y less the weighted differences, from the last frame to the first.
+  // Subtracts the weighted differences from y, from the last frame to the first.
   const auto strength = hn::Set(d, factor.strength);
   for (std::size_t t = factor.frames; t-- > 0;) {
     auto sum = hn::Zero(d);
@@ -141,7 +141,7 @@ HWY_INLINE void refine_column(const WeightedRows& rows, const double* weight, co
     return hn::LoadU(Tag(), data + t * block_channels + column);
   };
   const std::size_t differences = rows.frames - order;
-  // penalty D x, for the frames that the next row of (D^d)^T meets; the newest first.
+  // penalty D x, for the frames that the next row of (D^d)^T needs; the newest first.
   decltype(hn::Zero(d)) recent[order + 1];
   for (auto& value : recent) value = hn::Zero(d);
   for (std::size_t t = 0; t < rows.frames; ++t) {
@@ -181,8 +181,8 @@ void refine_weighted_rows(const WeightedRows& rows, const double* weight, const 
   });
 }
 
-// Takahashi's recursion: the band of A^-1 from its factor, from the last row up, of which the last
-// order + 1 rows give the variance of a difference.
+// Takahashi's recursion: the band of A^-1 from its factor, from the last row up. The last order + 1
+// rows of it give the variance of a difference.
 template <std::size_t order>
 HWY_INLINE void variance_column(const WeightedRows& rows, double* variances, std::size_t column) {
   const Tag d;

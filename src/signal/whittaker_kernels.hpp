@@ -15,7 +15,7 @@ struct SharedRows {
   double strength;
   const double* lower;             ///< R x order
   const double* inverse_diagonal;  ///< R
-  std::size_t stored;              ///< R: the last row holds for all that follow
+  std::size_t stored;              ///< R: the last row serves all that follow
 };
 SharedRows rows_of(const SharedFactor& factor);
 void solve_shared_rows(const SharedRows& factor, const double* y, double* x, double* residuals);
@@ -30,7 +30,7 @@ struct WeightedRows {
   std::size_t order;
   double* diagonal;                  ///< F x 8
   double* lower[3];                  ///< order of F x 8
-  const double* coupling = nullptr;  ///< F x 8, as `WeightedSystem` has it; nullptr: none
+  const double* coupling = nullptr;  ///< F x 8, as of `WeightedSystem`; nullptr: none
 };
 void factor_weighted_rows(const WeightedRows& rows, const double* weight, const double* penalty);
 void refine_weighted_rows(const WeightedRows& rows, const double* weight, const double* penalty,

@@ -1,4 +1,4 @@
-// Files as the system has them. One source file for each system; nothing else calls the system.
+// Files of the operating system. Each system has one source file; nothing else calls the system.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,17 @@ namespace kinemend::platform {
 // The standard streams' numbers, on every system.
 constexpr int standard_input = 0, standard_output = 1, standard_error = 2;
 
-// Every function below that can fail returns -1 or false and leaves the reason in `errno`. Files
-// are opened for bytes: no line end is translated. No child process inherits them.
+// Every function below that can fail returns -1 or false and sets `errno`. Files are opened in
+// binary mode: line ends are not translated. Child processes do not inherit them.
 
-/// The number of an open file. A folder has the reason EISDIR where the system does not open one.
+/// Returns the number of an open file. For a folder `errno` is EISDIR if the system does not open
+/// one.
 int open_to_read(const std::filesystem::path& path);
-/// An existing file, or a device.
+/// Opens an existing file, or a device.
 int open_to_write(const std::filesystem::path& path);
 bool close_file(int file);
 
-/// Reads at most `most` bytes. Returns how many there were; 0: the end.
+/// Reads at most `most` bytes. Returns their number; 0: the end.
 std::ptrdiff_t read_some(int file, char* bytes, std::size_t most);
 /// Writes all bytes.
 bool write_all(int file, std::string_view bytes);
@@ -34,19 +35,19 @@ enum class FileKind : std::uint8_t { none, regular, folder, other };
 struct FileFacts {
   FileKind kind = FileKind::none;
   std::uint64_t size = 0;  // bytes
-  // What a file that replaces this one takes over, where the system has it.
+  // Properties that a replacement of this file keeps, if the system has them.
   std::uint32_t mode = 0, owner = 0, group = 0;
 };
-/// `FileKind::none` with `errno` where it cannot be asked. Symlinks are followed.
+/// Returns `FileKind::none` with `errno` on failure. Symlinks are followed.
 FileFacts facts_of(int file);
 FileFacts facts_of(const std::filesystem::path& path);
 /// Whether the user may write to an existing file.
 bool may_write(const std::filesystem::path& path);
 
-/// A new file in `folder` that is gone once it is closed, however the program ends.
+/// Creates a file in `folder` that disappears once it is closed, however the program ends.
 int nameless_file(const std::string& folder);
 
-/// The words for an error number, the same on every system for the common ones.
+/// The text for an error number, the same on every system for the common ones.
 std::string words_of(int error_number);
 
 }  // namespace kinemend::platform

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int for_bytes = _O_BINARY | _O_NOINHERIT;
-constexpr std::size_t most_at_once = std::size_t{1} << 30;  // counts are of 31 bits
+constexpr std::size_t most_at_once = std::size_t{1} << 30;  // counts have 31 bits
 
 bool is_folder(const fs::path& path) {
   const DWORD attributes = ::GetFileAttributesW(long_path(path).c_str());
@@ -75,7 +75,7 @@ std::ptrdiff_t read_some(int file, char* bytes, std::size_t most) {
 }
 
 bool write_all(int file, std::string_view bytes) {
-  // A console takes no more than 32,767 bytes at a time.
+  // A console takes at most 32,767 bytes at a time.
   const std::size_t most = ::_isatty(file) != 0 ? 8192 : most_at_once;
   while (!bytes.empty()) {
     const int count =

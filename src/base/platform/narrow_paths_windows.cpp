@@ -1,6 +1,6 @@
-// Paths from narrow strings are UTF-8 on Windows. The standard library of GCC turns a wide path
-// into UTF-8, but reads a narrow one byte by byte where no locale is set; the linker puts this
-// function in the place of the one that does so (--wrap, see CMakeLists.txt).
+// Paths from narrow strings are UTF-8 on Windows. The standard library of GCC converts a wide path
+// to UTF-8, but reads a narrow one byte by byte if no locale is set; the linker replaces that
+// function by this one (--wrap, see CMakeLists.txt).
 #if defined(_WIN32) && defined(__GNUC__)
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +14,8 @@ struct Decoded {
   std::size_t bytes = 1;
 };
 
-// A byte that begins no letter of UTF-8 stands for itself, so that every string is a path.
+// A byte that starts no valid UTF-8 character is taken as a character itself, so that every string
+// is a path.
 Decoded decoded(const char* from, const char* end) {
   const auto byte = [&](std::size_t i) -> std::uint32_t {
     return static_cast<unsigned char>(from[i]);
@@ -38,7 +39,7 @@ Decoded decoded(const char* from, const char* end) {
 
 }  // namespace
 
-// In the place of std::codecvt<wchar_t, char, std::mbstate_t>::do_in.
+// Replaces std::codecvt<wchar_t, char, std::mbstate_t>::do_in.
 extern "C" std::codecvt_base::result __wrap__ZNKSt7codecvtIwciE5do_inERiPKcS3_RS3_PwS5_RS5_(
     const void* /*self*/, std::mbstate_t& /*state*/, const char* from, const char* end,
     const char*& next, wchar_t* to, wchar_t* to_end, wchar_t*& to_next) {

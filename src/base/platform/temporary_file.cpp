@@ -1,4 +1,4 @@
-// What temporary files have in common on all systems: their names and their errors.
+// The parts of temporary files that all systems share: their names and their errors.
 #include "base/platform/temporary_file.hpp"
 
 #include <fmt/format.h>

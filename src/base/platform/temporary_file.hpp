@@ -1,4 +1,4 @@
-// A new file beside its target, which it then replaces as a whole.
+// Writes a new file beside its target and then replaces the target as a whole.
 #pragma once
 
 #include <filesystem>
@@ -10,10 +10,9 @@
 
 namespace kinemend::platform {
 
-/// A new file in the target's folder that vanishes again unless it is given its final name. Where
-/// the file system can do it, the file has no name at all until it is whole: then nothing is left
-/// of a process that is killed. Errors of every function: `ErrorKind::cannot_write`, naming the
-/// target.
+/// A new file in the target's folder that is deleted unless it gets its final name. If the file
+/// system supports it, the file has no name until it is complete: then a killed process leaves
+/// nothing behind. Errors of every function: `ErrorKind::cannot_write`, naming the target.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::filesystem::path& target);
@@ -21,20 +20,20 @@ class TemporaryFile {
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-  /// Owner and group are taken over only where the user may give them away. On Windows the
-  /// replacement itself keeps attributes and access rights.
+  /// Owner and group are copied only if the user may set them. On Windows the replacement itself
+  /// keeps attributes and access rights.
   void take_permissions(const FileFacts& old);
   /// Writes all bytes and flushes them to the disk.
   void fill(std::string_view bytes);
-  /// Takes the place of the target, whether that exists or not.
+  /// Replaces the target, whether it exists or not.
   void replace_target();
-  /// Fails where the target exists, also when it appeared a moment ago.
+  /// Fails if the target exists, even if it has just appeared.
   void become_target();
 
  private:
   int open_unnamed() const;
   int open_named();
-  /// -1 with `errno` where it cannot be made, or exists already.
+  /// Returns -1 with `errno` if the file cannot be created or exists already.
   static int open_new(const std::filesystem::path& path);
   bool link_to(const std::filesystem::path& name) const;
   bool name_it();
@@ -54,7 +53,7 @@ class TemporaryFile {
 [[noreturn]] void fail_writing(const std::filesystem::path& path, std::string_view why);
 [[noreturn]] void fail_writing(const std::filesystem::path& path, int error_number);
 
-/// Flushes a folder, so that the name of a new file in it is not lost with the power.
+/// Flushes a folder, so that a power failure does not lose the name of a new file in it.
 void flush_folder_of(const std::filesystem::path& file);
 
 }  // namespace kinemend::platform

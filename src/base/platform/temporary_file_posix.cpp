@@ -38,11 +38,11 @@ void TemporaryFile::take_permissions(const FileFacts& old) {
 
 void TemporaryFile::fill(std::string_view bytes) {
   const int descriptor = file_->get();
-  // Some file systems cannot flush; then a plain close has to do.
+  // Some file systems cannot flush; then a plain close must suffice.
   const bool written =
       write_all(descriptor, bytes) && (::fsync(descriptor) == 0 || errno == EINVAL);
   if (!written) fail_writing(target_, errno);
-  // An unnamed file is gone once it is closed.
+  // An unnamed file disappears when it is closed.
   if (!path_.empty() && !file_->close()) fail_writing(target_, errno);
 }
 
@@ -52,7 +52,7 @@ void TemporaryFile::replace_target() {
   path_.clear();
 }
 
-// A link fails where the name is taken, also when it was taken a moment ago.
+// A link fails if the name exists, even if it has just appeared.
 void TemporaryFile::become_target() {
   const bool linked =
       path_.empty() ? link_to(target_) : ::link(path_.c_str(), target_.c_str()) == 0;
@@ -64,7 +64,7 @@ void TemporaryFile::become_target() {
 int TemporaryFile::open_unnamed() const {
 #ifdef O_TMPFILE
   const int descriptor = ::open(folder_.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
-  // Without /proc, as in a bare root, it could never be given a name.
+  // Without /proc, as in a bare root, the file could never get a name.
   if (descriptor < 0 || ::access(link_of(descriptor).c_str(), F_OK) == 0) return descriptor;
   ::close(descriptor);
 #endif
@@ -75,7 +75,7 @@ int TemporaryFile::open_new(const fs::path& path) {
   return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
 }
 
-// False with errno set. By way of /proc, which needs no privilege.
+// Returns false with errno set. Links by way of /proc, which needs no privilege.
 bool TemporaryFile::link_to(const fs::path& name) const {
   return ::linkat(AT_FDCWD, link_of(file_->get()).c_str(), AT_FDCWD, name.c_str(),
                   AT_SYMLINK_FOLLOW) == 0;

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A scanner of viruses may hold a file for a moment that was just written.
+// A virus scanner may hold a newly written file for a moment.
 bool with_patience(const auto& action) {
   // Half a second. Chosen by hand, not swept.
   constexpr int most_waits = 20;
@@ -52,7 +52,7 @@ TemporaryFile::TemporaryFile(const fs::path& target) : target_(target) {
   file_.emplace(open_named());
 }
 
-// Windows removes no file that is open.
+// Windows does not delete an open file.
 TemporaryFile::~TemporaryFile() {
   if (path_.empty()) return;
   file_.reset();
@@ -88,7 +88,7 @@ int TemporaryFile::open_new(const fs::path& path) {
 
 long TemporaryFile::process_number() { return ::_getpid(); }
 
-// The move has written through.
+// The move has already been written to disk.
 void flush_folder_of(const fs::path& /*file*/) {}
 
 }  // namespace kinemend::platform

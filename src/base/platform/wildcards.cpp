@@ -1,4 +1,4 @@
-// Matches patterns by going back to the last asterisk.
+// Matches patterns by backtracking to the last asterisk.
 #include "kinemend/experimental/wildcards.hpp"
 
 #ifdef __GLIBC__
@@ -27,7 +27,7 @@ struct CharacterClass {
   bool (*holds)(char);
 };
 
-// Those of the locale "C".
+// The character classes of the locale "C".
 constexpr CharacterClass classes[] = {
     {"alnum", is_alnum},
     {"alpha", is_alpha},
@@ -47,7 +47,7 @@ struct Step {
   std::size_t length = 1;  // of the pattern
 };
 
-// Where "[:name:]" ends that begins at `place`, and the class; none where it is no class.
+// The end of "[:name:]" that begins at `place`, and the class; none if there is no such class.
 std::optional<std::pair<std::size_t, const CharacterClass*>> class_at(std::string_view pattern,
                                                                       std::size_t place) {
   if (pattern.substr(place, 2) != "[:") return std::nullopt;
@@ -60,14 +60,14 @@ std::optional<std::pair<std::size_t, const CharacterClass*>> class_at(std::strin
   return std::pair(end + 2, found);
 }
 
-// One character of a set, after a backslash as well. Moves `place` behind it.
+// One character of a set, possibly after a backslash. Moves `place` past it.
 std::optional<char> member_at(std::string_view pattern, std::size_t& place) {
   if (place < pattern.size() && pattern[place] == '\\') ++place;
   if (place >= pattern.size()) return std::nullopt;
   return pattern[place++];
 }
 
-// A set begins at `begin`. None where it has no end: then the bracket stands for itself.
+// The match of the set that begins at `begin`. None if it has no end: the bracket is then literal.
 std::optional<Step> set_step(std::string_view pattern, std::size_t begin, char c) {
   std::size_t place = begin + 1;
   const bool excludes = place < pattern.size() && (pattern[place] == '!' || pattern[place] == '^');
@@ -95,7 +95,7 @@ std::optional<Step> set_step(std::string_view pattern, std::size_t begin, char c
   return Step{fits != excludes, place + 1 - begin};
 }
 
-// Whether the pattern's next piece, which is no asterisk, fits the character.
+// Whether the next element of the pattern, other than an asterisk, matches the character.
 Step step_at(std::string_view pattern, std::size_t place, char c) {
   if (pattern[place] == '?') return {true, 1};
   if (pattern[place] == '[') {

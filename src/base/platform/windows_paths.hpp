@@ -1,4 +1,4 @@
-// Paths and errors as the functions of Windows want and give them.
+// Converts paths and errors for the functions of Windows.
 #pragma once
 
 #include <filesystem>
@@ -6,9 +6,9 @@
 
 namespace kinemend::platform {
 
-/// A path that may be longer than 260 characters, also where Windows is not set up for long paths.
+/// A path that may be longer than 260 characters, even if Windows is not set up for long paths.
 std::wstring long_path(const std::filesystem::path& path);
-/// Puts the last error of Windows into `errno`. Returns false.
+/// Sets `errno` from the last error of Windows. Returns false.
 bool fail_with_last_error();
 
 }  // namespace kinemend::platform

@@ -8,7 +8,7 @@ namespace kinemend {
 
 namespace {
 
-// Degrees: a histogram from -720 to 720, which two turns either way do not leave. Not swept.
+// Degrees: the histogram covers -720 to 720, which two turns either way do not leave. Not swept.
 constexpr double farthest = 720;
 constexpr double bin_width = 0.25;
 constexpr std::size_t bins = 5760;

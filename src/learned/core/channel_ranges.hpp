@@ -1,5 +1,4 @@
-// Collects the values of channels over many takes and answers which value a share of them stays
-// below.
+// Collects the values of channels over many takes and finds their quantiles.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +15,7 @@ class ChannelRanges {
 
   void add(const PoseMatrix& poses, double weight = 1);
   /// The value that `share` (0..1) of the channel's values do not exceed, to a quarter degree and
-  /// within +-720 degrees; 0 where there were none.
+  /// within +-720 degrees; 0 for a channel without values.
   double quantile(std::size_t channel, double share) const;
 
  private:

@@ -17,27 +17,27 @@ namespace kinemend {
 
 namespace {
 
-// Noise of a channel at least, degrees. Chosen by hand, not swept.
+// Lowest noise of a channel, degrees. Chosen by hand, not swept.
 constexpr double least_error_deg = 0.05;
 constexpr double least_variance = 1e-6;  // square degrees: less is rounding
-// What the bases leave of a take over what they leave of the training is its strangeness; samples
-// of a lower weight count as missing. Least strangeness is that of the training by definition; the
-// others are chosen by hand, not swept.
+// Strangeness is the take's residual outside the bases divided by that of the training, so its
+// minimum is 1 by definition. Samples of a lower weight count as missing. The other values are
+// chosen by hand, not swept.
 constexpr double least_strangeness = 1;
 constexpr double least_rest_weight = 0.01;
 constexpr double known_motion = 1.5, unknown_motion = 5;  // strangeness
-// Median of what the filter leaves of the measurements within this time, in deviations of the
-// noise. Of 25 samples of noise it is within a quarter of one, whatever a few outliers do; of 15, a
-// fifth of outliers are seldom half. Chosen by hand, not swept.
+// The bias is the running median of the filter's residuals over this time, in deviations of the
+// noise. With 25 noise samples it stays within a quarter of a deviation, whatever a few outliers
+// do; with 15, a fifth of outliers are seldom half. Chosen by hand, not swept.
 constexpr double window_s = 0.2;
-// Frames of that window on either side at least; the bias at which `auto` begins to take over and
-// at which it has; channels of a joint. Chosen by hand, not swept.
+// Minimum of that window's frames on either side; the bias at which `auto` begins to take over and
+// at which it has taken over; channels of a joint. Chosen by hand, not swept.
 constexpr double least_half_window = 7;
 constexpr double believable_bias = 1, unbelievable_bias = 2;
 constexpr std::size_t part_channels = 3;
 
-// Mean of the squares without the largest tenth, and what a Gaussian variance of 1 makes of it. The
-// share is chosen by hand, not swept. By definition it makes 0.623 of it; the figures were measured
+// Mean of the squares without the largest tenth, and its value for a Gaussian variance of 1. The
+// share is chosen by hand, not swept. By definition the value is 0.623; the figures were measured
 // with 0.64.
 constexpr double trimmed_share = 0.9, trimmed_of_one = 0.64;
 double trimmed_mean(std::vector<double>& squares) {
@@ -49,8 +49,8 @@ double trimmed_mean(std::vector<double>& squares) {
   return sum / static_cast<double>(kept);
 }
 
-// Where a part was measured, `share_at(frame)` of what `auto` makes of it takes the place of what
-// is there. Returns how much that is, over frames.
+// Moves a part's measured samples towards `auto`'s result by `share_at(frame)`. Returns the mean
+// share over frames.
 template <class Shares>
 double blend_part(const PriorWork& work, std::size_t part, const Shares& share_at,
                   PoseMatrix& cleaned) {
@@ -113,12 +113,12 @@ void smooth_rest(const PriorWork& work, const PoseMatrix& weights, const PoseMat
     const double weight = work.channels.observed[i] != 0 ? weights.values[i] : 0.0;
     const double measured = weight > 0 ? work.channels.poses.values[i] : 0.0;
     rest.values[i] = weight * measured + (1 - weight) * cleaned.values[i] - expressed.values[i];
-    // In a gap there is nothing outside of what the bases express; a curve that crosses it freely
-    // would be no better than one without bases.
+    // Gaps get no motion outside the bases: a free curve through the gap would be no better than
+    // one without bases.
     missing[i] = work.channels.observed[i] != 0 && weight < least_rest_weight ? 1 : 0;
     seen[i % rest.channels] += missing[i] == 0 ? 1 : 0;
   }
-  // Of a channel that is mostly rejected the filter's result is all there is.
+  // For a mostly rejected channel only the filter's result is available.
   for (std::size_t i = 0; i < missing.size(); ++i) {
     if (2 * seen[i % rest.channels] < rest.frames) missing[i] = 0;
   }

@@ -1,4 +1,4 @@
-// Treats what a take does that the learned bases do not express: it is smoothed, or left to `auto`.
+// Treats motion that the learned bases do not express: it is smoothed, or left to `auto`.
 #pragma once
 
 #include <vector>
@@ -7,30 +7,31 @@
 
 namespace kinemend {
 
-/// Standard deviation of each channel's noise (D, degrees, at least 0.05): as `auto` measures it;
-/// of channels about which nothing is known the typical one.
+/// Standard deviation of each channel's noise (D, degrees, at least 0.05) as `auto` measures it;
+/// channels without a measured noise get the typical one.
 std::vector<double> example_noise(const PriorWork& work);
 
-/// How many times as much of the take lies outside of the bases as of the clips that they were
-/// learned from: mean squares of `guess` less `expressed`, what the bases make of it, without the
+/// How many times as much of the take lies outside the bases as of the clips that they were learned
+/// from: mean squares of `guess` less `expressed` (the part that the bases express), without the
 /// noise, over those in training (`residual`, D, cross-validated). At least 1.
 double strangeness(const PriorWork& work, const PoseMatrix& guess, const PoseMatrix& expressed,
                    const std::vector<double>& noise, const std::vector<double>& residual);
 
-/// Motion outside of the bases is smooth, too: what is measured less what the bases express is
-/// smoothed by its own evidence, without the samples that the filter rejected (`weights`, F x D),
-/// and added to what the bases express. `cleaned` is the filter's result, `expressed` what the
-/// bases express of it.
+/// Smooths the motion outside the bases, which is smooth, too: the measurements less the part that
+/// the bases express are smoothed by their own evidence, without the samples that the filter
+/// rejected (`weights`, F x D), and added to that part. `cleaned` is the filter's result,
+/// `expressed` the part of it that the bases express.
 void smooth_rest(const PriorWork& work, const PoseMatrix& weights, const PoseMatrix& expressed,
                  const std::vector<double>& noise, PoseMatrix& cleaned);
 
-/// The stranger the take, the more of what `auto` made of its measurements: none of it below a
-/// strangeness of 1.5, nothing else from 5 on. Gaps stay as the bases fill them.
+/// Replaces measured samples by `auto`'s result, the more the stranger the take: not at all below a
+/// strangeness of 1.5, wholly from 5 on. Gaps keep the fill of the bases.
 void fall_back(PriorWork& work, double strangeness, PoseMatrix& cleaned);
 
-/// What is measured scatters about the motion: where the median of what the filter leaves of a part
-/// within a fifth of a second (15 frames at least) is far from zero, the motion is the bases', not
-/// the take's. From a deviation of the noise on it becomes what `auto` made of it, wholly at two.
+/// Falls back to `auto` where the filter is biased. Measurements scatter about the true motion:
+/// where the median of a part's residuals within a fifth of a second (15 frames at least) is far
+/// from zero, the motion is the bases', not the take's. `auto` begins to replace the part at one
+/// deviation of the noise and has replaced it at two.
 void fall_back_where_biased(PriorWork& work, const std::vector<double>& noise, PoseMatrix& cleaned);
 
 }  // namespace kinemend

@@ -53,7 +53,7 @@ EigenPairs leading_pairs(const MatrixView& matrix, Eigen::Index count, double to
   return {solver.eigenvalues(), solver.eigenvectors(count)};
 }
 
-// Number of pairs to return; all where they do not reach the energy.
+// Number of pairs to return; all of them if they do not reach the energy.
 Eigen::Index wanted_count(const EigenPairs& pairs, double energy, bool& reached) {
   double sum = 0;
   for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {

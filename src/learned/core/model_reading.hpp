@@ -15,16 +15,16 @@ namespace kinemend {
 /// The methods whose models a reader knows.
 struct KnownMethods {
   std::span<const LearnedMethod> methods;
-  bool are_all = true;  ///< a model of another method is refused; else it is read as it stands
+  bool are_all = true;  ///< reject models of other methods; false: read them unchecked
 };
 
-/// As `parse_model`. Errors: as there; the version of a model of an unknown method is not checked.
+/// Like `parse_model`, with its errors; the version of a model of an unknown method is not checked.
 Model parse_model_of(std::string_view bytes, std::string_view name, const KnownMethods& known);
 
-/// As `shipped_model`, by the entry of the method.
+/// Like `shipped_model`, by the entry of the method.
 std::shared_ptr<const Model> shipped_model_of(const LearnedMethod& method);
 
-/// As `model_for`, by the entry of the method.
+/// Like `model_for`, by the entry of the method.
 std::shared_ptr<const Model> model_of(const LearnedMethod& method, const std::string& path,
                                       std::shared_ptr<const Model> given = nullptr);
 

@@ -37,7 +37,7 @@ std::vector<float> mirrored(const std::vector<float>& values, const BodyMirror& 
   for (std::size_t i = 0; i < values.size() / 3; ++i) {
     const std::size_t n = i % tracks;
     const float* v = &values[3 * (i - n + mirror.partners[n])];
-    // Left is x: a position changes that, an axis of rotation the two others.
+    // The mirror flips x: it negates x of a position, and y and z of a rotation axis.
     const float sign = n < mirror.turns ? 1.0F : -1.0F;
     float* w = &result[3 * i];
     w[0] = sign * v[0], w[1] = -sign * v[1], w[2] = -sign * v[2];

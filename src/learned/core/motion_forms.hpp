@@ -10,12 +10,12 @@ namespace kinemend {
 
 /// How tracks look in a mirror.
 struct BodyMirror {
-  std::vector<std::size_t> partners;  ///< of each track (with the place) which one it is there
-  std::size_t turns = 0;              ///< tracks that turn; behind them are positions
+  std::vector<std::size_t> partners;  ///< each track's counterpart in the mirror (with the place)
+  std::size_t turns = 0;              ///< number of tracks that turn; positions follow them
 };
 
-/// By Left and Right, or L and R, before the names; a track without a partner, or whose partner has
-/// another, is its own.
+/// Pairs tracks by the prefixes Left and Right, or L and R, of their names; a track without a
+/// partner, or whose partner has another, is its own.
 BodyMirror mirror_of(const BodyLayout& layout);
 
 struct MotionForm {
@@ -23,7 +23,7 @@ struct MotionForm {
   bool is_reversed = false;
 };
 
-/// Values (F x D) in that form; once more, and they are themselves. In the mirror exact where the
+/// Values (F x D) in that form; applying it twice restores them. The mirror is exact if the
 /// references of the layout are symmetrical.
 std::vector<float> in_form(const std::vector<float>& values, MotionForm form,
                            const BodyMirror& mirror);

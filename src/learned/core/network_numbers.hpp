@@ -1,4 +1,4 @@
-// What readers of networks ask of a model file. All of these functions throw
+// Reads numbers of networks from a model file. All of these functions throw
 // `ErrorKind::unreadable_input`.
 #pragma once
 
@@ -12,10 +12,10 @@ namespace kinemend {
 
 [[noreturn]] void refuse_network(const std::string& what);
 
-/// A number of the model, which is between these.
+/// A whole number of the model, between `least` and `most`.
 std::size_t whole_number(const Model& model, const std::string& name, std::size_t least,
                          std::size_t most);
-/// A tensor of `count` numbers, all above zero where they are to be positive.
+/// A tensor of `count` numbers, all above zero if `is_positive`.
 std::vector<float> network_numbers(const Model& model, const char* name, std::size_t count,
                                    bool is_positive);
 void check_width(const std::string& layer, std::size_t found, std::size_t expected);

@@ -25,21 +25,21 @@ namespace kinemend {
 
 namespace {
 
-// What a take is to a method with a model.
+// A take with its match to the layout of a model.
 struct PriorTake {
   const TakeView& view;
   const Take& clip;  // positions of joints without gaps
   const BodyLayout& layout;
   const BodyMatch& match;
 
-  // The track of a part of the layout, or of the place behind them; none of a part that the take
-  // lacks.
+  // The track of a part of the layout, or of the place behind the parts; none if the take lacks the
+  // part.
   std::optional<std::size_t> track(std::size_t part) const {
     if (part == match.tracks.size()) return view.root_track();
     if (match.tracks[part] < 0) return std::nullopt;
     return static_cast<std::size_t>(match.tracks[part]);
   }
-  // With the place of the body, where the layout has one.
+  // Includes the place of the body if the layout has one.
   std::size_t part_count() const { return match.tracks.size() + (has_place() ? 1 : 0); }
   bool has_place() const { return view.joints != nullptr && layout.with_place; }
 };
@@ -60,7 +60,7 @@ void mark_part(std::vector<std::uint8_t>& marks, std::size_t channels, std::size
   for (std::size_t axis = 0; axis < 3; ++axis) marks[frame * channels + 3 * part + axis] = 1;
 }
 
-// What `auto` makes of a take, whatever is selected.
+// The result of `auto` for all tracks of a take, selected or not.
 struct AutoRun {
   Take clip;
   InPlaceTrace trace;
@@ -70,7 +70,7 @@ struct AutoRun {
   }
 };
 
-// With what is known of the take.
+// Selects every track and passes on the known body height and noise.
 Selection all_tracks(const TakeView& view) {
   Selection all;
   all.body_height = view.body_height;
@@ -85,7 +85,7 @@ AutoRun run_auto(const PriorTake& take) {
   return run;
 }
 
-// How far `auto` smooths each track, 0 to 1: tracks that share their noise are looked at together.
+// How far `auto` smooths each track, 0 to 1. Tracks that share their noise are judged together.
 std::vector<double> needs_of(const TakeView& view, const std::vector<double>& noise) {
   std::vector<std::size_t> together;
   std::vector<double> levels, needs(view.tracks.size(), 0);
@@ -103,7 +103,7 @@ std::vector<double> needs_of(const TakeView& view, const std::vector<double>& no
   return needs;
 }
 
-// The take's channels in the frame of what `auto` made of it, with what `auto` says of each part's
+// The take's channels in the frame of `auto`'s result, with `auto`'s findings on each part's
 // samples.
 PriorWork work_of(const PriorTake& take, const AutoRun& run) {
   BodyChannels guide = encode_body(run.clip, take.layout, take.match);
@@ -156,20 +156,21 @@ Vec3 turn_of(const PoseMatrix& poses, std::size_t frame, std::size_t part) {
   return {poses(frame, 3 * part), poses(frame, 3 * part + 1), poses(frame, 3 * part + 2)};
 }
 
-// From a frame to the next; where noise is strong, in medians of that. Chosen by hand, not swept;
-// docs/methods/wiener-details.md states what leaving flips to `auto` brings.
+// Turn from one frame to the next, at least, and in medians of such turns where noise is strong.
+// Chosen by hand, not swept; docs/methods/wiener-details.md states what leaving flips to `auto`
+// brings.
 constexpr double flip_deg = 60, flip_medians = 6;
-// Half of the running median that takes out the spikes that `auto` left. Chosen by
-// hand, not swept. The share of samples that do not turn too far is swept neither;
+// Half window of the running median that removes the spikes that `auto` left. Chosen by hand, not
+// swept. The share of samples that do not turn too far is not swept either;
 // docs/methods/wiener-details.md states what leaving turns of 150 degrees to `auto` brings.
 constexpr std::size_t flip_half_frames = 3;
 constexpr double most_turns = 0.98;  // a few are noise
 
-// A joint that turns away from the model's mean as far as its channels can say, or flips, is
-// nothing that the model knows: to the filter it is missing, and `auto` keeps it.
+// The model knows nothing of a joint that flips, or turns away from the model's mean as far as its
+// channels can express: the filter treats it as missing, and `auto` keeps it.
 void leave_far_turns_to_auto(PriorWork& work, const BodyLayout& layout,
                              std::vector<std::uint8_t>& chosen) {
-  // Spikes that `auto` left go there and back; a flip stays.
+  // Spikes that `auto` left return after a few frames; a flip stays.
   PoseMatrix steady = work.fallback;
   median_filter(steady, flip_half_frames);
   work.left_out.assign(work.needs.size(), 0);
@@ -201,8 +202,8 @@ void leave_far_turns_to_auto(PriorWork& work, const BodyLayout& layout,
   }
 }
 
-// What `auto` made of the tracks that the result may need: not of parts whose every sample is the
-// filter's.
+// Keeps `auto`'s result for the tracks that may need it. Parts whose every sample comes from the
+// filter do not.
 std::vector<CleanedTrack> keep_fallback(const PriorTake& take, AutoRun run, const PriorWork& work,
                                         const std::vector<std::uint8_t>& chosen, bool fill) {
   const TakeView view = view_of(run.clip);
@@ -223,7 +224,7 @@ std::vector<CleanedTrack> keep_fallback(const PriorTake& take, AutoRun run, cons
   return kept;
 }
 
-// What was done to the samples of a part that is the filter's.
+// The actions on the samples of a part that comes from the filter.
 std::vector<Action> actions_of(const TakeView& view, std::size_t number, const PriorWork& work,
                                std::size_t part, bool fill, std::vector<Action> actions) {
   const Track& track = view.tracks[number];
@@ -240,8 +241,8 @@ std::vector<Action> actions_of(const TakeView& view, std::size_t number, const P
   return actions;
 }
 
-// The samples of a part that is the filter's; where gaps are not to be filled by the model they
-// hold the bridge that `auto` laid.
+// The samples of a part that comes from the filter. Gaps that the model may not fill keep the
+// bridge of `auto`.
 CleanedTrack filtered_track(const TakeView& view, const TakeView& filtered, std::size_t number,
                             bool fill, const CleanedTrack& fallback) {
   const Track& track = filtered.tracks[number];
@@ -301,7 +302,7 @@ CleanTrace clean_known(const PriorTake& take, bool fill, PriorHold hold, const P
   return trace;
 }
 
-// Gaps in the positions of joints hold their bridges.
+// Copies the take with the gaps in joint positions bridged.
 Take with_bridged_positions(const TakeView& view) {
   Take clip = *view.joints;
   for (std::size_t n = view.owners; n < view.tracks.size() && !clip.observed_positions.empty(); ++n)

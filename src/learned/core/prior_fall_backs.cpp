@@ -8,9 +8,10 @@ namespace kinemend {
 namespace {
 
 // For messages, chosen by hand.
-constexpr double least_share = 0.005;  // less is not worth a word
+constexpr double least_share = 0.005;  // smaller shares are not reported
 
-// The joint or marker of a part, -1 for the root position; nothing where the part is not selected.
+// Sets `track` to the joint or marker of a part, or to -1 for the root position; false if the part
+// is not selected.
 bool track_of(const PriorWork& work, const std::vector<std::uint8_t>& selected, bool place,
               std::size_t part, std::int32_t& track) {
   const std::vector<std::int32_t>& parts = work.match->tracks;

@@ -9,15 +9,16 @@
 
 namespace kinemend {
 
-/// Notes that so much of each part (`shares`, D / 3, 0..1) is now what `auto` makes of it; what was
-/// noted before becomes so much less.
+/// Notes that `shares` (D / 3, 0..1) of each part are now `auto`'s result, and reduces the shares
+/// noted before accordingly.
 void add_fall_back(PriorWork& work, std::string reason, std::vector<double> shares);
 
-/// Whether most of a part is what `auto` makes of it: then what was done to it is what `auto` did.
+/// Whether most of a part is `auto`'s result; its actions are then those of `auto`.
 bool is_fallen_back(const PriorWork& work, std::size_t part);
 
-/// What was noted, by joint or marker, and the tracks that the model does not know. `selected`: one
-/// a joint or marker; `place`: whether the part behind the layout's is the root position.
+/// The noted shares by joint or marker, and the tracks that the model does not know. `selected`:
+/// one flag per joint or marker; `place`: whether the root position, the part behind the layout's,
+/// is selected.
 std::vector<FallBack> fall_backs_of(const PriorWork& work,
                                     const std::vector<std::uint8_t>& selected, bool place);
 

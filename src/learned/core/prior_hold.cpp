@@ -16,17 +16,17 @@ namespace {
 // The rows `hold` of docs/methods/wiener-details.md state what other values do.
 constexpr std::size_t channels_of_part = 3;  // a rotation vector
 constexpr double mostly_own = 0.5;           // need
-constexpr double most_deviations = 1;        // of the noise, from what `auto` makes of a sample
-// A measurement is far from another result beyond so many medians of its channel's distances, and
-// beyond so much. The same rows state what half and double of them do.
+constexpr double most_deviations = 1;  // deviations of the noise, from `auto`'s value of a sample
+// A measurement is far from another result if it exceeds both this multiple of its channel's median
+// distance and this distance. The same rows state what half and double of them do.
 constexpr double far_medians = 8, least_far_deg = 8;
 constexpr double crowded_share = 0.02;  // a share that `auto` does not repair well
 
-// What is to be added to a channel: at held samples as given, between them on the straight line,
-// and nothing where none is held.
+// Interpolates the offsets of a channel linearly between held samples and continues them constantly
+// beyond; without held samples they are 0.
 void bridge_offsets(std::vector<double>& offsets, const std::vector<std::uint8_t>& held) {
   const std::size_t frames = offsets.size();
-  std::size_t last = frames, next = 0;  // held frames before and at or behind f; `frames`: none
+  std::size_t last = frames, next = 0;  // held frames before f, and at or after f; `frames`: none
   for (std::size_t f = 0; f < frames; ++f) {
     if (held[f] != 0) {
       last = f;
@@ -43,8 +43,8 @@ void bridge_offsets(std::vector<double>& offsets, const std::vector<std::uint8_t
   }
 }
 
-// A sample that is farther from the other result than noise goes has lost motion: F x D / 3, the
-// share of its distance that it may have. Spikes do not count.
+// A sample that is farther from `auto`'s result than its noise explains has lost motion. Returns F
+// x D / 3: the share of its distance that it may keep. Spikes are ignored.
 std::vector<double> shares_within_noise(const PriorWork& work) {
   const PoseMatrix& poses = work.channels.poses;
   const std::size_t parts = work.needs.size();
@@ -70,7 +70,7 @@ std::vector<double> shares_within_noise(const PriorWork& work) {
   return shares;
 }
 
-// Of each part, the mean over frames of 1 - share.
+// The mean over frames of 1 - share, for each part.
 std::vector<double> mean_rest(const std::vector<double>& shares, std::size_t parts) {
   std::vector<double> rest(parts);
   const double weight = static_cast<double>(parts) / static_cast<double>(shares.size());

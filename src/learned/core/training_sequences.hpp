@@ -21,8 +21,8 @@ struct TrainingSequence {
   std::size_t take = 0;  ///< index of its take
 };
 
-/// The takes of a training in the channels of the body that they share. Of a take whose rate is a
-/// multiple of `rate_hz` every phase is a sequence, and their weights add up to 1; any other is
+/// The takes of a training in the channels of the body that they share. A take whose rate is a
+/// multiple of `rate_hz` gives one sequence per phase, with weights that add up to 1; any other is
 /// resampled. Stretches in which a track is missing are left out.
 struct TrainingSequences {
   struct Entry {
@@ -33,7 +33,7 @@ struct TrainingSequences {
 
   BodyLayout layout;
   double rate_hz = 0;
-  std::size_t takes = 0;       ///< that were read
+  std::size_t takes = 0;       ///< as far as `auto` can tell: white noise, and no repeated frames
   std::vector<Entry> entries;  ///< in the order of takes
   Spool values{0};             ///< one record per entry, F x D doubles
 };
@@ -54,15 +54,15 @@ double for_each_sequence(const TrainingSequences& sequences, std::size_t least_f
                          const TrainSettings& settings,
                          const std::function<void(const TrainingSequence&)>& use);
 
-/// Of each channel over all sequences: mean, deviation, and root mean square of the changes over
-/// `lag` frames; degrees.
+/// Mean, deviation, and root mean square of the changes over `lag` frames of each channel over all
+/// sequences; degrees.
 struct ChannelMoments {
   std::vector<double> mean, deviation, change;
 };
 ChannelMoments channel_moments(const TrainingSequences& sequences, std::size_t lag);
 
-/// A sequence as of one of the halves of all takes, 0 or 1, for cross-validation: every other take;
-/// of `takes` = 1 the halves of each sequence, or 0 where these would be shorter than
+/// Passes a sequence on as part of half 0 or 1, for cross-validation: takes alternate; with one
+/// take (`takes` = 1) the halves of each sequence, or 0 if these would be shorter than
 /// `least_frames`.
 void for_each_half(const TrainingSequence& sequence, std::size_t takes, std::size_t least_frames,
                    const std::function<void(std::size_t half, const PoseMatrix& poses)>& use);

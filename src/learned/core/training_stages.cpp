@@ -13,7 +13,7 @@ namespace kinemend {
 
 namespace {
 
-// A line of text, the checksum of the rest, and the rest.
+// A file is this line, the checksum of the rest, and the rest.
 constexpr std::string_view first_line = "kinemend training 1\n";
 
 [[noreturn]] void refuse_damaged(const std::string& name) {
@@ -43,7 +43,7 @@ std::string_view checked_content(std::string_view bytes, const std::string& name
   return content;
 }
 
-// Of facts in the same order; one that either side lacks differs, too.
+// Throws for a fact that differs or that only one side has.
 void check_same(const std::string& checkpoint, const TrainingFacts& kept,
                 const TrainingFacts& now) {
   const auto value_of = [](const TrainingFacts& facts, const std::string& name) {

@@ -40,7 +40,7 @@ class StageWriter {
   std::string bytes_;
 };
 
-/// The same values in the same order. Errors: `ErrorKind::unreadable_input` at the end of the
+/// Reads the same values in the same order. Errors: `ErrorKind::unreadable_input` at the end of the
 /// bytes.
 class StageReader {
  public:
@@ -61,9 +61,9 @@ class StageReader {
     if (count > 0) std::memcpy(all.data(), from, count * sizeof(Value));
     return all;
   }
-  /// Errors: `ErrorKind::unreadable_input` for bytes that are left.
+  /// Errors: `ErrorKind::unreadable_input` if bytes are left.
   void end() const { expect(bytes_.empty()); }
-  /// Errors: `ErrorKind::unreadable_input` where what was read does not fit together.
+  /// Errors: `ErrorKind::unreadable_input` if the values read are inconsistent.
   static void expect(bool holds) {
     if (!holds) refuse();
   }
@@ -74,31 +74,31 @@ class StageReader {
   std::string_view bytes_;
 };
 
-/// What sets one training apart from another: names with values, as text.
+/// The properties that identify a training: names with values, as text.
 using TrainingFacts = std::vector<std::pair<std::string, std::string>>;
 
-/// The states of a training's stages, by name: those that an earlier one has kept, and those to
-/// keep. Safe from several threads; each stage belongs to one of them.
+/// The states of a training's stages, by name: those of an earlier run, and those to keep. Safe
+/// from several threads; each stage belongs to one of them.
 class TrainingStages {
  public:
-  /// Errors: `ErrorKind::unreadable_input` for a start that is damaged, `ErrorKind::usage` for one
-  /// of other facts.
+  /// Errors: `ErrorKind::unreadable_input` if the checkpoint is damaged, `ErrorKind::usage` if its
+  /// facts differ.
   TrainingStages(TrainCheckpoint checkpoint, TrainingFacts facts);
 
-  /// All that the method learns from, one after the other.
+  /// Takes the bytes of all motion that the method learns from, in order.
   void see(std::string_view bytes);
-  /// After all takes. Errors: `ErrorKind::usage` where the start is of other ones.
+  /// Called after all takes. Errors: `ErrorKind::usage` if the checkpoint belongs to other takes.
   void end_of_takes();
 
-  /// Empty where there is none.
+  /// The kept state of a stage; empty if it has none.
   std::string_view kept(const std::string& stage) const;
-  /// Whether the state of a stage that goes on should be kept now.
+  /// Whether the state of a running stage should be kept now.
   bool is_due(const std::string& stage) const;
   /// Errors: as of `TrainCheckpoint::keep`.
   void keep(const std::string& stage, std::string state);
-  /// Whether the training is to end, when all stages that run have kept their states.
+  /// Whether the training is to end once all running stages have kept their states.
   bool is_stopping() const;
-  /// Errors: `TrainingStopped` where it is.
+  /// Errors: `TrainingStopped` if it is to end.
   void stop_if_asked() const;
 
  private:
@@ -107,7 +107,7 @@ class TrainingStages {
 
   TrainCheckpoint checkpoint_;
   TrainingFacts facts_;
-  std::string takes_, known_takes_;  // digests: so far, and of the start
+  std::string takes_, known_takes_;  // digests: so far, and of the checkpoint
   std::map<std::string, std::string> states_;
   std::map<std::string, Clock::time_point> times_;
   mutable std::mutex mutex_;

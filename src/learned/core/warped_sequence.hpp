@@ -8,7 +8,7 @@
 namespace kinemend {
 
 /// The first `frames` frames of a sequence that runs at `speed` times its pace: Catmull-Rom's cubic
-/// through the frames, read at every `speed`-th; beyond its ends it stands still.
+/// through the frames, read at every `speed`-th; it holds its end values beyond its ends.
 PoseMatrix warped(const PoseMatrix& poses, double speed, std::size_t frames);
 
 }  // namespace kinemend

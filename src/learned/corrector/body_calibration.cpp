@@ -1,4 +1,4 @@
-// Finds the mean rotation of each joint in the body's frame, and turns channels by it and back.
+// Finds the mean rotation of each joint in the body's frame, and converts channels with it.
 #include "learned/corrector/body_calibration.hpp"
 
 #include <cstddef>
@@ -16,7 +16,7 @@ Vec3 vector_at(const PoseMatrix& poses, std::size_t frame, std::size_t joint) {
   return radians_per_degree * Vec3{poses(frame, c), poses(frame, c + 1), poses(frame, c + 2)};
 }
 
-// Turns the frames of joints from the left and from the right.
+// Multiplies the rotations of joints by `left` and `right`.
 PoseMatrix turned(const PoseMatrix& poses, double rate_hz, const BodyLayout& layout,
                   std::span<const Quat> left, std::span<const Quat> right) {
   PoseMatrix result = poses;

@@ -1,5 +1,5 @@
-// Frames of joints calibrated by the motion itself: the channels of one motion are the same on
-// every rig.
+// Calibrates joint frames by the motion itself: the channels of one motion are the same on every
+// rig.
 #pragma once
 
 #include <vector>
@@ -24,10 +24,11 @@ struct BodyCalibration {
 /// `poses`: F x D channels of the layout's joints, degrees; at least one frame. The mean is that of
 /// quaternions, each with the sign that is nearer to the sum so far.
 BodyCalibration calibration_of(const PoseMatrix& poses, const BodyLayout& layout);
-/// The channels of q' for those of q; channels of the place stay. `rate_hz` is that of the frames.
+/// Converts the channels of q to those of q'; channels of the place are unchanged. `rate_hz` is the
+/// frame rate.
 PoseMatrix calibrated(const PoseMatrix& poses, double rate_hz, const BodyLayout& layout,
                       const BodyCalibration& calibration);
-/// The channels of q for those of q'.
+/// Converts the channels of q' to those of q.
 PoseMatrix uncalibrated(const PoseMatrix& poses, double rate_hz, const BodyLayout& layout,
                         const BodyCalibration& calibration);
 

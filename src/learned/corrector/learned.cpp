@@ -99,8 +99,8 @@ class Learned final : public Cleaner {
   LiveSupport live_support(double) const override { return {.why_not = live_needs}; }
 
  private:
-  // How bodies travel through the world is nothing that the network has learned from: places of
-  // joints are smoothed by the noise that is measured.
+  // The network has not learned how bodies travel through the world, so places of joints are
+  // smoothed by the measured noise.
   static void smooth_places(const TakeView& view, const MotionTracks& tracks,
                             MotionResult& result) {
     const MotionTake& take = tracks.take;
@@ -127,7 +127,7 @@ class Learned final : public Cleaner {
     return trace;
   }
 
-  // A body that the model knows by name, and that moves unlike what it has learned from.
+  // Notes a body that the model knows by name but that moves unlike the training.
   static void note_strange_motion(const BodyReading& reading, CleanTrace& trace) {
     if (reading.body || reading.spread <= most_spread) return;
     trace.notes.push_back(
@@ -136,11 +136,11 @@ class Learned final : public Cleaner {
                     reading.spread));
   }
 
-  // Slow noise that the model expects and the take does not show, of the middle one of the tracks
-  // from which it would have been taken out.
+  // Notes slow noise that the model expects and the take does not show: the median over the tracks
+  // from which it would have been removed.
   static void note_slow_noise_kept(const TakeView& view, const MotionTracks& tracks,
                                    const std::vector<double>& put_back, CleanTrace& trace) {
-    // Degrees that are worth a word. Chosen by hand.
+    // Smallest reported change. Chosen by hand.
     constexpr double least_deg = 0.5;
     for (const Space space : {Space::rotation, Space::position}) {
       std::vector<double> sizes;
@@ -165,7 +165,8 @@ class Learned final : public Cleaner {
     }
   }
 
-  // What was taken out of each track, what is expected to be left, and noise that is mostly slow.
+  // Reports what was removed from each track, the error expected to remain, and noise that is
+  // mostly slow.
   static void say_what_was_wrong(const TakeView& view, const MotionTracks& tracks,
                                  const std::vector<TrackError>& errors, CleanTrace& trace) {
     trace.noise.assign(view.tracks.size(), 0);
@@ -222,7 +223,7 @@ class Learned final : public Cleaner {
     }
   }
 
-  // Only spikes and gaps of the n-th track change.
+  // Restores the measured samples of the n-th track except spikes and gaps.
   static void keep_measured(const TakeView& view, const MotionTracks& tracks, std::size_t n,
                             CleanedTrack& cleaned) {
     const Track& track = view.tracks[tracks.numbers[n]];
@@ -242,7 +243,7 @@ class Learned final : public Cleaner {
   MotionNetwork network_;
 };
 
-// The same network, none of whose layers looks ahead.
+// The same network with no layer that looks ahead.
 class LiveLearned final : public Cleaner {
  public:
   LiveLearned(const LearnedOptions& options, std::shared_ptr<const Model> model)

@@ -1,4 +1,4 @@
-// Matches a take with the body of the model and leaves out parts that its channels cannot describe.
+// Matches a take with the model's body and leaves out parts that its channels cannot describe.
 #include "learned/corrector/learned_body.hpp"
 
 #include <algorithm>
@@ -15,10 +15,10 @@ namespace kinemend {
 
 namespace {
 
-// Whether a part stays where its channels can say what it does.
+// Whether the channels of a part can represent its whole motion.
 bool is_tame(const BodyChannels& body, std::size_t part) {
-  // Strong noise steps by less; a vector that goes round the other way, by about a turn. Chosen by
-  // hand, not swept.
+  // Strong noise makes smaller steps; a vector that switches to the other way around steps by about
+  // a turn. Chosen by hand, not swept.
   constexpr double most_step_deg = 180;
   const auto vector_at = [&](std::size_t frame) {
     return Vec3{body.poses(frame, 3 * part), body.poses(frame, 3 * part + 1),
@@ -85,15 +85,16 @@ BodyReading read_body(const BodyLayout& layout, std::span<const float> deviation
       set_track(body.clip, tracks.numbers[n], steady.positions);
     }
   }
-  // Bridges count as measured: channels would hold the last sample before a gap, and the network
-  // has learned from bridges.
+  // Bridges are marked as measured: channels would hold the last sample before a gap, and the
+  // network has learned from bridges.
   see_everywhere(tracks, body.clip);
   body.channels = encode_body(body.clip, layout, body.match);
   body.calibration = calibration_of(body.channels.poses, layout);
   body.channels.poses =
       calibrated(body.channels.poses, body.channels.frame_rate_hz, layout, body.calibration);
   body.track_of.assign(body.channels.poses.channels / 3, -1);
-  // The place stays what any position is: in the body's frame it would depend on how that turns.
+  // The place is treated like any position: in the body's frame it would depend on the body's
+  // rotation.
   std::size_t wild = 0, tame = 0;
   std::vector<double> spreads;
   for (std::size_t part = 0; part < layout.track_count(); ++part) {
@@ -108,9 +109,9 @@ BodyReading read_body(const BodyLayout& layout, std::span<const float> deviation
     spreads.push_back(spread_of(body.channels.poses, deviation, part));
   }
   if (!spreads.empty()) reading.spread = median_of(spreads);
-  // Half of a body misleads the network more than none. Chosen by hand, not swept.
+  // Half a body misleads the network more than no body. Chosen by hand, not swept.
   constexpr double most_wild = 0.2;
-  // A few joints that move say nothing of a body, as they say nothing of a take.
+  // A few moving joints are not enough to judge a body, or a take.
   constexpr double least_spread = 0.02;
   const auto moves = [](double spread) { return spread > least_spread; };
   const auto moving = std::count_if(spreads.begin(), spreads.end(), moves);

@@ -1,4 +1,4 @@
-// Adds up what was removed and what is expected to be left, for each track and for a take.
+// Sums what was removed and what is expected to remain, for each track and for a take.
 #include "learned/corrector/learned_errors.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ TrackError track_error(const MotionTake& take, const MotionResult& result, std::
   const auto change = [&](std::size_t i) {
     return static_cast<double>(result.values[i] - take.values[i]);
   };
-  double samples = 0;  // of axes that move
+  double samples = 0;  // samples of moving axes
   for (std::size_t f = 0; f < take.frames; ++f) {
     for (std::size_t c = 3 * track; c < 3 * track + 3; ++c) {
       const std::size_t i = f * take.channels + c;
@@ -38,7 +38,7 @@ TrackError track_error(const MotionTake& take, const MotionResult& result, std::
 }
 
 bool is_worth_a_change(const TrackError& error) {
-  // Deviation that is taken out over the one that is left. Chosen by hand
+  // Smallest ratio of the removed deviation to the remaining one. Chosen by hand
   // (docs/methods/learned.md), not swept.
   constexpr double least_share = 0.1;
   return error.removed > least_share * least_share * error.left;
@@ -56,8 +56,8 @@ ColouredNoise removed_noise(std::span<const TrackError> errors) {
 }
 
 double slow_noise(std::span<const TrackError> errors) {
-  // Size of noise that is worth a word, degrees, and the most of its variance that is another 40 ms
-  // later. Chosen by hand, not swept.
+  // Smallest reported noise, degrees, and the largest share of its variance that changes within 40
+  // ms. Chosen by hand, not swept.
   constexpr double least_deg = 1, most_quick_share = 0.25;
   std::vector<double> sizes, quick;
   for (const TrackError& error : errors) {

@@ -1,4 +1,4 @@
-// Fills gaps of joints by the network of the method `learned`, for the room `fill`.
+// Fills gaps of joints by the network of the method `learned`, for `src/fill`.
 #include <cstddef>
 #include <memory>
 #include <optional>

@@ -1,4 +1,4 @@
-// Turns the samples of a stream into channels of the network and the cleaned channels back.
+// Converts the samples of a stream to channels of the network and the cleaned channels back.
 #include "learned/corrector/learned_live.hpp"
 
 #include <algorithm>
@@ -22,21 +22,21 @@ namespace kinemend {
 
 namespace {
 
-// A joint that the model knows: its rotation in the axes of the model's body.
+// Converts a known joint's rotation to the axes of the model's body.
 struct KnownTurn {
   Quat before, after, reference;
 };
 
-// Where the vectors of any other joint are: its rotation smoothed by what came before, and the sum
-// of the turns of that.
+// The chart of any other joint: its rotation smoothed over the past, and the sum of the turns of
+// that reference.
 struct LiveChart {
   Quat reference;
   Vec3 path;  // radians
 };
 
 struct StreamedTrack {
-  std::size_t place = 0;               // among the frame's rotations or positions
-  std::optional<std::size_t> owner{};  // whose marks say when it is seen; none: always
+  std::size_t place = 0;               // index among the frame's rotations or positions
+  std::optional<std::size_t> owner{};  // index of its observed mark; none: always observed
   bool turns = true;
   std::optional<KnownTurn> known{};
   bool has_begun = false;
@@ -60,8 +60,8 @@ std::optional<BodyMatch> match_of(const BodyLayout& layout, const NameMap& names
   }
 }
 
-// Watches whether the poses of joints that the model knows by name are of the kind that it has
-// learned: their mean over the last seconds, as `read_body` sees that of a take.
+// Watches whether the poses of joints that the model knows by name are like those it has learned:
+// compares their mean over the last seconds, as `read_body` does for a take.
 class LivePoses {
  public:
   LivePoses(const MotionNetwork& network, std::vector<std::int32_t> slots, double frame_rate_hz)
@@ -71,7 +71,7 @@ class LivePoses {
         follow_(1 - portable::exp(-1 / (memory_s * frame_rate_hz))) {}
 
   void see(std::span<const float> values, std::span<const std::uint8_t> missing) {
-    // The mean of all frames until the memory is full.
+    // Averages all frames until the memory is full.
     const double follow = std::max(follow_, 1 / static_cast<double>(++frames_));
     double sum = 0, count = 0;
     for (std::size_t c = 0; c < slots_.size(); ++c) {
@@ -91,7 +91,7 @@ class LivePoses {
   // A few seconds of a known rig are farther from the learned mean than a whole take: single poses
   // are one deviation away. The nearest other rig is 1.8 away.
   static constexpr double most_distance = 1.5;
-  // Chosen by hand: a pose that is held for a second or two must not count for the whole body.
+  // Chosen by hand: a pose held for a second or two must not decide for the whole body.
   static constexpr double memory_s = 10;
 
   const MotionNetwork& network_;
@@ -122,7 +122,7 @@ class LearnedLive final : public LiveFilter {
       is_position.insert(is_position.end(), 3, track.turns ? 0 : 1);
     }
     if (const auto match = match_of(layout, names, like)) {
-      // How the root is turned is told from its heading over the whole take, which nobody knows.
+      // The root is skipped: its rotation relative to the heading needs the whole take.
       for (std::size_t part = 1; part < layout.track_count(); ++part) {
         for (std::size_t n = 0; n < tracks_.size(); ++n) {
           if (!tracks_[n].turns ||
@@ -181,8 +181,7 @@ class LearnedLive final : public LiveFilter {
   }
 
  private:
-  // Time constant with which the chart of a joint that no model knows follows it. Chosen by hand,
-  // not swept.
+  // Time constant with which the chart of an unknown joint follows it. Chosen by hand, not swept.
   static constexpr double follow_s = 0.05;
 
   struct Waiting {
@@ -203,7 +202,7 @@ class LearnedLive final : public LiveFilter {
     own[2] = static_cast<float>(vector->z);
   }
 
-  // A sample as a vector in degrees; nothing where it is not seen, or is no rotation.
+  // A sample as a vector in degrees; none if it is not seen, or not a rotation.
   std::optional<Vec3> turned(StreamedTrack& track, Quat q, bool is_seen) const {
     if (!is_seen || !is_nearly_unit(q)) return std::nullopt;
     q = normalized(q);
@@ -257,10 +256,10 @@ class LearnedLive final : public LiveFilter {
   std::vector<float> values_, result_;
   std::vector<std::uint8_t> missing_;
   std::unique_ptr<LiveMotionFilter> filter_;
-  std::vector<std::uint8_t> of_body_;  // one a track
+  std::vector<std::uint8_t> of_body_;  // one per track
   std::optional<LivePoses> poses_;
   std::optional<LiveNoiseFloor> floor_;
-  std::vector<Waiting> waiting_;  // a ring: as they came, gaps held
+  std::vector<Waiting> waiting_;  // a ring of input frames with gaps held
   std::size_t pushed_ = 0, given_ = 0;
 };
 

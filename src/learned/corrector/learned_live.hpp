@@ -10,10 +10,10 @@
 namespace kinemend {
 
 /// The method `learned` on streams of takes like this one. `network`, a `live_form`, and `layout`
-/// outlive the filter. A skeleton is matched by its names; joints that the model does not know, or
-/// whose poses are not of the kind that it has learned, and markers are cleaned by what they do
-/// themselves. The source of `like` decides what becomes of slow noise. Errors: as of `match_body`
-/// for names that are mapped and do not fit.
+/// must outlive the filter. A skeleton is matched by its names. Joints that the model does not
+/// know, or whose poses are unlike those it has learned, and markers are cleaned by their own
+/// motion. The source of `like` decides whether slow noise is expected. Errors: as of `match_body`
+/// for mapped names that do not match.
 std::unique_ptr<LiveFilter> make_learned_live(const MotionNetwork& network,
                                               const BodyLayout& layout, const NameMap& names,
                                               const TakeView& like);

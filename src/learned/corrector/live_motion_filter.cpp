@@ -1,4 +1,4 @@
-// Takes frames in, runs the network at each step, and mixes the frames that are due.
+// Takes frames in, runs the network at each step, and mixes the due frames.
 #include "learned/corrector/live_motion_filter.hpp"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ bool LiveMotionFilter::take_step() {
   if (!steps_.next_step(step_)) return false;
   MotionMixes& mixes = mixes_[known_++ % mixes_.size()];
   mix(network_.run(step_, steps_.is_alive()), step_, mixes);
-  // What has not moved stays.
+  // Channels that have not moved are unchanged.
   for (std::size_t c = 0; c < steps_.channels(); ++c) {
     if (steps_.is_alive()[c] != 0) continue;
     float* const levels = mixes.levels.data() + c * motion_levels;

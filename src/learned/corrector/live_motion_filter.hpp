@@ -13,10 +13,10 @@
 
 namespace kinemend {
 
-/// The learned cleaner frame by frame: frame t goes in, frame t - `ahead()` comes out.
+/// The learned cleaner frame by frame: frame t enters, frame t - `ahead()` leaves.
 class LiveMotionFilter {
  public:
-  /// `network`: a `live_form`, which outlives this.
+  /// `network`: a `live_form`; it must outlive this.
   LiveMotionFilter(const MotionNetwork& network, double frame_rate_hz,
                    const std::vector<std::int32_t>& slots, std::vector<std::uint8_t> is_position,
                    bool expects_slow_noise);
@@ -27,9 +27,9 @@ class LiveMotionFilter {
             std::span<float> out);
   /// As of `LiveMotionNetwork`.
   void show_body(bool is_shown) { network_.show_body(is_shown); }
-  /// The samples (C) of the frame that came out last: of missing ones what bridges them.
+  /// The samples (C) of the last output frame; missing ones are bridged.
   std::span<const float> samples_given() const { return steps_.frame(given_ - 1); }
-  /// After the last frame: gives the remaining frames one by one, then false.
+  /// Called after the last frame: gives the remaining frames one by one, then returns false.
   bool flush(std::span<float> out);
 
  private:
@@ -41,7 +41,7 @@ class LiveMotionFilter {
   LiveMotionSteps steps_;
   LiveMotionNetwork network_;
   MotionSteps step_;
-  // Of the last steps, by their number.
+  // The mixes of the last steps; step s is at index s modulo the size.
   std::array<MotionMixes, 4> mixes_;
   std::vector<float> levels_;
   std::size_t known_ = 0, given_ = 0;  // steps, frames

@@ -1,4 +1,4 @@
-// Computes one step of each layer from the inputs that are kept.
+// Computes one step of each layer from its kept inputs.
 #include "learned/corrector/live_motion_network.hpp"
 
 #include <algorithm>
@@ -8,7 +8,7 @@ namespace kinemend {
 
 namespace {
 
-// As many as layers take without memory of their own. For speed, not swept.
+// The number that layers process without memory of their own. For speed, not swept.
 constexpr std::size_t rows_together = 32;
 
 template <class Layer>

@@ -10,18 +10,18 @@
 
 namespace kinemend {
 
-/// A network in its live form, step by step: what `run` makes of the same steps at once. Nothing is
-/// computed twice.
+/// A network in its live form, step by step, with the result of `run` on the same steps at once.
+/// Nothing is computed twice.
 class LiveMotionNetwork {
  public:
-  /// `network` is a `live_form`, and outlives this. `slots`: C, as of `MotionTake`.
+  /// `network` is a `live_form`, and must outlive this. `slots`: C, as of `MotionTake`.
   LiveMotionNetwork(const MotionNetwork& network, std::vector<std::int32_t> slots);
 
-  /// `step`: one step with features of the take. C x `motion_outputs`, until the next call. Takes
-  /// nothing from the heap.
+  /// `step`: one step with features of the take. Returns C x `motion_outputs`, valid until the next
+  /// call. Does not allocate.
   std::span<float> run(const MotionSteps& step, std::span<const std::uint8_t> is_alive);
-  /// Whether the channels are shown as those of the body from the next step on, as they are at
-  /// first, or each by itself.
+  /// Whether the channels are those of the body from the next step on, as at first, or each by
+  /// itself.
   void show_body(bool is_shown) { is_body_shown_ = is_shown; }
   void reset();
 
@@ -34,7 +34,7 @@ class LiveMotionNetwork {
 
     History(std::size_t steps_back, std::size_t numbers)
         : size(numbers), values(steps_back * numbers), steps(steps_back) {}
-    /// The inputs so many steps ago, then overwritten by these.
+    /// The oldest inputs; `keep` overwrites them.
     const float* oldest() const { return values.data() + next * size; }
     void keep(std::span<const float> now);
   };

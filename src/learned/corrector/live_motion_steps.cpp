@@ -9,11 +9,11 @@ namespace kinemend {
 
 namespace {
 
-// How far the live form looks ahead: 14 frames at 120 Hz, and no more up to 390 Hz; see
+// Lookahead of the live form: 14 frames at 120 Hz, and at most that up to 390 Hz; see
 // docs/methods/learned.md.
 constexpr double ahead_s = 0.117;
 constexpr std::size_t most_ahead = 14;
-// As many as samples have that the network learns from.
+// The number of steps in the training samples.
 constexpr std::size_t strength_steps = 128;
 
 std::size_t frames_to_next_step(double frame_rate_hz) {
@@ -24,7 +24,7 @@ std::size_t frames_to_next_step(double frame_rate_hz) {
 
 std::size_t live_motion_ahead(double frame_rate_hz) {
   const auto wanted = static_cast<std::size_t>(std::lround(ahead_s * frame_rate_hz));
-  // A frame is mixed from the steps before and behind it.
+  // Mixing a frame needs the steps before and after it.
   return std::max(std::min(wanted, most_ahead), frames_to_next_step(frame_rate_hz) + 1);
 }
 
@@ -90,7 +90,7 @@ void LiveMotionSteps::push(std::span<const float> values, std::span<const std::u
   }
 }
 
-// Only the rows that anything looks at move to the front.
+// Moves the rows that are still needed to the front.
 void LiveMotionSteps::make_room() {
   if (row_index(frames_) < 3 * past_) return;
   const std::size_t kept = past_, from = row_index(frames_) - kept;
@@ -101,14 +101,15 @@ void LiveMotionSteps::make_room() {
   dropped_ += from;
 }
 
-// A channel that is seen for the first time has stood there.
+// A channel that is first seen is taken to have stood still before.
 void LiveMotionSteps::begin_with(float value, std::size_t channel) {
   for (std::size_t row = 0; row < row_index(frames_); ++row)
     rows_.values[row * channels() + channel] = value;
   origins_[channel] = value;
 }
 
-// The newest frame has ended a gap: what of it has not come out lies on a line now.
+// The newest frame has ended a gap: frames of the gap that are not yet out are interpolated
+// linearly.
 void LiveMotionSteps::bridge(std::size_t channel) {
   const std::size_t open = std::min(missed_[channel], ahead_);
   float* const last = row_of(frames_ - 1) + channel;

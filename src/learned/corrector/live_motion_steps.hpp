@@ -1,4 +1,4 @@
-// Makes the steps that the network sees from frames as they come in.
+// Makes the network's steps from incoming frames.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,16 @@
 
 namespace kinemend {
 
-/// Frames that the live form of the learned cleaner looks ahead: an eighth of a second, at most 14.
+/// Lookahead of the live form of the learned cleaner in frames: an eighth of a second, at most 14.
 std::size_t live_motion_ahead(double frame_rate_hz);
 
-/// The steps of a take frame by frame. A step is made once, as soon as enough frames beyond it are
-/// there: as if the take ended where the frame that first needs it looks ahead to, and as if each
-/// channel had stood still before its first frame. What a whole take says of its channels, its last
-/// 128 steps say. No noise is measured.
+/// The steps of a take frame by frame. A step is made once, as soon as enough frames beyond it
+/// exist: as if the take ended at the lookahead of the first frame that needs it, and as if each
+/// channel had stood still before its first frame. The strengths of channels are those of the last
+/// 128 steps instead of the whole take. No noise is measured.
 ///
-/// A sample that is missing is the one before until the next is seen, and then on the straight line
-/// between the two as far as it has not come out.
+/// A missing sample holds the one before until the next is seen. Then frames of the gap that are
+/// not yet out are interpolated linearly.
 class LiveMotionSteps {
  public:
   /// `expects_slow_noise`: as of `MotionTake`.
@@ -30,18 +30,18 @@ class LiveMotionSteps {
   std::size_t ahead() const noexcept { return ahead_; }
   std::size_t frames() const noexcept { return frames_; }
 
-  /// `values`: C, degrees; `missing`: C, or empty. Takes nothing from the heap once warm.
+  /// `values`: C, degrees; `missing`: C, or empty. Does not allocate once warm.
   void push(std::span<const float> values, std::span<const std::uint8_t> missing);
-  /// No frame follows: the remaining steps are there.
+  /// Called after the last frame: makes the remaining steps available.
   void end() { is_ended_ = true; }
-  /// The next step, if it is there: one step of C channels.
+  /// The next step of C channels; false if there is none yet.
   bool next_step(MotionSteps& step);
-  /// C: whether anything has moved, as of the last step.
+  /// C: whether the channel has moved, as of the last step.
   const std::vector<std::uint8_t>& is_alive() const noexcept { return strengths_.is_alive; }
 
-  /// The sample of a frame that has not come out yet, or has come out last: C.
+  /// The sample (C) of the last output frame or of one after it.
   std::span<const float> frame(std::size_t frame) const;
-  /// Levels of such a frame by all frames that are there: bank_levels x C.
+  /// Levels of such a frame by all frames so far: bank_levels x C.
   void levels(std::size_t frame, std::span<float> result);
   void reset();
 
@@ -61,16 +61,16 @@ class LiveMotionSteps {
   SmootherBank bank_;
   BandHats hats_;
   std::size_t ahead_, step_ahead_;
-  std::size_t past_ = 0, behind_ = 0;  // rows before the first frame in use, and beyond the last
-  ExtendedChannels rows_;              // past, then frames, then what they are continued by
+  std::size_t past_ = 0, behind_ = 0;  // rows before the first frame in use, and after the last
+  ExtendedChannels rows_;              // past, then frames, then their continuation
   std::vector<std::uint8_t> missing_;  // the same rows, C each
   std::size_t frames_ = 0;             // pushed
-  std::size_t dropped_ = 0;            // of these, rows that are gone
+  std::size_t dropped_ = 0;            // rows before these that were dropped
   std::size_t extended_at_ = 0;        // frames when the end was continued last
   bool is_ended_ = false;
-  std::vector<std::size_t> missed_;  // C, frames since it was seen
+  std::vector<std::size_t> missed_;  // C, frames since the channel was seen
   std::vector<float> origins_;       // C, the first sample
-  // Of the last steps: a ring of what the sums were added.
+  // A ring of the last steps' contributions to the sums.
   std::size_t steps_ = 0;
   std::vector<float> kept_squares_, kept_slowest_;
   StrengthSums sums_;

@@ -11,11 +11,11 @@ namespace kinemend {
 
 namespace {
 
-// Levels a second, and how many of them are kept: 16 seconds. Chosen by hand: longer than a dance
+// Levels per second, and how many of them are kept: 16 seconds. Chosen by hand: longer than a dance
 // step, shorter than a change of the light before a camera.
 constexpr double levels_hz = 8;
 constexpr std::size_t kept_levels = 128;
-// Before that the levels of a stream say too little. Chosen by hand.
+// Before that the levels of a stream are too few. Chosen by hand.
 constexpr double shortest_noisy_s = 3;
 // Half of this is the longest spike. Chosen by hand: two frames of 120 Hz.
 constexpr double longest_spike_s = 0.04;
@@ -49,7 +49,7 @@ LiveNoiseFloor::LiveNoiseFloor(double frame_rate_hz, std::vector<std::uint8_t> c
   sorted_.reserve(std::max(window_, kept_levels));
 }
 
-// The median of the last squares: a spike, which the network takes out, is no part of a level.
+// The median of the last squares. It excludes spikes, which the network removes, from the level.
 double LiveNoiseFloor::middle_of_last(std::size_t track) {
   sorted_.clear();
   for (std::size_t i = 0; i < std::min(frames_, spike_); ++i)
@@ -57,7 +57,7 @@ double LiveNoiseFloor::middle_of_last(std::size_t track) {
   return median_of(sorted_);
 }
 
-// The floor of a track by the levels that are there.
+// Computes the floor of a track from the levels so far.
 bool LiveNoiseFloor::has_floor(std::size_t track, double& floor) {
   sorted_.clear();
   double square = 0;
@@ -70,7 +70,8 @@ bool LiveNoiseFloor::has_floor(std::size_t track, double& floor) {
   return floor > least_floor_share * std::sqrt(square);
 }
 
-// Once a hop: the floors, the quartiles of the last changes, and whether the stream is noisy.
+// Updates the floors, the quartiles of the last changes, and whether the stream is noisy, once per
+// hop.
 void LiveNoiseFloor::look_back(bool is_known, std::span<const std::uint8_t> may_be_known) {
   const auto has_passed = [&](double seconds) {
     return static_cast<double>(frames_) >= seconds * frame_rate_hz_;
@@ -125,7 +126,7 @@ void LiveNoiseFloor::bound(std::span<const float> samples, bool is_known,
   }
   if (is_hop) look_back(is_known, may_be_known);
   if (is_noisy_) return;
-  // Before the first floor a body that the model knows is trusted.
+  // Before the first floor, a body that the model knows is not bounded.
   const bool has_floors = frames_ >= hop_;
   for (std::size_t n = 0; n < tracks_; ++n) {
     if (!has_floors && is_known && may_be_known[n] != 0) continue;

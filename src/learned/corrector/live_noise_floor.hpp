@@ -10,18 +10,17 @@
 
 namespace kinemend {
 
-/// `keep_to_noise_floor` with what a stream can see: windows end at the frame, floors are those of
-/// the last 16 seconds, and no noise is measured. A stream is noisy after three seconds at the
-/// soonest, and a track that the model does not know has no floor before `shortest_floor_s` have
-/// passed.
+/// `keep_to_noise_floor` for a stream: windows end at the frame, floors are those of the last 16
+/// seconds, and no noise is measured. A stream is noisy after three seconds at the earliest, and a
+/// track that the model does not know has no floor in the first `shortest_floor_s`.
 class LiveNoiseFloor {
  public:
-  /// `counts`: one a track, 1 where it says whether the stream is noisy.
+  /// `counts`: one per track, 1 if it helps decide whether the stream is noisy.
   LiveNoiseFloor(double frame_rate_hz, std::vector<std::uint8_t> counts);
 
-  /// Brings `cleaned` (3 a track, degrees) of the next frame towards `samples`. `is_known`: whether
-  /// the model knows the body now; `may_be_known`: one a track, 1 where its joint is of the body.
-  /// Takes nothing from the heap.
+  /// Moves `cleaned` (3 per track, degrees) of the next frame towards `samples`. `is_known`:
+  /// whether the model knows the body now; `may_be_known`: one per track, 1 if its joint belongs to
+  /// the body. Does not allocate.
   void bound(std::span<const float> samples, bool is_known,
              std::span<const std::uint8_t> may_be_known, std::span<float> cleaned);
 

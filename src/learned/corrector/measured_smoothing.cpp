@@ -1,4 +1,4 @@
-// Smooths channels by their measured noise and joins both estimates for each track.
+// Smooths channels by their measured noise and combines both estimates for each track.
 #include "learned/corrector/measured_smoothing.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace kinemend {
 
 namespace {
 
-// Tracks of one kind, as `auto` takes them together.
+// Smooths tracks of one kind together, as `auto` does.
 void smooth_together(const std::vector<std::size_t>& numbers, TrackKind kind, MotionTake& take) {
   const std::size_t count = numbers.size();
   if (count == 0) return;
@@ -39,7 +39,7 @@ void smooth_together(const std::vector<std::size_t>& numbers, TrackKind kind, Mo
   }
 }
 
-// What an estimate takes out of a track, and how much of that is quick: sums over what is seen.
+// Sums over the observed samples: squares of what an estimate removes, and of the quick part.
 struct TakenOut {
   double all = 0, quick = 0;
 };

@@ -1,4 +1,4 @@
-// Adds to the learned cleaner what `auto` makes of a take by the noise that it measures.
+// Adds the result of `auto`'s measured noise to the learned cleaner.
 #pragma once
 
 #include "learned/corrector/motion_filter.hpp"
@@ -6,14 +6,15 @@
 
 namespace kinemend {
 
-/// Puts beside the values of a take what the core of `auto` makes of them, which measures the noise
-/// of each track and smooths as much as that asks (`MotionTake::measured`). Spikes stay.
+/// Sets `MotionTake::measured` to the take after the core of `auto`, which measures the noise of
+/// each track and smooths by it. Spikes remain.
 void add_measured_smoothing(MotionTake& take);
 
-/// Brings each track of a result nearer to `MotionTake::measured`: two estimates that err unlike
-/// are better together. The share is that of `measured` in what both take out, a / (a + r) of their
-/// energies, times the square of how much of a changes within a 25th of a second: only quick noise
-/// is something that a take shows by itself. Tracks in which nothing was measured stay.
+/// Moves each track of a result towards `MotionTake::measured`: averaging two estimates with
+/// different errors is better than either. The share of `measured` is a / (a + r), where a and r
+/// are the energies that `measured` and the result remove, times the square of the share of a that
+/// changes within a 25th of a second: only quick noise can be measured from a take itself. Tracks
+/// without measured noise are unchanged.
 void join_measured(const MotionTake& take, MotionResult& result);
 
 }  // namespace kinemend

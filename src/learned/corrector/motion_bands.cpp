@@ -10,14 +10,14 @@ namespace kinemend {
 
 namespace {
 
-// Below these, degrees squared, nothing is told from nothing. Chosen by hand; the network has
+// Squares below these, in square degrees, carry no information. Chosen by hand; the network has
 // learned with them.
 constexpr float least_square = 1e-5F, least_spread_square = 1e-4F;
-// Bands from this one on are pooled over twice the time: they change that slowly. Chosen by hand;
-// the network has learned with it.
+// Bands from this one on change slowly and are pooled over twice the time. Chosen by hand; the
+// network has learned with it.
 constexpr std::size_t first_slow_band = 5;
-// The smoothing by the measured noise is told by how it lies to the level above this band. Chosen
-// by hand; the network has learned with it.
+// The smoothing by the measured noise is compared with the level above this band. Chosen by hand;
+// the network has learned with it.
 constexpr std::size_t measured_band = 5;
 
 float log_feature(float square) { return 0.25F * portable::log(square) + 0.5F; }

@@ -1,4 +1,4 @@
-// The parts that the features of a step are made of, for whole takes and for live ones.
+// The parts of a step's features, for whole takes and for live ones.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ struct BandHats {
   std::vector<float> quick, slow;
 
   explicit BandHats(double frame_rate_hz);
-  /// Frames about a step that are looked at.
+  /// Frames on either side of a step that are needed.
   std::ptrdiff_t margin() const { return static_cast<std::ptrdiff_t>(slow.size()); }
 };
 
@@ -32,22 +32,22 @@ struct BandBlock {
     return levels[level][static_cast<std::size_t>(frame - first_frame) * channels + channel];
   }
 };
-/// Of steps at these frames, which ascend. Nothing is allocated where `block` was read before with
-/// as many of them.
+/// Reads the bands of steps at these ascending frames. Does not allocate if `block` was read before
+/// with as many.
 void read_bands(const SmootherBank& bank, const ExtendedChannels& extended, const BandHats& hats,
                 std::span<const std::ptrdiff_t> frames, BandBlock& block);
 
-/// Sums over steps, of which the strengths of channels are means.
+/// Sums over steps; the strengths of channels are their means.
 struct StrengthSums {
   std::vector<double> squares;      ///< C x motion_bands
   std::vector<double> sum, square;  ///< C, of the slowest level
   double steps = 0;
 
   explicit StrengthSums(std::size_t channels);
-  /// `squares`: C x motion_bands of one step; `slowest`: C, its slowest level, about any origin
-  /// that stays. `weight` -1 takes a step out again.
+  /// `squares`: C x motion_bands of one step; `slowest`: C, its slowest level, about any fixed
+  /// origin. `weight` -1 removes a step.
   void add(std::span<const float> squares, std::span<const float> slowest, double weight);
-  /// At least one step was added. `expects_slow_noise`: as of `MotionTake`.
+  /// Requires at least one added step. `expects_slow_noise`: as of `MotionTake`.
   void strengths(std::span<const std::uint8_t> is_position, bool expects_slow_noise,
                  MotionStrengths& result) const;
 };
@@ -59,14 +59,14 @@ struct MeasuredAt {
   bool is_known = false;
 };
 
-/// Where the parts of `MotionSteps` of one channel and step go.
+/// Destinations in `MotionSteps` of one channel and step.
 struct StepRow {
   float *features, *levels, *changes, *scales;
 };
 StepRow step_row(MotionSteps& steps, std::size_t channel, std::size_t step);
 
-/// Step `step` of a block, at `frame`, of channel `channel`. `missing`: share of the samples about
-/// it that were not measured.
+/// Writes step `step` of a block, at `frame`, of channel `channel`. `missing`: share of unmeasured
+/// samples about it.
 void write_step(const BandBlock& block, std::size_t step, std::ptrdiff_t frame, std::size_t channel,
                 double frame_rate_hz, const MotionStrengths& strengths, float missing,
                 const MeasuredAt& measured, const StepRow& row);

@@ -1,4 +1,4 @@
-// Removes spikes from tracks, turns them into channels, and assembles the cleaned tracks.
+// Removes spikes from tracks, converts them to channels, and assembles the cleaned tracks.
 #include "learned/corrector/motion_channels.hpp"
 
 #include <utility>
@@ -21,7 +21,7 @@ void put(MotionTake& take, std::size_t frame, std::size_t n, Vec3 vector) {
   to[2] = static_cast<float>(vector.z);
 }
 
-// The tracks of one space, despiked.
+// Reads the tracks of one space and removes their spikes.
 void read_together(const TakeView& take, const std::vector<std::size_t>& own,
                    MotionTracks& tracks) {
   if (own.empty()) return;
@@ -43,7 +43,7 @@ void read_together(const TakeView& take, const std::vector<std::size_t>& own,
   const DetectedSpikes spikes =
       find_spikes(vectors, suspects, tracks_nearby(take, numbers), take.frame_rate_hz, &gaps);
   for (std::size_t i = 0; i < count; ++i) {
-    // So that single precision is enough wherever the take stands.
+    // Relative positions make single precision sufficient far from the world's origin.
     const bool turns = tracks.charts[own[i]].has_value();
     const Vec3 origin = turns ? Vec3{} : vectors.at(0, i);
     tracks.origins[own[i]] = origin;

@@ -15,7 +15,7 @@ namespace {
 // Chosen by hand, not swept.
 constexpr std::size_t steps_filtered_together = 256;  // limits memory
 
-// Frames [first, last) lie between the first and the last of the steps.
+// Writes frames [first, last), which lie between the first and the last of the steps.
 void put_frames(const MotionReader& reader, const MotionSteps& steps, std::vector<float> outputs,
                 std::size_t first, std::size_t last, MotionResult& result) {
   const MotionTake& take = reader.take();

@@ -9,12 +9,12 @@ namespace kinemend {
 
 struct MotionResult {
   std::vector<float> values;  ///< F x C, degrees
-  /// F x C: the standard deviation of what will be wrong with each, as the network expects it.
+  /// F x C: the standard deviation of each value's remaining error, as the network expects it.
   std::vector<float> deviation;
 };
 
-/// What the network makes of a take. Channels that do not move stay. Memory beside the take's does
-/// not grow with its length; blocks of steps go in parallel, and the result depends on neither.
+/// The take after the network. Channels that do not move are unchanged. Memory beside the take's
+/// does not grow with its length; blocks of steps run in parallel, and neither affects the result.
 MotionResult filtered(const MotionNetwork& network, const MotionTake& take);
 
 }  // namespace kinemend

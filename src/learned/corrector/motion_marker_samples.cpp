@@ -1,4 +1,4 @@
-// Places markers at random and damages them as cameras and optical systems do.
+// Places markers at random and damages them like cameras and optical systems.
 #include "learned/corrector/motion_samples.hpp"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ PoseMatrix marker_stretch(std::span<const MarkerMotion> markers, double rate_hz,
                 frames);
 }
 
-// From the root's, the first three channels.
+// Positions relative to the root, the first three channels.
 PoseMatrix from_root(PoseMatrix positions) {
   for (std::size_t f = 0; f < positions.frames; ++f) {
     for (std::size_t c = positions.channels; c-- > 0;) positions(f, c) -= positions(f, c % 3);
@@ -37,7 +37,7 @@ PoseMatrix from_root(PoseMatrix positions) {
   return positions;
 }
 
-// All together, as the laboratory lies, and as many markers as a body has more or fewer.
+// Turns and scales all markers together by a random orientation and size.
 void place_at_random(PoseMatrix& positions, Random& random) {
   const Quat turn = random_turn(random);
   double size = log_uniform(random, 0.6, 2);
@@ -51,8 +51,8 @@ void place_at_random(PoseMatrix& positions, Random& random) {
   }
 }
 
-// Of one size, or in proportion to how each marker moves about the root; in some, one axis is that
-// of depth.
+// Noise of one size, or in proportion to each marker's motion about the root; in some samples one
+// axis, as of depth, has more.
 std::vector<double> marker_noise(const PoseMatrix& positions, Random& random) {
   std::vector<double> strengths(positions.channels, log_uniform(random, 0.1, 25));
   if (random.chance(0.4)) {
@@ -67,7 +67,7 @@ std::vector<double> marker_noise(const PoseMatrix& positions, Random& random) {
   return strengths;
 }
 
-// Held, or on lines, between every few frames.
+// Holds or interpolates positions between every few frames.
 void lower_marker_rate(PoseMatrix& positions, Random& random) {
   const std::size_t step = 2 + random.below(4);
   const bool is_held = random.chance(0.4);
@@ -111,7 +111,7 @@ MotionSample random_marker_sample(std::span<const MarkerMotion> markers, std::si
   PoseMatrix positions = marker_stretch(markers, rate_hz, sample_frames(sampling, rate_hz), random);
   if (random.chance(0.3)) positions = from_root(std::move(positions));
   place_at_random(positions, random);
-  // A hand shakes by a hand's width.
+  // A shaking hand moves by the width of a hand.
   vary_motion(positions, rate_hz, {0.25, 150}, random);
   MotionSample sample;
   PoseMatrix seen = positions;

@@ -8,14 +8,14 @@
 
 namespace kinemend {
 
-/// Of every channel and step: the weights of the levels (C x steps x `motion_levels`), the
+/// For every channel and step: the weights of the levels (C x steps x `motion_levels`), the
 /// correction and the deviation.
 struct MotionMixes {
   std::vector<float> levels, corrections, deviations;
 };
 
-/// What outputs of the network (C x steps x `motion_outputs`, which are used up) mean. Nothing is
-/// allocated where `mixes` held as many before.
+/// Converts outputs of the network (C x steps x `motion_outputs`, overwritten). Does not allocate
+/// if `mixes` held as many before.
 void mix(std::span<float> outputs, const MotionSteps& steps, MotionMixes& mixes);
 
 }  // namespace kinemend

@@ -12,7 +12,7 @@ namespace kinemend {
 
 namespace {
 
-// Sizes that a model file may ask for. Chosen by hand.
+// Limits on sizes in a model file. Chosen by hand.
 constexpr std::size_t most_motion_blocks = 64, most_motion_dilation = 4096;
 
 using nn::MatrixViewF;
@@ -29,7 +29,7 @@ std::size_t step_reach_of(const nn::Convolution& layer) {
   return layer.dilation * (layer.taps.size() / 2);
 }
 
-// What the steps of the take become on their way.
+// One run of the network on the steps of a take.
 struct Pass {
   const MotionNetwork& network;
   const MotionChannels& told;
@@ -38,7 +38,7 @@ struct Pass {
 
   bool is_alive(std::size_t channel) const { return told.is_alive[channel] != 0; }
 
-  // Of a take that knows nothing of the body, what only the body needs is not computed.
+  // Parts of the network that only a known body needs are skipped for other takes.
   bool knows_body() const {
     for (std::size_t c = 0; c < channels; ++c) {
       if (told.slots[c] >= 0 && is_alive(c)) return true;
@@ -46,12 +46,12 @@ struct Pass {
     return false;
   }
 
-  // C x steps x encoded; zero where a channel is not alive.
+  // C x steps x encoded; zero for channels that are not alive.
   std::vector<float> encoded() const {
     const std::size_t width = network.encoded();
     std::vector<float> result(channels * count * width, 0.0F), first(count * width);
     const std::size_t rows = steps.take_features.size() / motion_take_features;
-    const std::size_t rows_of_channel = rows / channels;  // one, or one of each step
+    const std::size_t rows_of_channel = rows / channels;  // one, or one per step
     std::vector<float> of_take(rows * width);
     nn::run(network.of_take, matrix_of(steps.take_features, rows, motion_take_features),
             rows_of(of_take, rows, width));
@@ -105,7 +105,7 @@ struct Pass {
     return h;
   }
 
-  // steps x encoded: the mean over the track of a channel.
+  // steps x encoded: the mean over the three channels of a track.
   void track_mean(const std::vector<float>& encoded, std::size_t track,
                   std::vector<float>& result) const {
     const std::size_t size = count * network.encoded();

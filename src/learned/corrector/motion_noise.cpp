@@ -24,7 +24,7 @@ struct UnitNoise {
 
 UnitNoise unit_noise(std::size_t frames, std::size_t channels, double rate_hz, bool has_slow,
                      Random& random) {
-  // Such noise hardly shows from frame to frame. Chosen by hand, not swept.
+  // Slower noise hardly changes from frame to frame. Chosen by hand, not swept.
   constexpr double slow_time_s = 0.1, slow_cutoff_hz = 6;
   PoseMatrix noise(frames, channels);
   for (double& value : noise.values) value = random.normal();
@@ -40,7 +40,8 @@ UnitNoise unit_noise(std::size_t frames, std::size_t channels, double rate_hz, b
     const bool is_slow = -1 / (portable::log(correlation) * rate_hz) > slow_time_s;
     return {std::move(noise), is_slow};
   }
-  // Two draws among the arguments of one call would come in another order from another compiler.
+  // Separate statements: compilers evaluate two draws among the arguments of one call in different
+  // orders.
   const double cutoff_hz = log_uniform(random, 0.7, 12);
   low_pass(noise, 1 + static_cast<int>(random.below(4)), cutoff_hz, rate_hz);
   double square = 0;
@@ -50,7 +51,7 @@ UnitNoise unit_noise(std::size_t frames, std::size_t channels, double rate_hz, b
   return {std::move(noise), cutoff_hz < slow_cutoff_hz};
 }
 
-// Noise comes and goes: a factor of each frame.
+// Noise in bursts: a factor for each frame.
 std::vector<double> bursts(std::size_t frames, double rate_hz, Random& random) {
   PoseMatrix slow(frames, 1);
   for (double& value : slow.values) value = random.normal();
@@ -115,7 +116,7 @@ bool low_pass_at_random(PoseMatrix& poses, double rate_hz, double chance, Random
   return true;
 }
 
-// Leaves poses at keys and draws curves through them as animators do: straight, eased, or held.
+// Keeps poses at keys and interpolates between them as animators do: straight, eased, or held.
 void keyframe(PoseMatrix& poses, double rate_hz, Random& random) {
   const double apart_s = log_uniform(random, 0.08, 0.5);
   const double kind = random.uniform();
@@ -136,7 +137,7 @@ void keyframe(PoseMatrix& poses, double rate_hz, Random& random) {
   }
 }
 
-// Moves each channel further from its mean, or less.
+// Scales each channel's motion about its mean up or down.
 void exaggerate(PoseMatrix& poses, Random& random) {
   const double factor = log_uniform(random, 0.5, 2);
   for (std::size_t c = 0; c < poses.channels; ++c) {
@@ -161,7 +162,7 @@ void vary_motion(PoseMatrix& poses, double rate_hz, const Shaking& shaking, Rand
       log_uniform(random, 0.1, shaking.largest_deg) / std::max(1.0, frequency_hz / 2);
   const std::size_t frames = poses.frames, first = random.below(frames),
                     last = first + random.below(frames - first) + 1;
-  const auto ramp = 0.3 * rate_hz;  // frames that it takes to set in
+  const auto ramp = 0.3 * rate_hz;  // frames of fading in and out
   constexpr double turn = 2 * std::numbers::pi;
   for (std::size_t c = 0; c < poses.channels; ++c) {
     if (!random.chance(share)) continue;
@@ -175,7 +176,7 @@ void vary_motion(PoseMatrix& poses, double rate_hz, const Shaking& shaking, Rand
 }
 
 bool is_said_to_be_slow(SampleDamage damage, Random& random) {
-  // Video can be clean, and is not all that errs slowly. Chosen by hand, not swept.
+  // A video system can be accurate, and other systems err slowly, too. Chosen by hand, not swept.
   return random.chance(damage == SampleDamage::none    ? 0.1
                        : damage == SampleDamage::quick ? 0.25
                                                        : 0.6);

@@ -14,7 +14,7 @@ namespace kinemend {
 
 namespace {
 
-// To and fro, as often as it takes.
+// Repeats the part forwards and backwards up to `frames` frames.
 PoseMatrix prolonged(const PoseMatrix& part, std::size_t frames) {
   PoseMatrix result(frames, part.channels);
   const std::size_t last = part.frames - 1, round = std::max<std::size_t>(2 * last, 1);
@@ -26,7 +26,8 @@ PoseMatrix prolonged(const PoseMatrix& part, std::size_t frames) {
   return result;
 }
 
-// A random stretch of so many frames at that pace, to and fro where the motion is too short.
+// A random stretch of `frames` frames at that pace, forwards and backwards if the motion is too
+// short.
 PoseMatrix played(const PoseMatrix& motion, double pace, std::size_t frames, Random& random) {
   const auto wanted = static_cast<std::size_t>(pace * static_cast<double>(frames)) + 3;
   return warped(prolonged(random_part(motion, wanted, random), wanted), pace, frames);
@@ -87,7 +88,7 @@ void add_residuals(PoseMatrix& poses, double rate_hz, std::span<const MotionPair
     const double own_deg = size_deg * portable::exp(0.5 * random.normal());
     for (std::size_t c = 3 * n; c < 3 * n + 3; ++c) {
       const std::size_t from = erring[random.below(erring.size())];
-      // Two draws in one expression would come in another order from another compiler.
+      // Separate statements: compilers evaluate two draws in one expression in different orders.
       const double sign = random.chance(0.5) ? 1 : -1;
       const double factor = sign * own_deg * random.uniform(0.3, 1) / sizes[from];
       for (std::size_t f = 0; f < poses.frames; ++f) poses(f, c) += factor * stretch(f, from);
@@ -120,7 +121,7 @@ MotionSample random_rig_sample(const MotionSources& sources, std::size_t channel
   PoseMatrix seen = truth;
   std::vector<std::uint8_t> observed;
   SampleDamage damage = SampleDamage::none;
-  // Other rigs are mostly met clean.
+  // In practice, takes of other rigs are mostly clean.
   if (random.chance(0.5)) damage = damage_rig(seen, rate_hz, sources, sampling, observed, random);
   const std::vector<double> origin(truth.channels, 0.0);
   put_values(sample, seen, truth, origin, observed, channels);

@@ -1,4 +1,4 @@
-// Fills and empties channels, loses samples and whole tracks, and finds the length of a sample.
+// Fills and clears channels, loses samples and whole tracks, and finds the length of a sample.
 #include "learned/corrector/motion_samples.hpp"
 
 #include <algorithm>

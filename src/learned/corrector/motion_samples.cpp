@@ -1,4 +1,4 @@
-// Draws a stretch, varies and damages it, or takes a pair of recordings.
+// Draws a stretch and varies and damages it, or takes a pair of recordings.
 #include "learned/corrector/motion_samples.hpp"
 
 #include <algorithm>
@@ -82,8 +82,8 @@ struct DamagedStretch {
   }
 };
 
-// The frames of joints as the method calibrates them, by the mean pose of the stretch or one near
-// it, which a longer take has.
+// Calibrates joint frames as the method does, by the mean pose of the stretch or by one near it,
+// like that of a longer take.
 PoseMatrix calibrated_at_random(const PoseMatrix& poses, double rate_hz, const BodyLayout& layout,
                                 Random& random) {
   BodyCalibration calibration = calibration_of(poses, layout);
@@ -149,7 +149,7 @@ MotionSample random_damage(const MotionSources& sources, const MotionSampling& s
   if (!random.chance(sampling.clean_share)) {
     damage = damaged.damage(sampling, sources.pairs, random);
   } else if (random.chance(0.4)) {
-    // What is clean has gaps, too.
+    // Clean takes have gaps, too.
     damaged.open_gaps(random);
     bridge_lost(damaged.poses, damaged.observed);
   }
@@ -181,7 +181,7 @@ MotionSample random_damage(const MotionSources& sources, const MotionSampling& s
   return sample;
 }
 
-// In proportion to their length.
+// Draws a pair in proportion to its length.
 const MotionPair& drawn_pair(std::span<const MotionPair> pairs, Random& random) {
   std::vector<double> seconds;
   for (const MotionPair& pair : pairs) {
@@ -191,8 +191,8 @@ const MotionPair& drawn_pair(std::span<const MotionPair> pairs, Random& random) 
   return pairs[drawn_index(seconds, random)];
 }
 
-// A stretch of a pair, its channels turned over and scaled at random. In a share of them the
-// reference is what is shown: a clean take, low-passed as optical ones are.
+// A stretch of a pair, its channels mirrored and scaled at random. In a share of samples the input
+// is the reference: a clean take, low-passed like optical ones.
 MotionSample random_pair(const MotionPair& pair, std::size_t channels,
                          const MotionSampling& sampling, Random random) {
   const MotionTake& whole = pair.sample.take;
@@ -236,7 +236,7 @@ MotionSample random_pair(const MotionPair& pair, std::size_t channels,
 }  // namespace
 
 MotionStatistics motion_statistics(const TrainingSequences& sequences) {
-  // Degrees, and degrees in 1/120 s: channels that hardly move are not blown up. Chosen by hand,
+  // Degrees, and degrees in 1/120 s: channels that hardly move are not amplified. Chosen by hand,
   // not swept.
   constexpr double least_deviation = 1, least_speed_deg = 0.02;
   const ChannelMoments moments = channel_moments(sequences, 1);

@@ -64,7 +64,7 @@ std::vector<std::ptrdiff_t> MotionReader::frames_of(std::size_t first, std::size
   return frames;
 }
 
-// What the smoothing by the measured noise takes out about a step, of all channels.
+// Mean square that the smoothing by the measured noise removes about a step, for all channels.
 void MotionReader::read_taken_out(std::size_t frame, const std::vector<float>& weights,
                                   std::vector<float>& result) const {
   std::fill(result.begin(), result.end(), 0.0F);

@@ -13,7 +13,7 @@ namespace kinemend {
 
 namespace {
 
-// Squared lengths of what an estimate takes out of a track, one a frame.
+// Squared lengths of what an estimate removes from a track, one per frame.
 std::vector<double> removals_of(const MotionTake& take, const std::vector<float>& estimate,
                                 std::size_t track) {
   std::vector<double> squares(take.frames);
@@ -27,8 +27,8 @@ std::vector<double> removals_of(const MotionTake& take, const std::vector<float>
   return squares;
 }
 
-// Root mean squares in the window about each frame that is measured; windows end where the take
-// ends. A window without measured frames has 0.
+// Root mean squares over the measured frames of the window about each frame; windows are cut at the
+// ends of the take. A window without measured frames has 0.
 std::vector<double> windowed(const MotionTake& take, const std::vector<double>& squares,
                              std::size_t track, std::size_t reach) {
   const std::size_t frames = take.frames;
@@ -47,8 +47,8 @@ std::vector<double> windowed(const MotionTake& take, const std::vector<double>& 
   return means;
 }
 
-// Marks frames about which a track loses white noise: most of its changes within a 60th of a second
-// are large, while a step or a flip makes few of them so.
+// Marks frames about which a track loses white noise: then most of its changes within a 60th of a
+// second are large, while a step or a flip makes only few of them large.
 class Bursts {
  public:
   Bursts(const MotionTake& take, const std::vector<float>& values, std::size_t track,
@@ -72,7 +72,7 @@ class Bursts {
   }
 
   bool is_within(std::size_t frame, double root_mean_square) {
-    // The quartile of a window serves all frames of a quarter of it.
+    // One quartile is computed for all frames of a quarter of a window.
     const std::size_t part = frame / std::max<std::size_t>(1, reach_ / 2);
     if (part != part_ || !quartile_known_) {
       part_ = part;
@@ -156,7 +156,8 @@ bool has_floor(const MotionTake& take, const MotionResult& result, bool is_stepp
 bool is_noisy_take(const MotionTake& take, std::span<const std::uint8_t> is_stepped,
                    const MotionResult& result) {
   const std::size_t tracks = take.channels / 3;
-  // Positions of joints are not the network's to clean: in takes of joints those that turn count.
+  // In takes of joints only those that turn are counted: the network does not clean their
+  // positions.
   const bool has_joints =
       std::find(take.is_position.begin(), take.is_position.end(), 0) != take.is_position.end();
   std::vector<std::uint8_t> counts(tracks), noisy(tracks);
@@ -170,14 +171,14 @@ bool is_noisy_take(const MotionTake& take, std::span<const std::uint8_t> is_step
   return all >= static_cast<double>(fewest_noisy_tracks) && with_floor >= least_noisy_share * all;
 }
 
-// Whether the measurement finds noise that is no fast move.
+// Whether the measured noise is more than a fast move.
 bool has_measured_noise(const MotionTake& take, bool is_known, std::size_t track) {
   if (!is_measured(take, track)) return false;
   return is_known || is_long(take) || take.frame_rate_hz >= lowest_burst_rate_hz ||
          take.is_position[3 * track] != 0;
 }
 
-// Returns the root mean square per axis of what the track gets back.
+// Bounds the removals of a track. Returns the root mean square per axis of what was put back.
 double bound_track(const MotionTake& take, bool is_known, bool is_stepped, std::size_t track,
                    MotionResult& result) {
   const std::size_t frames = take.frames, reach = window_reach(take);
@@ -192,7 +193,7 @@ double bound_track(const MotionTake& take, bool is_known, bool is_stepped, std::
     floor = most_floors * quantile_of(all, floor_share);
   }
   std::optional<Bursts> bursts;
-  // Steps are as quick as noise.
+  // Steps change as quickly as noise.
   if (take.frame_rate_hz >= lowest_burst_rate_hz && !is_stepped)
     bursts.emplace(take, result.values, track, reach);
   double put_back = 0;

@@ -12,8 +12,8 @@ namespace kinemend {
 
 namespace {
 
-// Deviations at which a Gaussian ends, 0.4 % of its peak; time that the line at an end is fitted
-// to. Chosen by hand; the network has learned with them.
+// Deviations at which a Gaussian ends, 0.4 % of its peak; length of the line fit at an end. Chosen
+// by hand; the network has learned with them.
 constexpr double cut_deviations = 3.3;
 constexpr double line_s = 0.1;
 
@@ -30,7 +30,7 @@ std::vector<float> taps_of(double sigma_frames) {
   return {taps.begin(), taps.end()};
 }
 
-// What a line fitted to `count` samples says at the first of them.
+// The value at the first of `count` samples of a line fitted to them.
 double fitted_end(const float* first, std::ptrdiff_t stride, std::size_t count) {
   double sum = 0, moment = 0;
   const double middle = (static_cast<double>(count) - 1) / 2;

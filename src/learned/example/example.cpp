@@ -25,11 +25,11 @@ namespace {
 
 // The weight below which a sample counts as rejected. Chosen by hand, not swept.
 constexpr double rejected_weight = 0.01;
-// What is missing settles last, and weighs little in the objective. Chosen by hand;
+// Missing samples settle last, and weigh little in the objective. Chosen by hand;
 // docs/methods/example-details.md states what other tolerances do.
 constexpr double tolerance_of_gaps = 1e-3;
-// The paper's p and lambda (sections 3.2 and 3.3), for the paper's solver, whose steps are short.
-// Its tolerance is chosen by hand, not swept.
+// The paper's p and lambda (sections 3.2 and 3.3). The paper's solver makes short steps, so its
+// tolerance is lower; that is chosen by hand, not swept.
 constexpr double papers_welsch_deg = 3, papers_lambda = 0.1, tolerance_of_papers = 1e-4;
 
 const OptionTable<ExampleOptions>& example_table() {
@@ -60,8 +60,8 @@ const OptionTable<ExampleOptions>& example_table() {
   return options;
 }
 
-// The first guess: what was measured, `auto`'s opinion of spikes and gaps, and the mean pose where
-// there is no measurement at all.
+// The first guess: the measurements, with `auto`'s values at spikes and in gaps, and the mean pose
+// in channels without any measurement.
 PoseMatrix first_guess(const PriorWork& work, const std::vector<double>& mean,
                        bool without_suspects) {
   PoseMatrix guess = work.channels.poses;
@@ -79,7 +79,8 @@ PoseMatrix first_guess(const PriorWork& work, const std::vector<double>& mean,
   return guess;
 }
 
-// Whether anything is missing that is to be filled: of what the take has and `auto` does not keep.
+// Whether samples that are to be filled are missing. Parts that the take lacks, or that `auto`
+// keeps, are ignored.
 bool has_gaps(const PriorWork& work) {
   const std::size_t parts = work.match->tracks.size();
   for (std::size_t i = 0; i < work.channels.observed.size(); ++i) {
@@ -111,7 +112,7 @@ class ExampleCleaning {
     const BodyChannels& channels = work.channels;
     const std::vector<double>& mean = prior_.bases.mean;
     PoseMatrix guess = first_guess(work, mean, tuning_.guesses_suspects && !is_papers());
-    // Starting from what the bases express, outliers stand out at once.
+    // Relative to motion that the bases express, outliers are visible at once.
     PoseMatrix cleaned = filter_linearly(guess, bases_at_rate_of(channels), mean);
     if (!options_.robust) {
       work.channels.poses = std::move(cleaned);
@@ -150,14 +151,14 @@ class ExampleCleaning {
     return settings;
   }
 
-  // What is known of a take and its noise.
+  // Known properties of a take and its noise.
   struct Findings {
     std::span<const double> welsch;
     const std::vector<double>& noise;
     double strangeness;
   };
 
-  // What the paper does not have: motion outside of the bases.
+  // Handles motion outside the bases, which the paper does not.
   void finish(PriorWork& work, const Findings& found, PoseMatrix& cleaned) const {
     const BodyChannels& channels = work.channels;
     const bool smooths = options_.lambda == 0 && tuning_.smooths_rest;
@@ -171,7 +172,8 @@ class ExampleCleaning {
       work.rejected[i] = channels.observed[i] != 0 && counts.values[i] < rejected_weight ? 1 : 0;
     if (smooths) smooth_rest(work, counts, expressed, found.noise, cleaned);
     if (options_.lambda > 0 || options_.welsch_deg > 0) return;
-    // What the bases are wrong about; not among so many outliers that some make the median.
+    // Where the bases are biased `auto` takes over, unless outliers are so frequent that they may
+    // be the median.
     if (tuning_.leaves_biased && !work.is_whole) fall_back_where_biased(work, found.noise, cleaned);
     if (tuning_.leaves_strange) fall_back(work, found.strangeness, cleaned);
   }

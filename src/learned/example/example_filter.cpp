@@ -14,16 +14,16 @@ namespace kinemend {
 
 namespace {
 
-// Number of products for which their preparation is chosen.
+// Expected number of products; it decides how they are prepared.
 constexpr std::size_t usual_iterations = 12;
 // Least relative area of two directions that count as independent.
 constexpr double least_area = 1e-12;
 
 // For speed, not swept.
-constexpr std::size_t frames_at_once = 64;  // a share of work; sums have its order
-// A frame of the result depends on frames within a window in the linear filter; in the other on
-// all, but negligibly on those beyond two windows. The first follows by definition, the second is
-// chosen by hand, not swept.
+constexpr std::size_t frames_at_once = 64;  // task size; it fixes the order of sums
+// Frames that a frame of the result depends on, in windows. The linear filter depends on one
+// window, by definition. The other depends on all frames, but negligibly beyond two windows; that
+// is chosen by hand, not swept.
 constexpr std::size_t linear_margin = 1, margin = 2;
 
 // The sum over all frames of summand(first, last), in an order independent of threads.
@@ -34,7 +34,8 @@ Sum sum_over_frames(std::size_t frames, const Summand& summand) {
 
 class Minimisation {
  public:
-  // Of the frames of `measured` (and `observed`) from `first` on, as many as `first_guess` has.
+  // Minimises over the frames of `measured` (and `observed`) from `first` on, as many as
+  // `first_guess` has.
   Minimisation(PatternPenalty& penalty, PoseMatrix first_guess, const PoseMatrix& measured,
                std::span<const std::uint8_t> observed, std::size_t first,
                std::span<const double> mean, const ExampleWeights& weights,
@@ -59,7 +60,7 @@ class Minimisation {
     }
   }
 
-  // The objective before the first iteration and after each.
+  // Returns the objective before the first iteration and after each.
   std::vector<double> run() {
     std::vector<double> trace;
     scale_ = std::max(settings_.first_welsch, 1.0);
@@ -92,7 +93,7 @@ class Minimisation {
   }
 
  private:
-  // Frames behind the clip are padding, initially its last frame.
+  // Frames beyond the clip are padding, initially its last frame.
   static PoseMatrix padded(PoseMatrix poses, std::size_t frames) {
     const std::size_t channels = poses.channels, last = poses.values.size() - channels;
     poses.values.reserve(frames * channels);
@@ -103,18 +104,18 @@ class Minimisation {
     return poses;
   }
 
-  // b_l where a sample was observed.
+  // b_l if the sample was observed, else 0.
   double alpha(std::size_t f, std::size_t c) const {
     const bool seen = f < frames_ && (observed_.empty() || observed_[f * channels_ + c] != 0);
     return seen ? weights_.data[c] : 0.0;
   }
-  // z - y, less the mean both.
+  // z - y, both without the mean.
   double residual(std::size_t f, std::size_t c) const {
     return z_(f, c) - (measured_[f * channels_ + c] - mean_[c]);
   }
 
-  // The objective at z, whose image is known. Also computes eq. 15's weights, w = phi(r) / r, for
-  // the next step.
+  // The objective at z, for which `image_` is up to date. Also computes eq. 15's weights, w =
+  // phi(r) / r, for the next step.
   double evaluate() {
     return sum_over_frames<double>(
         z_.frames, [&](std::size_t first, std::size_t last) { return evaluate(first, last); });
@@ -136,8 +137,8 @@ class Minimisation {
     return data + patterns / 2;
   }
 
-  // Of the quadratic that majorises the objective at z, without the patterns' term: its diagonal
-  // and its steepest descent.
+  // Diagonal and steepest descent of the quadratic that majorises the objective at z. The diagonal
+  // leaves out the coupling of the patterns.
   struct Slope {
     double diagonal, residual;
   };
@@ -162,8 +163,8 @@ class Minimisation {
     }
   }
 
-  // To the minimum of the majorising quadratic on the plane of its preconditioned gradient and the
-  // last step: conjugate gradients, for constant weights.
+  // Moves to the minimum of the majorising quadratic on the plane of its preconditioned gradient
+  // and the last step. With constant weights these are conjugate gradients.
   void descend() {
     penalty_.multiply(gradient_, gradient_image_);
     const auto plane = sum_over_frames<Plane>(
@@ -183,7 +184,7 @@ class Minimisation {
     });
   }
 
-  // Of gradient g and last step s: the products g^T H g, g^T H s and s^T H s with the quadratic's
+  // Products of gradient g and last step s: g^T H g, g^T H s and s^T H s with the quadratic's
   // matrix, and those with its steepest descent.
   struct Plane {
     double gg = 0, gs = 0, ss = 0, gr = 0, sr = 0;
@@ -208,7 +209,7 @@ class Minimisation {
     return sum;
   }
 
-  // Each sample by itself.
+  // Calls `action` for each sample.
   template <typename Action>
   void for_frames(const Action& action) const {
     for_each_range(0, z_.frames, frames_at_once, [&](std::size_t first, std::size_t last) {
@@ -226,7 +227,7 @@ class Minimisation {
   const ExampleSettings& settings_;
   PatternPenalty& penalty_;
   double scale_ = 1;       // of p
-  PoseMatrix z_;           // less the mean; frames behind the clip are padding
+  PoseMatrix z_;           // without the mean; frames beyond the clip are padding
   PoseMatrix image_;       // A z
   PoseMatrix confidence_;  // F x L: exp(-r^2 / p^2)
   PoseMatrix gradient_, gradient_image_, step_, step_image_;
@@ -245,7 +246,7 @@ PoseMatrix rows_of(const PoseMatrix& poses, std::size_t begin, std::size_t end) 
   return rows;
 }
 
-// Puts frames [begin, end) of `rows`, which begin at frame `first` of `poses`, in their place.
+// Copies frames [begin, end) from `rows`, whose first row is frame `first`, to `poses`.
 void put_rows(const PoseMatrix& rows, std::size_t first, std::size_t begin, std::size_t end,
               PoseMatrix& poses) {
   const auto at = [&](std::size_t frame) {

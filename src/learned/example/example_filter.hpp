@@ -1,4 +1,4 @@
-// Finds the motion that stays close to what was measured and follows learned patterns (Lou & Chai
+// Finds the motion that stays close to the measurements and follows learned patterns (Lou & Chai
 // 2010, sections 3.1 to 3.5).
 #pragma once
 
@@ -14,8 +14,8 @@
 namespace kinemend {
 
 /// The linear filter of eq. 7 on all sliding windows: each frame becomes the mean of the
-/// projections of all windows over it. `mean`: of each channel (L). F is at least `bases.frames`,
-/// or 0.
+/// projections of all windows over it. `mean`: L, one per channel. F is at least `bases.frames`, or
+/// 0.
 PoseMatrix filter_linearly(const PoseMatrix& poses, WindowBases bases,
                            std::span<const double> mean);
 
@@ -43,7 +43,7 @@ struct ExampleWeights {
 struct ExampleSettings {
   ExampleSolver solver = ExampleSolver::conjugate_gradients;
   std::size_t iterations = 50;  ///< of the weights, at most
-  double tolerance = 1e-4;      ///< stops where an iteration gains less than this share
+  double tolerance = 1e-4;      ///< stops when an iteration gains less than this share
   /// Initial factor of p, which decreases to 1: the objective then has no distant local minima in
   /// which outliers support each other.
   double first_welsch = 1;
@@ -52,14 +52,14 @@ struct ExampleSettings {
 /// Minimises the objective. `poses` holds the first guess and becomes the result; `measured` is y,
 /// `observed` alpha (F x L, 0 or 1; empty: all), `mean` the channels' means (L), to which the
 /// patterns are relative. F is at least `bases.frames`. Beyond about 260,000 samples the take is
-/// /// processed in stretches, which overlap by four windows. Returns the objective (of the last
+/// processed in stretches, which overlap by four windows. Returns the objective (of the last
 /// stretch) before the first iteration and after each.
 std::vector<double> example_filter(PoseMatrix& poses, const PoseMatrix& measured,
                                    std::span<const std::uint8_t> observed, WindowBases bases,
                                    std::span<const double> mean, const ExampleWeights& weights,
                                    const ExampleSettings& settings = {});
 
-/// F x L: exp(-r^2 / p^2), weight of each sample (eq. 15); 0 where not observed.
+/// F x L: exp(-r^2 / p^2), weight of each sample (eq. 15); 0 if not observed.
 PoseMatrix welsch_weights(const PoseMatrix& poses, const PoseMatrix& measured,
                           std::span<const std::uint8_t> observed, std::span<const double> welsch);
 

@@ -44,7 +44,7 @@ void store_example(const ExamplePrior& prior, Model& model) {
 ExamplePrior example_of(const Model& model) {
   ExamplePrior prior;
   prior.rate_hz = model.rate_hz;
-  // Braces alone would be read as a number of dimensions.
+  // Braces alone would be taken as a number of dimensions.
   using Shape = std::vector<std::size_t>;
   const Tensor& bases = model.tensor("bases", 3);
   FilterBases& b = prior.bases;

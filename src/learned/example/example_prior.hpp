@@ -22,13 +22,13 @@ struct ExamplePrior {
 /// the number `energy`.
 void store_example(const ExamplePrior& prior, Model& model);
 /// Errors: `ErrorKind::unreadable_input` as of `Model::tensor`, and for eigenvalues or residuals
-/// that are no variances.
+/// that are not valid variances.
 ExamplePrior example_of(const Model& model);
 
-/// Weights under which the minimum is the most probable motion, for noise of standard deviation
-/// `noise` in each channel (L, degrees; > 0), coefficients distributed as in the training and
-/// Gaussian motion outside the bases with the residual variances. Each of these counts once, though
-/// windows overlap. p is `welsch_deviations` times the noise.
+/// Weights whose minimum is the most probable motion, for noise of standard deviation `noise` in
+/// each channel (L, degrees; > 0), coefficients distributed as in the training and Gaussian motion
+/// outside the bases with the residual variances. Each of these enters once, although windows
+/// overlap. p is `welsch_deviations` times the noise.
 ExampleWeights probable_weights(const ExamplePrior& prior, const WindowBases& bases,
                                 std::span<const double> noise, double welsch_deviations);
 

@@ -27,7 +27,7 @@ struct ExampleTraining {
 
 // Two square matrices of this side are held: 1 GiB. Chosen by hand, not swept.
 constexpr std::size_t largest_window_values = 8192;
-// Quantiles of a channel in the training that stand for its range. Chosen by hand, not swept.
+// Quantiles of a channel in the training that define its range. Chosen by hand, not swept.
 constexpr double lowest_share = 0.001, highest_share = 0.999;
 
 const OptionTable<ExampleTraining>& example_training_table() {

@@ -1,5 +1,5 @@
-// The parts and constants of `example`, so that each part can be left out and each constant moved
-// to see what it brings. Only the experiment that does so sets them
+// The parts and constants of `example`, so that each part can be left out and each constant varied
+// to measure its effect. Only the experiment that does so sets them
 // (`bench/papers/example_ablation.cpp`).
 #pragma once
 
@@ -11,17 +11,17 @@
 namespace kinemend {
 
 struct ExampleTuning {
-  /// p, in deviations of the noise and in those of what the bases leave.
+  /// p, in deviations of the noise and of the residual outside the bases.
   double welsch_deviations = 3;
   double rest_deviations = 1;
-  /// What the bases leave lasts: it says something new in one frame of so many.
+  /// Motion outside the bases is correlated: one frame in this number is independent.
   double rest_memory_frames = 3;
   bool guesses_suspects = true;    ///< starts from what `auto` made of spikes
-  bool starts_expressible = true;  ///< starts from what the bases express of that
+  bool starts_expressible = true;  ///< starts from the part of that which the bases express
   bool knows_variances = true;     ///< v_k: the spread of the coefficients in training
-  bool smooths_rest = true;        ///< keeps smooth motion outside of the bases
-  bool leaves_strange = true;      ///< a strange take to `auto`
-  bool leaves_biased = true;       ///< where the result is biased to `auto`
+  bool smooths_rest = true;        ///< keeps smooth motion outside the bases
+  bool leaves_strange = true;      ///< leaves a strange take to `auto`
+  bool leaves_biased = true;       ///< leaves parts with a biased result to `auto`
 };
 
 /// Errors: as of `make_example`.

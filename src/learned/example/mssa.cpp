@@ -85,8 +85,8 @@ void LagCovariance::add(const PoseMatrix& sequence, double weight) {
     for (std::size_t c = 0; c < channels_; ++c) sum[c] += sequence(f, c);
   }
   for (std::size_t c = 0; c < channels_; ++c) frame_sum_[c] += weight * sum[c];
-  // The first frames of all windows are all frames but the last M-1; the second ones are these
-  // less the first frame and with one more at the end, and so on.
+  // The first frames of all windows are all frames but the last M-1; for the second frames, the
+  // range moves on by one frame, and so on.
   for (std::size_t f = sequence.frames - window_ + 1; f < sequence.frames; ++f) {
     for (std::size_t c = 0; c < channels_; ++c) sum[c] -= sequence(f, c);
   }

@@ -20,7 +20,7 @@ class LagCovariance {
  public:
   LagCovariance(std::size_t window_frames, std::size_t channels);
 
-  /// Sequences shorter than a window are left out. `weight` of each of its windows, > 0.
+  /// Sequences shorter than a window are skipped. `weight`: of each window, > 0.
   void add(const PoseMatrix& sequence, double weight = 1);
 
   /// The number of windows (S_N), weighted.
@@ -28,9 +28,9 @@ class LagCovariance {
   /// L: mean of all frames of all sequences used, weighted.
   std::vector<double> mean() const;
   /// M L x M L, row-major, symmetric. Centred: of the channels less their means; else of the raw
-  /// channels, as in the paper. Zeros when there was no window.
+  /// channels, as in the paper. Zeros if there was no window.
   std::vector<double> covariance(bool centred = true);
-  /// The same of the channels less `centre` (L).
+  /// The same for the channels less `centre` (L).
   std::vector<double> covariance_about(std::span<const double> centre);
 
   std::size_t window_frames() const noexcept { return window_; }
@@ -68,7 +68,7 @@ struct BasesLimits {
 };
 
 /// The leading eigenvectors of the covariance. Their signs make the entry of largest size positive.
-/// Errors: `ErrorKind::usage` when there was no window.
+/// Errors: `ErrorKind::usage` if there was no window.
 FilterBases filter_bases(LagCovariance& covariance, const BasesLimits& limits = {},
                          bool centred = true);
 

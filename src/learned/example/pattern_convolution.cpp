@@ -21,13 +21,13 @@ std::size_t rows_of_block(std::size_t window_rows) { return (3 * window_rows) | 
 // For speed, not swept.
 constexpr std::size_t frequencies_at_once = 2;
 constexpr std::size_t patterns_at_once = 8192;
-// Blocks of about so many columns are transformed at once. For speed, not swept.
+// Blocks of about this number of columns are transformed at once. For speed, not swept.
 constexpr std::size_t columns_at_once = 300;
-// Values of spectra that are computed before they are used: enough for products of matrices. For
-// speed, not swept.
+// Values of spectra that are computed before they are used: enough for efficient products of
+// matrices. For speed, not swept.
 constexpr std::size_t spectrum_values = std::size_t{3} << 19;
 
-// Memory that one piece of work after another uses, as many at once as there are threads.
+// Reuses memory from one piece of work for the next; there are at most as many buffers as threads.
 class SharedScratch {
  public:
   std::vector<double> take() {
@@ -182,7 +182,7 @@ void PatternConvolution::transform(const double* z, std::size_t rows, std::size_
                {real + blocks_ * v, frequencies_, columns, stride});
 }
 
-// Of x + iy in rows: (Re + i Im)(x + iy), where Re is symmetric and Im is not but for its sign.
+// Computes (Re + i Im)(x + iy) for rows x and y; Re is symmetric, Im antisymmetric.
 void PatternConvolution::filter(std::size_t frequency) {
   const std::size_t v = row_values_, rows = 2 * blocks_;
   std::vector<double> parts(rows * 2 * v);

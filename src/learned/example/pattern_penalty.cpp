@@ -1,4 +1,4 @@
-// Applies the quadratic form of the patterns by windows or by frequencies, whichever is quicker.
+// Applies the quadratic form of the patterns by windows or by frequencies, whichever is faster.
 #include "learned/example/pattern_penalty.hpp"
 
 #include <Eigen/Dense>
@@ -17,7 +17,7 @@ using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 
 // Rows of E that are weighted at once. For speed, not swept.
 constexpr std::size_t gram_rows = 192;
-// Prepared matrices are written to fresh memory, which costs about half as much as their products.
+// Prepared matrices are written to new memory, which costs about half as much as their products.
 // Not swept.
 constexpr double cost_of_preparing = 1.5;
 // Columns of the inverse of a triangle that are multiplied at once. For speed, not swept.
@@ -71,7 +71,7 @@ RowMatrix penalty_gram(const WindowBases& bases, std::span<const double> weights
   for (std::size_t k = 0; k < ridge.size() && k < count; ++k) {
     gram(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) += ridge[k];
   }
-  // Bases that are dependent on a short clip make the matrix singular.
+  // Bases that are dependent on a short clip make the matrix singular; a small ridge prevents that.
   gram.diagonal().array() += 1e-11 * gram.diagonal().maxCoeff() + 1e-300;
   return gram;
 }
@@ -97,7 +97,7 @@ std::vector<double> penalty_factor(WindowBases& bases, std::span<const double> w
     double* of_rows = &bases.values[first_row * count];
     const nn::MatrixView left{of_rows, found, count, count};
     const nn::MutableMatrixView product{part.data(), found, count, count};
-    // The inverse of an upper triangle is one.
+    // The inverse of an upper triangle is an upper triangle.
     for (std::size_t first = 0; first < count; first += triangle_columns) {
       const std::size_t width = std::min(triangle_columns, count - first), depth = first + width;
       nn::multiply(left.block(0, 0, found, depth), right.block(0, first, depth, width),

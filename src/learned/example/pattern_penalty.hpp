@@ -24,16 +24,16 @@ class PatternPenalty {
  public:
   /// How A is applied. Both agree to rounding.
   enum class Product : std::uint8_t {
-    quicker,     ///< of the two
+    quicker,     ///< the faster of the two
     windows,     ///< G^T, then G, of all windows: matrices that read overlapping windows in place
-    frequencies  ///< PatternConvolution, less the windows that reach over the end
+    frequencies  ///< PatternConvolution, less the windows that wrap around the end
   };
-  // Interpolated bases have a way of their own: each window is brought to the model's frames, where
-  // G is small, and back.
+  // Interpolated bases use a third method: each window is brought to the model's frames, where G is
+  // small, and back.
 
   /// `weights`: d_l^2 of each channel, >= 0. `ridge`: v_k of each base, >= 0; empty: none.
   /// `frames`: of the sequence, at least `bases.frames`. `products`: expected number of products
-  /// with A, on which the quicker way depends. `product` is ignored for interpolated bases.
+  /// with A, which decides the faster method. `product` is ignored for interpolated bases.
   PatternPenalty(WindowBases bases, std::span<const double> weights, std::span<const double> ridge,
                  std::size_t frames, std::size_t products = 1, Product product = Product::quicker);
 
@@ -42,7 +42,7 @@ class PatternPenalty {
   std::size_t padded_frames() const noexcept { return groups_ * hop_; }
   std::size_t windows() const noexcept { return windows_; }
   bool goes_by_frequencies() const noexcept { return convolution_.has_value(); }
-  /// D, of a frame (below padded_frames) and a channel: its weight in all windows over it.
+  /// D for a frame (below padded_frames) and a channel: its weight in all windows over it.
   double diagonal(std::size_t frame, std::size_t channel) const {
     return windows_over_[frame] * weights_[channel];
   }

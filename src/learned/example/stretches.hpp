@@ -12,17 +12,17 @@ namespace kinemend {
 /// than a hop beyond the end.
 class Stretches {
  public:
-  /// Of a sequence of `frames`, at least `bases.frames`. `margin_windows`: windows at each end of a
-  /// stretch whose result is the neighbour's.
+  /// Cuts a sequence of `frames`, at least `bases.frames`. `margin_windows`: windows at each end of
+  /// a stretch that take the neighbour's result.
   Stretches(const WindowBases& bases, std::size_t frames, std::size_t margin_windows);
 
   std::size_t count() const noexcept { return count_; }
-  /// Of each.
+  /// The length of every stretch.
   std::size_t frames() const noexcept { return length_; }
   /// The first frame of a stretch, and the end of its frames that are in the sequence.
   std::size_t begin(std::size_t stretch) const;
   std::size_t end(std::size_t stretch) const;
-  /// Its frames of the result: [first(s), first(s + 1)).
+  /// The stretch gives the frames [first(s), first(s + 1)) of the result.
   std::size_t first(std::size_t stretch) const;
 
  private:

@@ -16,8 +16,8 @@ struct WindowBases {
   std::size_t count = 0;     ///< K
   /// M' L x K, row-major. With an `interpolation` the model's own values, M L x K.
   std::vector<double> values;
-  /// The columns of `values` are, as far as the model's file stores them: whole windows at the
-  /// model's own rate.
+  /// Whether the columns of `values` are orthonormal (to the precision of the model's file): whole
+  /// windows at the model's own rate.
   bool orthonormal = false;
   /// M' x M, row-major: frames of the clip as weighted sums of frames of the model. Empty: `values`
   /// are sampled at the clip's frames already.
@@ -28,7 +28,7 @@ struct WindowBases {
   std::size_t model_frames() const noexcept { return interpolation.size() / frames; }
 };
 
-/// Bases that would have more values at the rate of the clip (32 MB) stay as the model has them, so
+/// Bases that would have more values at the rate of the clip (32 MB) keep the model's frames, so
 /// that memory does not grow with the rate. Not swept.
 inline constexpr std::size_t most_sampled_values = std::size_t{1} << 22;
 

@@ -1,4 +1,4 @@
-// The entries of the methods of this wing in the tables of learned methods and of methods.
+// The entries of these methods in the tables of learned methods and of methods.
 #pragma once
 
 #include "kinemend/cleaner.hpp"

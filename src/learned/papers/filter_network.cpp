@@ -1,4 +1,4 @@
-// Reads such a network from a model, makes its features, and runs it on a take.
+// Reads a filter network from a model, computes its features, and runs it on a take.
 #include "learned/papers/filter_network.hpp"
 
 #include <fmt/format.h>
@@ -15,8 +15,8 @@ namespace kinemend {
 
 namespace {
 
-// Sizes that a model file may ask for, the kinds of head, and axes of a rotation vector. Limits are
-// chosen by hand.
+// Limits on sizes in a model file, the number of head kinds, and axes of a rotation vector. Limits
+// are chosen by hand.
 constexpr std::size_t most_layers = 16, most_stride = 64, most_reach = 256, head_count = 5;
 constexpr std::size_t axes = 3;
 
@@ -51,7 +51,7 @@ std::vector<float> roughness(const FilterTake& take, const FilterStatistics& sta
       sums[f + 1] = sums[f] + second * second;
     }
     for (std::size_t f = 0; f < frames; ++f) {
-      // Of the inner frames of the window.
+      // Only the inner frames of the window have second differences.
       const std::size_t first = std::max<std::size_t>(f - std::min(f, predicted_filter_reach), 1);
       const std::size_t last = std::min(f + predicted_filter_reach + 2, frames) - 1;
       const double count = last > first ? static_cast<double>(last - first) : 1;
@@ -71,7 +71,7 @@ std::vector<float> run_dense(const nn::Dense& layer, const nn::MatrixViewF& x) {
 std::vector<float> run_phase(const FilterNetwork& network, std::vector<float> values,
                              std::size_t width) {
   const std::size_t steps = values.size() / width;
-  if (network.reach > 0) {  // a window is a row that overlaps its neighbours
+  if (network.reach > 0) {  // each window is a row that overlaps its neighbours
     std::vector<float> padded(2 * network.reach * width + values.size(), 0.0F);
     std::copy(values.begin(), values.end(),
               padded.begin() + static_cast<std::ptrdiff_t>(network.reach * width));

@@ -1,4 +1,4 @@
-// Runs the network at its own rate and joins what it adds with the ends of each gap.
+// Runs the network at its own rate and makes its additions meet the ends of each gap.
 #include "learned/papers/gap_network.hpp"
 
 #include <algorithm>
@@ -13,8 +13,8 @@ namespace kinemend {
 
 namespace {
 
-// Axes of a rotation vector; and the time within which what a network fills is bent to meet the
-// ends. Chosen by hand, not swept.
+// Axes of a rotation vector; time constant of the correction that makes a filled gap meet its ends.
+// Chosen by hand, not swept.
 constexpr std::size_t gap_axes = 3;
 constexpr double joining_s = 0.1;
 
@@ -24,7 +24,7 @@ std::vector<std::uint8_t> missing_of(const BodyChannels& channels) {
   return missing;
 }
 
-// The take's values on the straight lines between its frames, `step` frames apart.
+// Resamples the take linearly to frames that are `step` frames apart.
 FilterTake at_rate(const FilterTake& take, double step) {
   FilterTake result;
   result.channels = take.channels;
@@ -51,7 +51,7 @@ FilterTake at_rate(const FilterTake& take, double step) {
   return result;
 }
 
-// What the network adds to the take, F x C, at the take's rate.
+// The network's additions to the take, F x C, at the take's rate.
 std::vector<double> additions(const FilterNetwork& network, const FilterTake& take,
                               double rate_hz) {
   const double step = rate_hz / network.rate_hz;

@@ -5,11 +5,11 @@
 
 namespace kinemend {
 
-/// Poses (F x D) in which an EBD has filled the joints' samples that are not observed: straight
-/// lines over the gaps, and what the network adds to them. What it would add at the ends of a gap
-/// is taken off again, over a tenth of a second, so that the filling meets what was measured. The
-/// network sees the take at its own rate; the root, the place and joints that were never seen stay
-/// straight lines. Observed samples keep their values.
+/// Poses (F x D) with the joints' unobserved samples filled by an EBD: straight lines over the
+/// gaps, plus the network's additions. The additions at the ends of a gap are subtracted again,
+/// decaying over a tenth of a second, so that the fill meets the measurements. The network runs at
+/// its own rate. The root, the place and joints that were never seen keep straight lines. Observed
+/// samples keep their values.
 PoseMatrix filled_by_network(const FilterNetwork& network, const BodyLayout& layout,
                              const BodyChannels& channels);
 

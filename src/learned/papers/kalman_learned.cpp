@@ -33,7 +33,8 @@ const OptionTable<KalmanLearnedOptions>& kalman_learned_table() {
   return options;
 }
 
-// A filter of least squares takes spikes for noise like any other: their squares count.
+// A least-squares filter takes spikes for noise like any other, so the noise includes their
+// squares.
 std::vector<double> noise_with_spikes(const PriorWork& work) {
   const PoseMatrix& poses = work.channels.poses;
   std::vector<double> noise = work.noise;

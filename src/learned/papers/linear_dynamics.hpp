@@ -47,12 +47,12 @@ class LinearDynamicsFit {
   /// Sequences shorter than order + 1 frames are ignored.
   void add(const PoseMatrix& poses, double weight = 1);
   double transitions() const noexcept { return weight_; }
-  /// A is scaled to a spectral radius below 1. Errors: `ErrorKind::usage` when
-  /// there was no transition.
+  /// A is scaled to a spectral radius below 1. Errors: `ErrorKind::usage` if there was no
+  /// transition.
   LinearDynamics finish(const LinearDynamicsSettings& settings) const;
 
  private:
-  // Of the stacked poses about `offset`, which all lags share.
+  // Moments of the stacked poses about `offset`, which all lags share.
   Eigen::MatrixXd central_moments(const Eigen::VectorXd& offset) const;
 
   std::size_t channels_, order_;
@@ -68,7 +68,7 @@ class LinearDynamicsFit {
 /// frame, get a transition of 0.
 LinearDynamics at_rate(const LinearDynamics& dynamics, double rate_hz);
 
-/// To and from tensors of the model file. Errors: `ErrorKind::unreadable_input` naming the
+/// Convert to and from tensors of the model file. Errors: `ErrorKind::unreadable_input` naming the
 /// inconsistent tensor.
 void store_dynamics(const LinearDynamics& dynamics, Model& model);
 LinearDynamics dynamics_of(const Model& model);

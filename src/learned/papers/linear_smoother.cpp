@@ -63,7 +63,8 @@ class Filter {
     return {VectorXd::Zero(model_.states()), nullptr, VectorXd::Zero(model_.channels()), false};
   }
 
-  // The frame's state from that of the frame before. P' is the predicted covariance and H = [U 0].
+  // Predicts a frame's state from that of the frame before and updates it. P' is the predicted
+  // covariance and H = [U 0].
   FilteredFrame step(FilterState& state, std::size_t frame) const {
     const VectorXd weights = weights_of(frame);
     if (state.covariance) state.mean = (model_.transition * state.mean).eval();
@@ -77,7 +78,7 @@ class Filter {
     return result;
   }
 
-  // H x and H^T y.
+  // The products H x and H^T y.
   VectorXd channels_of(const VectorXd& state) const {
     if (model_.basis.size() == 0) return state.head(model_.channels());
     return model_.basis * state.head(model_.directions());
@@ -101,7 +102,7 @@ class Filter {
     return weights;
   }
 
-  // Unobserved samples have no weight; any finite number serves.
+  // Unobserved samples have no weight; any finite number works.
   VectorXd measured(std::size_t frame) const {
     VectorXd values =
         Eigen::Map<const VectorXd>(poses_.row(frame).data(), model_.channels()) - model_.mean;
@@ -164,8 +165,8 @@ void write(PoseMatrix& poses, std::size_t frame, const VectorXd& values,
   Eigen::Map<VectorXd>(poses.row(frame).data(), values.size()) = values + dynamics.mean;
 }
 
-// The forward pass in segments. Earlier ones are freed where memory exceeds its limit, except for
-// the state that each starts from.
+// The forward pass in segments. Earlier segments are freed when memory exceeds its limit; their
+// initial states are kept.
 class ForwardPass {
  public:
   ForwardPass(const Filter& filter, std::size_t frames) : filter_(filter), frames_(frames) {
@@ -183,7 +184,7 @@ class ForwardPass {
   }
 
   std::size_t segments() const { return segments_.size(); }
-  // Frees the segments after it.
+  // Frees the segments after this one.
   const std::vector<FilteredFrame>& segment(std::size_t index) {
     segments_.resize(index + 1);
     if (segments_[index].empty()) {

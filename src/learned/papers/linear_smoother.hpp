@@ -16,12 +16,12 @@ struct MeasurementFacts {
   std::span<const double> noise_deg;
 };
 
-/// Each frame becomes its expectation given the frames up to it (Kalman 1960). The dynamics are at
-/// the rate of the poses (`at_rate`).
+/// Replaces each frame by its expectation given the frames up to it (Kalman 1960). The dynamics are
+/// at the rate of the poses (`at_rate`).
 void filter_with_dynamics(PoseMatrix& poses, const MeasurementFacts& facts,
                           const LinearDynamics& dynamics);
 
-/// Each frame becomes its expectation given all frames, by a second pass over the filter's
+/// Replaces each frame by its expectation given all frames, by a second pass over the filter's
 /// (Bryson & Frazier 1963, which inverts no covariance). The cost is linear in frames; gains are
 /// recomputed until they converge, after each change of the observed channels.
 void smooth_with_dynamics(PoseMatrix& poses, const MeasurementFacts& facts,

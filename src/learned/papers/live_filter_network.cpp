@@ -1,4 +1,4 @@
-// Keeps the last frames and states, and spreads each backward pass over the frames that come in.
+// Keeps the last frames and states, and spreads each backward pass over the incoming frames.
 #include "learned/papers/live_filter_network.hpp"
 
 #include <algorithm>
@@ -12,11 +12,11 @@ namespace {
 
 constexpr std::size_t live_axes = 3;  // of a rotation vector
 constexpr std::size_t reach = predicted_filter_reach;
-// What a pass sees: its first frame and those ahead, before the end of the stream and at it. By
+// Frames of a pass, from its first frame on: before the end of the stream, and at its end. By
 // definition.
 constexpr std::size_t pass_rows = reach + 2 - LiveFilterNetwork::period;
 constexpr std::size_t most_rows = reach + 1;
-// The second differences about the first of these frames look one frame farther than its window. By
+// The second differences about the first of these frames need one frame more than its window. By
 // definition.
 constexpr std::size_t window_rows = 2 * reach + 2;
 
@@ -125,7 +125,8 @@ void LiveFilterNetwork::append(const Input& in) {
   roots_[row] = !in.root_is_missing ? in.root : row > 0 ? roots_[row - 1] : Quat{};
 }
 
-// The newest frame has ended a gap: what of it has not come out lies on a line now.
+// The newest frame has ended a gap: frames of the gap that are not yet out are interpolated
+// linearly.
 void LiveFilterNetwork::bridge(std::size_t track, std::size_t missed) {
   const std::size_t last = count_ - 1;
   const std::size_t open = std::min({missed, delay, last});
@@ -153,7 +154,7 @@ void LiveFilterNetwork::give(std::span<float> out) {
   ++next_;
 }
 
-// The parts of a pass, those that are done with one frame next to each other.
+// Lists the parts of a pass; parts that run with the same frame are adjacent.
 void LiveFilterNetwork::plan_parts() {
   const auto add = [&](Part::Kind kind, std::size_t layer, double products) {
     parts_.push_back({kind, layer, products, 0});
@@ -186,7 +187,8 @@ void LiveFilterNetwork::plan_parts() {
   }
 }
 
-// For the outputs of the `wanted` frames behind those that are known, from all that are there.
+// Starts a pass for the outputs of the `wanted` frames after the known ones, from all frames so
+// far.
 void LiveFilterNetwork::begin_pass(std::size_t wanted) {
   is_passing_ = true;
   next_part_ = shares_done_ = 0;
@@ -221,7 +223,7 @@ void LiveFilterNetwork::run_part(const Part& part) {
 
 void LiveFilterNetwork::encode() {
   const std::size_t before = network_.reach;
-  if (before > 0) {  // what was seen of the frames before stays
+  if (before > 0) {  // keeps the features of the frames before
     std::copy(features_.begin() + static_cast<std::ptrdiff_t>(width_),
               features_.begin() + static_cast<std::ptrdiff_t>((before + 1) * width_),
               features_.begin());
@@ -239,7 +241,7 @@ void LiveFilterNetwork::run_dense(const nn::Dense& layer) {
   std::swap(here_, there_);
 }
 
-// Forward from the state of the past. Of the last layer only what is wanted is looked at.
+// Runs the forward layer on from its past state. The last layer computes only the wanted frames.
 void LiveFilterNetwork::go_on(std::size_t number) {
   const nn::Lstm& layer = network_.recurrent[number].forward;
   Layer& own = layers_[number];
@@ -302,7 +304,7 @@ void LiveFilterNetwork::fill_features() {
   if (network_.inputs.has_roughness) fill_roughness();
 }
 
-// The sums over the window of one frame become those of the next.
+// Updates the sums over the window of one frame to those of the next.
 void LiveFilterNetwork::fill_roughness() {
   const std::size_t first = known_ - base_;
   std::fill(squares_.begin(), squares_.end(), 0.0);
@@ -316,8 +318,8 @@ void LiveFilterNetwork::fill_roughness() {
       square[c] = second * second;
     }
   }
-  // Rows [begin, end) about a frame whose neighbours are there: at the first frame of the stream
-  // row 0 has none.
+  // Rows [begin, end) about a frame that have two neighbours; row 0 at the first frame of the
+  // stream has only one.
   std::size_t begin = 1, end = 1;
   std::fill(sums_.begin(), sums_.end(), 0.0);
   const auto add = [&](std::size_t r, double sign) {

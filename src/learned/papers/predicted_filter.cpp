@@ -11,15 +11,15 @@ namespace kinemend {
 
 namespace {
 
-// Logarithms of the width of a Gaussian, frames: from 0.08, which keeps a sample, to 20. Chosen by
-// hand; networks have learned with them.
+// Limits of the logarithm of a Gaussian's width in frames: from 0.08, which keeps a sample, to 20.
+// Chosen by hand; networks have learned with them.
 constexpr float least_log = -2.5F, most_log = 3.0F;
 constexpr std::size_t taps = 2 * predicted_filter_reach + 1;
 
 }  // namespace
 
-// The Gaussian of each channel about one frame: weights come from each other by products, since
-// exp(-(k + 1)^2 / 2 s^2) is exp(-k^2 / 2 s^2) r^(2 k + 1) with r = exp(-1 / 2 s^2).
+// The Gaussian of each channel about one frame. Products give each weight from the one before,
+// since exp(-(k + 1)^2 / 2 s^2) is exp(-k^2 / 2 s^2) r^(2 k + 1) with r = exp(-1 / 2 s^2).
 class PredictedFilterRow::Gaussian {
  public:
   explicit Gaussian(std::size_t channels)
@@ -32,7 +32,7 @@ class PredictedFilterRow::Gaussian {
         moment_(channels),
         spread_(channels) {}
 
-  /// Filters frame t. With `wants_slope` also d result / d log deviation.
+  /// Filters frame t. With `wants_slope` also computes d result / d log deviation.
   void run(const FilterSignal& signal, const float* logs, std::size_t t, bool wants_slope) {
     const std::size_t channels = signal.channels;
     const float* here = signal.values.data() + t * channels;
@@ -90,7 +90,7 @@ class PredictedFilterRow::Gaussian {
 
 namespace {
 
-// Softmax over the frames of the window that there are.
+// Softmax over the frames of the window that exist.
 struct Shape {
   std::size_t first = 0, last = 0;  // taps
   float weights[taps] = {};

@@ -1,4 +1,4 @@
-// What the outputs of a network of Mall et al. 2017 do to a take, with the adjoint that training
+// Applies the outputs of a network of Mall et al. 2017 to a take, with the adjoint that training
 // needs. Training and cleaning use the same functions; F frames of C channels in degrees, in
 // floats.
 #pragma once
@@ -11,12 +11,12 @@
 
 namespace kinemend {
 
-/// Frames on either side of a frame that a predicted filter sees: 31 in all, at 120 Hz. As Mall et
-/// al. 2017 have it (section 3).
+/// Frames on either side of a frame that a predicted filter uses: 31 in all, at 120 Hz, as in Mall
+/// et al. 2017 (section 3).
 inline constexpr std::size_t predicted_filter_reach = 15;
 
-/// How outputs o of a frame become its pose y; x is what was measured, s_c and m_c a scale and a
-/// mean of channel c.
+/// How outputs o of a frame become its pose y; x is the measurement, s_c and m_c a scale and a mean
+/// of channel c.
 enum class FilterHead : std::uint8_t {
   gaussian,  ///< y = sum_tau w(tau) x(t + tau), w a Gaussian of deviation exp(o_c) frames
   biased,    ///< the same less s_c o_(C + c): section 3 of the paper, "b"
@@ -28,17 +28,17 @@ enum class FilterHead : std::uint8_t {
 /// C, 2 C, 31, C and C numbers a frame.
 std::size_t filter_output_count(FilterHead head, std::size_t channels);
 
-/// F x C. Deviations lie between exp(-2.5) and exp(3) frames; beyond them outputs change nothing.
-/// Weights of frames beyond the ends go to the others.
+/// F x C. Deviations are clamped to between exp(-2.5) and exp(3) frames. Weights of frames beyond
+/// the ends go to the others.
 struct FilterSignal {
   std::size_t frames = 0, channels = 0;
   std::span<const float> values;  ///< F x C
   std::span<const float> scales;  ///< C
-  std::span<const float> means;   ///< C; of `FilterHead::pose` alone
+  std::span<const float> means;   ///< C; only `FilterHead::pose` uses them
 };
 void apply_predicted_filter(FilterHead head, const FilterSignal& signal,
                             std::span<const float> outputs, std::span<float> result);
-/// The same for single frames, with its scratch: nothing is taken from the heap.
+/// The same for single frames; keeps its scratch and does not allocate.
 class PredictedFilterRow {
  public:
   explicit PredictedFilterRow(std::size_t channels);

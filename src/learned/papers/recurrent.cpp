@@ -39,14 +39,14 @@ const OptionTable<RecurrentOptions>& recurrent_table() {
   return options;
 }
 
-// The networks of the paper that clean together.
+// The networks of the paper that clean a take together.
 struct PaperNetworks {
   FilterNetwork filter;
   std::optional<FilterNetwork> gaps;
 };
 
-// The joints' samples that were not measured, from what is seen around them: the root, the place
-// and joints of which nothing is seen stay as `auto` bridged them.
+// Fills unmeasured samples of joints by the network. The root, the place and joints that were never
+// seen keep the bridges of `auto`.
 void fill_before_filter(const FilterNetwork& network, const BodyLayout& layout, PriorWork& work) {
   PoseMatrix& poses = work.channels.poses;
   const PoseMatrix filled = filled_by_network(network, layout, work.channels);
@@ -63,15 +63,15 @@ void fill_before_filter(const FilterNetwork& network, const BodyLayout& layout, 
   }
 }
 
-// Empty where the rate is that of the network.
+// The reason why a take's rate does not fit the network; empty if it does.
 std::string wrong_rate(const FilterNetwork& network, double frame_rate_hz) {
   if (has_rate_of(network, frame_rate_hz)) return {};
   return fmt::format("the network filters takes of {:g} Hz only, and this one has {:g}",
                      network.rate_hz, frame_rate_hz);
 }
 
-// A network of the paper filters the joints as they were measured; the root is left to `auto`, and
-// so is a take at another rate, since its filters are frames.
+// Filters the measured joints by a network of the paper. The root is left to `auto`, and so is a
+// take at another rate, since the network's filters are fixed numbers of frames.
 void filter_as_in_the_paper(PriorWork& work, const PaperNetworks& networks,
                             const BodyLayout& layout) {
   const FilterNetwork& network = networks.filter;
@@ -129,7 +129,7 @@ class LiveRecurrent final : public Cleaner {
                    const std::function<void(double)>& progress) const override {
     return clean_as_live(*this, take, sink, progress);
   }
-  // A stream at another rate is refused when it begins.
+  // A stream at another rate is rejected when it begins.
   LiveSupport live_support(double) const override { return {}; }
   std::unique_ptr<LiveFilter> live(const TakeView& like) const override {
     return make_recurrent_live(network_, model_->layout, names_, like);

@@ -1,4 +1,4 @@
-// Fills gaps of joints by a network of Mall et al. 2017 (EBD), for the room `fill`.
+// Fills gaps of joints by a network of Mall et al. 2017 (EBD), for `src/fill`.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +25,8 @@ namespace {
 // Chosen by hand, not swept.
 constexpr double most_within = 0.98;  // a few of the samples may be spikes
 
-// The body's frame needs a root in every frame, and rotation vectors the shortest way through gaps.
+// Bridges all gaps: the body's frame needs a root in every frame, and rotation vectors the shortest
+// path.
 Take bridged_take(const Take& clip) {
   Take whole = clip;
   const TakeView view = view_of(clip);
@@ -39,7 +40,7 @@ Take bridged_take(const Take& clip) {
   return whole;
 }
 
-// Whether a joint turns farther from the model's mean than its channels can say.
+// Whether a joint turns farther from the model's mean than its channels can express.
 bool turns_too_far(const BodyChannels& channels, std::size_t part) {
   const double limit = degrees_per_radian * tangent_limit_rad;
   std::size_t seen = 0, far = 0;

@@ -68,7 +68,7 @@ class RecurrentLive final : public LiveFilter {
   }
 
  private:
-  // A track of the model that the take has.
+  // A track of the model that the take contains.
   struct Known {
     std::size_t track, joint;
     Quat before, after, reference;
@@ -80,7 +80,7 @@ class RecurrentLive final : public LiveFilter {
     Quat rest;
   };
 
-  // Joints above the root of the model's body turn it, too.
+  // Joints above the root of the model's body rotate it, too.
   void find_ancestors(const Skeleton& skeleton, const BodyMatch& match) {
     const auto root = static_cast<std::size_t>(match.tracks[0]);
     for (std::int32_t j = skeleton.parents[root]; j >= 0;
@@ -97,7 +97,7 @@ class RecurrentLive final : public LiveFilter {
     return frame.observed.empty() || frame.observed[joint] != 0;
   }
 
-  // What stands in a gap never matters.
+  // Holds the last seen rotation in gaps; the samples there are arbitrary.
   void hold_missing(Frame& frame) {
     for (std::size_t j = 0; j < held_.size(); ++j) {
       if (is_seen(frame, j))
@@ -155,8 +155,8 @@ class RecurrentLive final : public LiveFilter {
   Quat unturned_;
   std::vector<float> values_, result_;
   std::vector<std::uint8_t> missing_;
-  std::vector<Quat> held_;      // J, as last seen
-  std::vector<Frame> waiting_;  // a ring: as they came, gaps held
+  std::vector<Quat> held_;      // J, last seen
+  std::vector<Frame> waiting_;  // a ring of input frames with gaps held
   std::size_t pushed_ = 0, given_ = 0;
 };
 

@@ -9,11 +9,10 @@
 
 namespace kinemend {
 
-/// A filter network of a model on takes like this one, at its own rate. Joints that the model knows
-/// come out filtered; the root, positions, and joints that it does not know come out as they were
-/// measured. The skeleton is matched by its rest pose. `network` and `model` outlive the filter.
-/// Errors: `ErrorKind::usage` for markers, another rate, a network that filters nothing, and as of
-/// `match_body`.
+/// A filter network of a model on takes like this one, at its own rate. Known joints are filtered;
+/// the root, positions, and unknown joints are passed through. The skeleton is matched by its rest
+/// pose. `network` and its model must outlive the filter. Errors: `ErrorKind::usage` for markers,
+/// another rate, a network without a filter, and as of `match_body`.
 std::unique_ptr<LiveFilter> make_recurrent_live(const FilterNetwork& network,
                                                 const BodyLayout& layout, const NameMap& names,
                                                 const TakeView& like);

@@ -1,4 +1,4 @@
-// What the uses of the networks of Mall et al. share.
+// Checks that the users of the networks of Mall et al. share.
 #pragma once
 
 #include "kinemend/experimental/model.hpp"
@@ -6,13 +6,13 @@
 
 namespace kinemend {
 
-/// A network that fills gaps. Errors: `ErrorKind::usage` for a model of the method that cleans.
+/// Reads a network that fills gaps. Errors: `ErrorKind::usage` for a model of the cleaning method.
 FilterNetwork gap_network_of(const Model& model);
 
-/// Whether two models see the same channels of the same body.
+/// Whether two models have the same channels of the same body.
 bool are_same(const BodyLayout& one, const BodyLayout& other);
 
-/// Whether takes of this rate are the network's, whose filters are so many frames long.
+/// Whether a take's rate is that of the network, whose filters have fixed lengths in frames.
 bool has_rate_of(const FilterNetwork& network, double frame_rate_hz);
 
 }  // namespace kinemend

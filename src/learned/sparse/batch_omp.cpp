@@ -11,11 +11,11 @@ namespace kinemend::sparse {
 namespace {
 
 constexpr std::size_t block_signals = 128;  // a share of work
-// Of an atom's squared length outside of those chosen: less is rounding.
+// Share of an atom's squared length outside the chosen atoms; less is rounding.
 constexpr float least_new_share = 1e-6F;
 constexpr float least_correlation = 1e-7F;  // of the signal's length
 
-// What one signal is pursued with; its space is used again for the next.
+// The pursuit of one signal; its memory is reused for the next.
 class Pursuit {
  public:
   Pursuit(std::span<const float> gram, std::size_t atoms, std::size_t most)
@@ -23,7 +23,7 @@ class Pursuit {
     chosen_.reserve(most);
   }
 
-  // `correlations`: K, of the atoms with the signal.
+  // `correlations`: K, one per atom with the signal.
   void run(std::span<const float> correlations, double energy, const OmpSettings& settings) {
     chosen_.clear();
     std::copy(correlations.begin(), correlations.end(), left_.begin());
@@ -60,7 +60,7 @@ class Pursuit {
     return best;
   }
 
-  // A row of the Cholesky factor; false for an atom that says nothing new.
+  // Adds a row to the Cholesky factor; false for an atom that depends on the chosen ones.
   bool add_row(std::size_t atom) {
     const std::size_t n = chosen_.size();
     float left = gram_[atom * atoms_ + atom];
@@ -110,7 +110,7 @@ class Pursuit {
 
   std::span<const float> gram_;
   std::size_t atoms_;
-  std::vector<float> left_;          // K: correlations with what is left
+  std::vector<float> left_;          // K: correlations with the residual
   std::vector<float> factor_;        // lower triangle
   std::vector<float> code_, work_;   // T
   std::vector<std::size_t> chosen_;  // atoms, in their order

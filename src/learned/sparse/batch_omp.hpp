@@ -12,13 +12,13 @@ namespace kinemend::sparse {
 
 struct OmpSettings {
   std::size_t most_atoms = 10;  ///< T, 1 or more
-  /// A signal is done when the norm of what is left is at most this.
+  /// A signal is done when the norm of its residual is at most this.
   double residual = 0;
 };
 
 /// Orthogonal matching pursuit for many signals (Rubinstein, Zibulevsky, Elad 2008, "Efficient
 /// Implementation of the K-SVD Algorithm using Batch Orthogonal Matching Pursuit", algorithm 2):
-/// atoms are chosen greedily by their correlation with what is left, which is followed by the Gram
+/// atoms are chosen greedily by their correlation with the residual, which is updated by the Gram
 /// matrix alone,
 ///
 ///     alpha = alpha_0 - G_I gamma,    alpha_0 = D^T z,    G = D^T D
@@ -29,7 +29,7 @@ class BatchOmp {
   /// Atoms have length 1; one of zeros is never chosen. The dictionary is not kept.
   explicit BatchOmp(const Dictionary& dictionary);
 
-  /// `signals`: S x n. Signals are coded in parallel. Errors: none; an atom that is, within
+  /// `signals`: S x n. Signals are coded in parallel. Never throws; an atom that is, within
   /// rounding, a sum of those chosen ends the code of a signal.
   SparseCodes code(std::span<const float> signals, const OmpSettings& settings) const;
 

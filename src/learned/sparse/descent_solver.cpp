@@ -1,4 +1,4 @@
-// Descends for batches of signals and takes atoms into use whose slope asks for it.
+// Solves batches of signals by descent and adds the atoms whose slope exceeds lambda.
 #include "learned/sparse/descent_solver.hpp"
 
 #include <Eigen/Core>
@@ -21,7 +21,7 @@ using Map = Eigen::Map<const Eigen::VectorXf>;
 
 // For speed, not swept.
 constexpr std::size_t batch_signals = 64;  // a share of work
-// Of the absolute loss: rests count as at least this share of their median, so that weights stay
+// For the absolute loss, residuals are at least this share of their median, so that weights stay
 // finite. Chosen by hand, not swept.
 constexpr float least_rest = 0.1F;
 
@@ -36,7 +36,7 @@ class Descent {
     append(atom, code);
   }
 
-  // The weights of rows, half of those of the squares' slope. Atoms without a code go.
+  // Sets the weights of rows, half of those of the squares' slope. Removes atoms without a code.
   void weigh(const Vector& weights) {
     weights_ = weights;
     const std::vector<std::size_t> atoms = std::exchange(used_, {});
@@ -67,8 +67,8 @@ class Descent {
     return true;
   }
 
-  // Coordinate descent on the atoms in use: of code^T G code - 2 target^T code + lambda |code|_1.
-  // Slopes follow the codes that change, which are few.
+  // Coordinate descent on the atoms in use, minimising code^T G code - 2 target^T code + lambda
+  // |code|_1. Slopes are updated for the few codes that change.
   void descend(float lambda) {
     const Eigen::Index n = size();
     Eigen::Map<Vector> codes(codes_.data(), n);
@@ -121,7 +121,7 @@ class Descent {
   const DescentSettings& settings_;
   Vector weights_, targets_;
   std::vector<std::size_t> used_;
-  std::vector<float> codes_, columns_;  // of the atoms in use; these, one behind the other
+  std::vector<float> codes_, columns_;  // columns: the atoms in use, one after the other
   Eigen::MatrixXf products_;            // their Gram matrix under the weights
 };
 
@@ -184,7 +184,7 @@ class DescentBatch {
     return problem_.weights.empty() ? 1 : problem_.weights[(first_ + s) * rows_ + row];
   }
 
-  // Of the squares that are solved in a turn.
+  // The weights of the squares in this turn.
   Vector weights_of(std::size_t s, std::size_t turn) const {
     Vector weights(size());
     for (std::size_t r = 0; r < rows_; ++r)
@@ -197,7 +197,7 @@ class DescentBatch {
     }
     const auto middle = static_cast<float>(median_of(sizes));
     if (!(middle > 0)) return weights;
-    // In the first turn there is no rest to tell samples by.
+    // The first turn has no residuals that distinguish samples.
     if (turn == 0) return weights / (2 * middle);
     return weights.array() / (2 * left.array().max(least_rest * middle));
   }
@@ -224,7 +224,7 @@ class DescentBatch {
     }
   }
 
-  // The steepest few of the atoms whose slope is beyond lambda.
+  // Adds the few steepest atoms whose slope exceeds lambda.
   bool add_steep(std::span<const float> slopes, float lambda, std::size_t s) {
     // For speed, not swept.
     constexpr std::size_t at_once = 6;  // atoms

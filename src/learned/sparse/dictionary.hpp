@@ -8,7 +8,7 @@
 
 namespace kinemend::sparse {
 
-/// K atoms of n rows each, one behind the other.
+/// K atoms of n rows each, one after the other.
 struct Dictionary {
   std::size_t rows = 0;       ///< n
   std::size_t atoms = 0;      ///< K
@@ -18,7 +18,7 @@ struct Dictionary {
   std::span<const float> atom(std::size_t k) const { return {values.data() + k * rows, rows}; }
 };
 
-/// Codes of S signals: of signal s the first `counts[s]` of its `most` slots.
+/// Codes of S signals. Signal s uses the first `counts[s]` of its `most` slots.
 struct SparseCodes {
   std::size_t most = 0;
   std::vector<std::uint32_t> counts;  ///< S

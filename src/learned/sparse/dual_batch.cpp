@@ -16,7 +16,8 @@ using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowM
 // of the gap to the next, for speed. Not swept.
 constexpr double over_relaxation = 1.6;
 constexpr std::size_t measured_every = 10;
-// Penalties settle, so that the method converges. Chosen by hand, not swept.
+// Penalties are adapted only so long; the method converges once they are fixed. Chosen by hand, not
+// swept.
 constexpr std::size_t balanced_until = 300;
 // Ratio of the two residuals from which a penalty is changed, and by how much. Chosen by hand, not
 // swept.
@@ -50,7 +51,7 @@ DualBatch::DualBatch(Loss loss, std::size_t rows, std::span<const double> signal
       size += weights_[i] > 0 ? std::abs(signals_[i]) : 0;
       weight += weights_[i];
     }
-    // The ratio of a residual to its multiplier.
+    // The penalty starts at the ratio of a residual to its multiplier.
     const double slope = loss_ == Loss::squares ? 0.5 * static_cast<double>(rows_) : size;
     penalties_[s] = slope > 0 && weight > 0 ? slope / weight : 1;
     empty_objectives_[s] = loss_of(s, true);
@@ -118,7 +119,7 @@ void DualBatch::step() {
   for (std::size_t s = 0; s < count_; ++s) step_signal(s);
 }
 
-// The other two blocks and the multipliers, over-relaxed; notes how far they moved.
+// Updates the other two blocks and the multipliers, over-relaxed, and notes how far they moved.
 void DualBatch::step_signal(std::size_t s) {
   const double beta = penalties_[s], lambda = lambdas_[s], over = 1 / beta;
   double apart = 0, moved = 0, multipliers = 0, sizes = 0;

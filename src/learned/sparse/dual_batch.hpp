@@ -1,4 +1,4 @@
-// The inner loop of the exact solver: a few signals on the atoms that matter to them.
+// The inner loop of the exact solver: a few signals on the atoms that they need.
 #pragma once
 
 #include <cstddef>
@@ -14,22 +14,25 @@ namespace kinemend::sparse {
 /// grow: multipliers are kept.
 class DualBatch {
  public:
-  /// `signals`, `weights`: S x n, as they outlive the batch.
+  /// `signals`, `weights`: S x n; they must outlive the batch.
   DualBatch(Loss loss, std::size_t rows, std::span<const double> signals,
             std::span<const double> weights, std::span<const double> lambdas);
 
-  /// Goes on with this set of atoms (A x n), those before it in their order, then new ones.
-  /// `codes`: S x A, of the new atoms; those of the others are replaced by what they have become.
+  /// Continues with this set of atoms (A x n): the previous atoms in their order, then new ones.
+  /// `codes` (S x A) holds the codes of the new atoms; the current codes replace those of the
+  /// others.
   void set_atoms(std::vector<double> atoms, const std::vector<double>& codes);
-  /// Until every gap is small enough for the atoms of the set, or `settings.iterations`.
+  /// Iterates until every gap is small enough for the atoms of the set, or for
+  /// `settings.iterations`.
   void iterate(const DualSettings& settings);
 
   const std::vector<double>& codes() const noexcept { return codes_; }        ///< S x A
   const std::vector<double>& reconstructed() const noexcept { return fit_; }  ///< S x n
-  /// S x n: t, which the conjugate of the loss allows.
+  /// S x n: t, feasible for the conjugate of the loss.
   const std::vector<double>& duals() const noexcept { return doubles_; }
   double objective(std::size_t s) const { return objectives_[s]; }
-  /// Of the dual of signal s, scaled so that its largest correlation, `most`, is at most lambda.
+  /// The gap of signal s, with its dual scaled so that the largest correlation, `most`, becomes at
+  /// most lambda.
   double gap(std::size_t s, double most) const;
   bool is_done(std::size_t s, double gap, double tolerance) const;
 

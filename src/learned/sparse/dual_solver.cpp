@@ -1,4 +1,4 @@
-// Solves batches of signals on working sets of atoms that grow until no constraint is broken.
+// Solves batches of signals on working sets of atoms that grow until all constraints hold.
 #include "learned/sparse/dual_solver.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace kinemend::sparse {
 
 namespace {
 
-// All atoms, as every batch needs them.
+// All atoms; every batch needs them.
 struct Atoms {
   std::size_t rows, count;
   std::vector<double> values;  // K x n
@@ -68,7 +68,7 @@ class WorkingSet {
   std::vector<std::size_t> chosen_;
 };
 
-// The atoms of `many` largest values, beyond a floor.
+// Adds the atoms of the `many` largest values above a floor.
 void add_largest(std::span<const double> values, double floor, std::size_t many,
                  WorkingSet& working) {
   std::vector<std::size_t> order;

@@ -19,7 +19,7 @@ enum class Loss : std::uint8_t {
 ///
 ///     min over theta of  sum_i w_i |z_i - (D theta)_i|^p + lambda |theta|_1,    p = 2 or 1
 ///
-/// A row of weight 0 is missing: it has no say.
+/// Rows of weight 0 are missing: they do not affect the result.
 struct SparseProblem {
   Loss loss = Loss::squares;
   std::span<const double> signals;  ///< S x n: z
@@ -33,8 +33,8 @@ struct DualSettings {
   /// the code of zeros.
   double tolerance = 1e-2;
   std::size_t iterations = 1000;  ///< at most, for each set of atoms
-  std::size_t first_atoms = 8;    ///< of a signal, with which its batch starts
-  std::size_t rounds = 20;        ///< of atoms that are added, at most
+  std::size_t first_atoms = 8;    ///< per signal, with which its batch starts
+  std::size_t rounds = 20;        ///< in which atoms are added, at most
   std::size_t batch = 4;          ///< neighbouring signals that are solved together
 };
 
@@ -44,7 +44,7 @@ struct SparseSolution {
   std::vector<double> gaps;           ///< S: a bound on how far an objective is above its minimum
   std::vector<double> objectives;     ///< S
 
-  /// Zeros; no gaps.
+  /// All zeros, without gaps.
   SparseSolution(const Dictionary& dictionary, std::size_t signals)
       : codes(signals * dictionary.atoms),
         reconstructed(signals * dictionary.rows),
@@ -58,13 +58,12 @@ struct SparseSolution {
 ///     max over y of  y^T z - f*(y),    |D^T y|_inf <= lambda
 ///
 /// and the augmented Lagrangian is minimised by turns over y, over s = D^T y and over t = y; theta
-/// and the residual are the multipliers of the two. Rows that are missing and weights are in f*
-/// alone, so that signals share one factor of I + D^T D and an iteration is four products of
-/// matrices. Penalties adapt to each signal. Signals next to each other, which are alike where
-/// windows overlap, are a small batch on the atoms that correlate with it the most; atoms whose
-/// dual constraint the solution breaks are added until there are none (working sets; the
-/// multipliers go on). Batches run in parallel; the result does not depend on the number of
-/// threads.
+/// and the residual are the multipliers of the two. Missing rows and weights affect f* alone, so
+/// that signals share one factor of I + D^T D and an iteration is four products of matrices.
+/// Penalties adapt to each signal. A batch holds a few neighbouring signals, which are alike if
+/// windows overlap, and starts with the atoms that correlate with it the most; atoms whose dual
+/// constraint the solution breaks are added until all hold (working sets; multipliers are kept).
+/// Batches run in parallel; the result does not depend on the number of threads.
 SparseSolution solve_sparse(const Dictionary& dictionary, const SparseProblem& problem,
                             const DualSettings& settings = {});
 

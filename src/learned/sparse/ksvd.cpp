@@ -21,7 +21,7 @@ using Column = Eigen::Map<Eigen::VectorXf>;
 using ConstColumn = Eigen::Map<const Eigen::VectorXf>;
 
 // For speed, not swept.
-constexpr std::size_t block_of_signals = 256;  // a share of work; sums have its order
+constexpr std::size_t block_of_signals = 256;  // task size; it fixes the order of sums
 
 ConstColumn column(std::span<const float> values, std::size_t number, std::size_t rows) {
   return {values.data() + number * rows, static_cast<Eigen::Index>(rows)};
@@ -35,7 +35,7 @@ Column column(std::vector<float>& values, std::size_t number, std::size_t rows) 
   return {values.data() + number * rows, static_cast<Eigen::Index>(rows)};
 }
 
-// Calls `work(first, last)` for blocks of signals; a sum in their order does not depend on threads.
+// Calls `work(first, last)` for blocks of signals and sums in their order, whatever the threads.
 template <class Work>
 double sum_over_blocks(std::size_t signals, std::size_t rows, const Work& work) {
   const std::size_t blocks = (signals + block_of_signals - 1) / block_of_signals;
@@ -89,7 +89,7 @@ class Learning {
   KsvdResult finish() { return {std::move(state_.dictionary), std::move(state_.objective)}; }
 
  private:
-  // Different signals, in random order.
+  // Draws different signals at random as atoms.
   void draw_atoms() {
     std::vector<std::size_t> order(count_);
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -114,7 +114,7 @@ class Learning {
     });
   }
 
-  // What a code leaves of a signal.
+  // The residual of a signal after its code.
   Vector rest_of(const Dictionary& dictionary, const SparseCodes& codes, std::size_t s) const {
     Vector rest = column(signals_, s, rows_);
     for (std::size_t i = s * codes.most; i < s * codes.most + codes.counts[s]; ++i)
@@ -130,8 +130,8 @@ class Learning {
     return false;
   }
 
-  // Codes all signals; one whose old code has none of the `changed` atoms and leaves less keeps it.
-  // The objective.
+  // Codes all signals. A signal keeps an old code that has none of the `changed` atoms and leaves
+  // less. Returns the objective.
   double code_by(const Dictionary& dictionary, const std::vector<bool>& changed, SparseCodes& codes,
                  std::vector<float>& left) const {
     OmpSettings settings;
@@ -164,8 +164,8 @@ class Learning {
     code_by(state_.dictionary, none, state_.codes, state_.left);
   }
 
-  // The same with atoms that are worth little replaced; false where there are none, or where the
-  // objective is none the better for it.
+  // Codes after replacing poor atoms; false if there are no poor atoms or the objective does not
+  // improve.
   bool code_with_replacements() {
     const std::vector<bool> replaced = poor_atoms();
     if (std::find(replaced.begin(), replaced.end(), true) == replaced.end()) return false;
@@ -202,7 +202,7 @@ class Learning {
     return result;
   }
 
-  // Hardly used atoms, and of twins the one that is used less. Before the first coding none.
+  // Marks hardly used atoms, and of twins the one that is used less; none before the first coding.
   std::vector<bool> poor_atoms() const {
     std::vector<bool> poor(state_.dictionary.atoms, false);
     if (std::all_of(state_.codes.counts.begin(), state_.codes.counts.end(),
@@ -253,7 +253,7 @@ class Learning {
   std::size_t rows_, count_;
   KsvdSettings settings_;
   KsvdState state_;
-  double objective_ = 0;  // before the first iteration, too
+  double objective_ = 0;  // valid before the first iteration, too
 };
 
 }  // namespace

@@ -25,11 +25,11 @@ namespace {
 
 constexpr double outlier_deviations = 5;  // of the noise of a channel
 constexpr double many_outliers = 0.02;    // share of samples: one in fifty
-constexpr double well_below = 0.7;        // of the noise that `auto` sees
-// Mean square of what the atoms miss, in those of the noise, from which on it counts; and how much
-// of `auto` the result has at most.
+constexpr double well_below = 0.7;        // share of the noise that `auto` measures
+// Mean square of the residual outside the atoms, in those of the noise, from which `auto` is mixed
+// in; and the largest share of `auto` in the result.
 constexpr double usual_rest = 0.1, most_of_auto = 0.5;
-// Of the root from the mean of the training, in all but a few frames.
+// Turn of the root from the mean of the training, in all but a few frames.
 constexpr double far_root_deg = 70, mostly = 0.98;
 constexpr double least_channel_noise_deg = 0.05;  // against division by zero
 constexpr double least_point_noise = 2e-4;        // body heights
@@ -60,8 +60,8 @@ SparseLoss loss_of(const SparseOptions& options) {
   return options.loss == "l1" ? SparseLoss::absolute : SparseLoss::mixed;
 }
 
-// What was measured; `auto`'s opinion of gaps and, of joints, of spikes, which would throw all
-// points below them.
+// The measurements, with `auto`'s values in gaps and, for joints, at spikes, which would displace
+// all points below them.
 PoseMatrix guess_of(const PriorWork& work, BodyKind kind) {
   PoseMatrix guess = work.channels.poses;
   for (std::size_t i = 0; i < guess.values.size(); ++i) {
@@ -89,8 +89,8 @@ std::vector<double> point_noise(const PoseMatrix& positions, const PoseMatrix& g
   return noise;
 }
 
-// Markers of a capture have about the same noise. Where they differ, outliers move the guide of
-// those far from the body's middle, which must not make them count less.
+// Markers of a capture have about the same noise. If their estimates differ, outliers have moved
+// the guide of those far from the body's middle, which must not lower their weight.
 void level(std::vector<double>& noise) {
   std::vector<double> levels = noise;
   noise.assign(noise.size(), median_of(levels));
@@ -106,8 +106,8 @@ double share_beyond(const PoseMatrix& positions, const PoseMatrix& guide,
   return count / std::max(1.0, static_cast<double>(positions.values.size()));
 }
 
-// Of each channel: as `auto` measures it, but no more than what is measured scatters about what the
-// atoms express. Where many samples are outliers `auto` takes them for noise.
+// The noise of each channel as `auto` measures it, but at most the scatter of the measurements
+// about the result of the atoms: where many samples are outliers, `auto` takes them for noise.
 std::vector<double> noise_about(const PriorWork& work, const PoseMatrix& cleaned, bool is_capped) {
   std::vector<double> noise = example_noise(work);
   if (!is_capped) return noise;
@@ -118,8 +118,8 @@ std::vector<double> noise_about(const PriorWork& work, const PoseMatrix& cleaned
   return noise;
 }
 
-// The points that the result of wanted joints depends on, which are they and the ends of their
-// bones; of markers they themselves.
+// The points that the result of wanted joints depends on: these joints and the ends of their bones;
+// for markers the wanted ones themselves.
 std::vector<std::uint8_t> wanted_points(const SparsePoints& points,
                                         const std::vector<std::uint8_t>& wanted) {
   std::vector<std::uint8_t> marks(points.count(), 0);
@@ -135,7 +135,7 @@ bool is_root_left_out(const PriorWork& work) {
   return !work.left_out.empty() && work.left_out.front() != 0;
 }
 
-// Whether the body leans out of the poses that were learned from.
+// Whether the body leans farther than the poses of the training.
 bool leans_far(const PriorWork& work) {
   if (is_root_left_out(work)) return true;
   std::vector<double> turns;
@@ -144,15 +144,15 @@ bool leans_far(const PriorWork& work) {
   return quantile_of(turns, mostly) > far_root_deg;
 }
 
-// All points turn with the root, so that the other joints are the same on a body whose root keeps
-// its mean rotation.
+// Fixes the root at its mean rotation. All points turn with the root, so the other joints stay the
+// same.
 PoseMatrix with_steady_root(PoseMatrix poses) {
   for (std::size_t f = 0; f < poses.frames; ++f) std::fill_n(poses.row(f).begin(), 3, 0.0);
   return poses;
 }
 
-// F x D. A root that is left to `auto` counts as measured: else no point of the body would have
-// been.
+// F x D. A root that is left to `auto` is marked as measured; otherwise no point of the body would
+// be.
 std::vector<std::uint8_t> observed_with_root(const PriorWork& work) {
   std::vector<std::uint8_t> observed = work.channels.observed;
   if (!is_root_left_out(work)) return observed;
@@ -162,8 +162,8 @@ std::vector<std::uint8_t> observed_with_root(const PriorWork& work) {
   return observed;
 }
 
-// What the dictionaries make of the points. Where many are outliers, what `auto` makes of them is
-// no good guide, and the result is the guide of another turn.
+// The points after the dictionaries. If many are outliers, `auto`'s result is a poor guide, and a
+// second turn takes the first result as its guide.
 PoseMatrix filtered_points(const PriorWork& work, const PoseMatrix& positions, PoseMatrix guide,
                            const SparsePrior& prior, const BodyLayout& layout,
                            const std::vector<std::uint8_t>& wanted, const SparseSettings& settings,
@@ -183,9 +183,9 @@ PoseMatrix filtered_points(const PriorWork& work, const PoseMatrix& positions, P
   return guide;
 }
 
-// Spikes, and what is measured far from what the atoms express. Returns the share of the latter
-// that `auto` has taken for noise: in channels that mostly lie nearer to what the atoms express
-// than the noise that `auto` sees. Where motion is unlike the model's, they do not.
+// Rejects spikes and measurements far from the result of the atoms. Returns the share of the latter
+// that `auto` has taken for noise: those in channels that mostly lie nearer to this result than the
+// noise that `auto` measures. In motion unlike the model's they do not.
 double reject_outliers(PriorWork& work, const std::vector<double>& noise,
                        const PoseMatrix& expressed) {
   const std::vector<double> by_auto = example_noise(work);
@@ -211,9 +211,9 @@ PoseMatrix counted(const PriorWork& work) {
   return counts;
 }
 
-// Where the atoms miss much of the motion, the smoothed rest has errors of its own, as large as
-// those of `auto`: their mean is better than either. `cleaned` becomes it, the more the larger the
-// rest is beside the noise.
+// Averages `cleaned` with `auto`'s result. Where the atoms miss much of the motion, the smoothed
+// rest has errors as large as those of `auto`, and the mean is better than either. The share of
+// `auto` grows with the ratio of the rest to the noise.
 void average_with_auto(const PriorWork& work, const PoseMatrix& expressed,
                        const std::vector<double>& noise, PoseMatrix& cleaned) {
   for (std::size_t first = 0; first + 2 < cleaned.channels; first += 3) {
@@ -276,13 +276,14 @@ void filter_sparse(PriorWork& work, const SparseOptions& options, const SparsePr
   const std::vector<double> noise = noise_about(work, cleaned, tuning.caps_noise);
   const double taken_for_noise = reject_outliers(work, noise, cleaned);
   if (tuning.releases) release_if_crowded(work, taken_for_noise);
-  // Of joints, whose noise is seldom the same about each axis, it flips between two estimates.
+  // For joints, whose noise is seldom the same about each axis, the smoothing flips between two
+  // estimates.
   if (tuning.smooths_rest && prior.points.kind == BodyKind::markers) {
     const PoseMatrix expressed = cleaned;
     smooth_rest(work, counted(work), expressed, noise, cleaned);
     if (tuning.averages && !work.is_whole) average_with_auto(work, expressed, noise, cleaned);
   }
-  // Where many samples are outliers, `auto` can do least with them.
+  // Where many samples are outliers, `auto` is the worst choice.
   if (tuning.leaves_biased && !work.is_whole) fall_back_where_biased(work, noise, cleaned);
   work.channels.poses = std::move(cleaned);
 }

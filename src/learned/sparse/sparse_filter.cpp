@@ -1,4 +1,4 @@
-// Cuts poses into windows for each part of the body, codes them, and averages what comes back.
+// Cuts poses into windows for each part of the body, codes them, and averages the results.
 #include "learned/sparse/sparse_filter.hpp"
 
 #include <Eigen/Core>
@@ -17,8 +17,8 @@ namespace {
 
 using Eigen::Index;
 
-// Windows that are in memory at once, and the values of theirs. Chosen by hand;
-// docs/methods/sparse-details.md states what more noise does.
+// Windows in memory at once, and their values. Chosen by hand; docs/methods/sparse-details.md
+// states what more noise does.
 constexpr std::size_t least_windows = 16, most_windows = 256, chunk_values = std::size_t{1} << 20;
 constexpr double least_noise = 1e-5;  // body heights
 
@@ -34,7 +34,7 @@ class PoseletFilter {
         unit_(unit),
         dictionary_(dictionary_at_rate(poselet, prior.window_frames, frames)) {}
 
-  // Adds what windows [first, last) of `starts` make of their frames.
+  // Adds the filtered windows [first, last) of `starts` to the sums of their frames.
   void filter(const std::vector<std::size_t>& starts, std::size_t first, std::size_t last,
               PoseMatrix& sums, PoseMatrix& counts) const {
     Windows windows = read(starts, first, last);
@@ -61,7 +61,7 @@ class PoseletFilter {
     return 3 * static_cast<std::size_t>(poselet_.points[own / 3]) + own % 3;
   }
 
-  // Weights are unit / noise here. Frames behind the end repeat the last one and have no weight.
+  // Weights are unit / noise here. Frames beyond the end repeat the last one and have no weight.
   Windows read(const std::vector<std::size_t>& starts, std::size_t first, std::size_t last) const {
     Windows windows;
     windows.count = last - first;
@@ -112,8 +112,8 @@ class PoseletFilter {
     return solution_of(sparse::Loss::squares, windows, squares).reconstructed;
   }
 
-  // Samples far from what eq. 5 makes of a window lose their weight. Windows in which nothing is
-  // far from the guide have none.
+  // Removes the weight of samples far from the fit of eq. 5 to their window. Windows without
+  // samples far from the guide are skipped.
   void drop_outliers(Windows& windows) const {
     Windows chosen;
     std::vector<std::size_t> numbers;
@@ -138,7 +138,7 @@ class PoseletFilter {
         if (chosen.weights[i] > 0)
           sizes.push_back(std::abs(chosen.signals[i] - fit[i]) * chosen.weights[i]);
       }
-      // What the atoms do not express is no outlier.
+      // A large residual of the whole window is motion that the atoms cannot express, not outliers.
       const double limit =
           settings_.outlier_deviations * std::max(1.0, deviations_per_median * median_of(sizes));
       for (std::size_t i = 0; i < rows(); ++i) {

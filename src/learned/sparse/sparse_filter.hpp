@@ -12,7 +12,7 @@
 namespace kinemend {
 
 enum class SparseLoss : std::uint8_t {
-  mixed,     ///< eq. 5, then eq. 4 without what that leaves far off
+  mixed,     ///< eq. 5, then eq. 4 without the samples far from its fit
   squares,   ///< eq. 4
   absolute,  ///< eq. 5
 };
@@ -24,7 +24,7 @@ struct SparseSettings {
   double outlier_deviations = 4.5;
   std::size_t hops = 4;     ///< windows over a frame
   double tolerance = 1e-2;  ///< of the solvers
-  bool exact = false;       ///< the paper's solver, of both problems to the gap that it proves
+  bool exact = false;       ///< the paper's solver for both problems, to the gap that it proves
 };
 
 struct SparseTake {
@@ -33,21 +33,21 @@ struct SparseTake {
   std::span<const std::uint8_t> observed;  ///< F x 3 P; empty: all
   std::span<const double> noise;           ///< 3 P, positive: standard deviations
   double rate_hz = 120;
-  /// P; empty: all. Poselets of which no point is wanted are not solved: where no other poselet has
-  /// them, their points are the guide's.
+  /// P; empty: all. Poselets without a wanted point are not solved: points that no other poselet
+  /// has keep the guide's positions.
   std::span<const std::uint8_t> wanted = {};
 };
 
-/// What the dictionaries make of a take: its poses in local coordinates, cut into windows of each
-/// poselet, with the codes of eq. 4 or 5 and back, averaged over windows and poselets. Rows are
-/// weighed by their noise, those of missing samples by 0; lambda is `settings.lambda` times what
-/// noise alone makes of the largest of K correlations, sqrt(2 log K). In units of the noise both
-/// problems are free of scale. F x 3 P.
+/// The take after the dictionaries, F x 3 P: its poses in local coordinates, cut into windows of
+/// each poselet, are coded by eq. 4 or 5, rebuilt, and averaged over windows and poselets. Rows are
+/// weighted by their noise, those of missing samples by 0. Lambda is `settings.lambda` times the
+/// expected largest of K correlations with noise alone, sqrt(2 log K). In units of the noise both
+/// problems are free of scale.
 PoseMatrix sparse_filter(const SparsePrior& prior, const SparseTake& take,
                          const SparseSettings& settings = {});
 
-/// The dictionary of windows at a take's rate, of `frames` frames: atoms as their cosines over the
-/// window, sampled anew, of length 1.
+/// The dictionary of windows of `frames` frames at a take's rate: atoms as their cosines over the
+/// window, resampled, of length 1.
 sparse::Dictionary dictionary_at_rate(const SparsePoselet& poselet, std::size_t window_frames,
                                       std::size_t frames);
 

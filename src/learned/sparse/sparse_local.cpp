@@ -10,8 +10,8 @@ namespace kinemend {
 
 namespace {
 
-// Sine of the angle at the middle of the hips, and length relative to the way between them. Below
-// them the points are nearly on a line. Chosen by hand, not swept.
+// Sine of the angle at the middle of the hips, and length relative to the distance between them.
+// Below these values the points are nearly on a line. Chosen by hand, not swept.
 constexpr double least_sine = 0.1;
 constexpr double least_length = 1e-9;
 
@@ -20,7 +20,8 @@ Vec3 point(const PoseMatrix& positions, std::size_t frame, std::int32_t number) 
   return {positions(frame, first), positions(frame, first + 1), positions(frame, first + 2)};
 }
 
-// The turn that brings the axes of a pose to those of the world; nothing where they cannot be told.
+// The turn that brings the axes of a pose to those of the world; none if the points do not
+// determine it.
 std::optional<Quat> turn_of(const PoseMatrix& positions, const LocalPoints& points,
                             std::size_t frame) {
   const Vec3 left = point(positions, frame, points.left_hip);
@@ -56,7 +57,7 @@ void change_all(const std::vector<LocalFrame>& frames, PoseMatrix& positions,
 std::vector<LocalFrame> local_frames(const PoseMatrix& positions, const LocalPoints& points) {
   std::vector<LocalFrame> frames(positions.frames);
   if (points.root < 0) return frames;
-  std::optional<std::size_t> known;  // last frame whose turn could be told
+  std::optional<std::size_t> known;  // last frame whose turn is determined
   for (std::size_t f = 0; f < frames.size(); ++f) {
     frames[f].origin = point(positions, f, points.root);
     if (points.left_hip < 0 || points.right_hip < 0 || points.neck < 0) continue;

@@ -9,8 +9,8 @@
 
 namespace kinemend {
 
-/// The points that a pose's frame is taken from; -1: the body has none. Without a root poses stay
-/// in the frame of the body, without one of the others they are only moved.
+/// The points that define a pose's frame; -1: the body has none. Without a root, poses stay in the
+/// frame of the body; without one of the others they are only translated.
 struct LocalPoints {
   std::int32_t root = -1;
   std::int32_t left_hip = -1, right_hip = -1, neck = -1;
@@ -24,11 +24,11 @@ struct LocalFrame {
 
 /// The frame of each pose of `positions` (F x 3 P): the root at the origin, the plane of the hips
 /// and the neck parallel to XY, the ray from between the hips to the neck along +Y, the left hip at
-/// +X. Where the three are nearly on a line, or on a point, the frame is turned as in the last pose
-/// in which they are not (the first such one, before it).
+/// +X. If the three are nearly on a line or a point, the frame is turned as in the last pose in
+/// which they are not (before the first such pose, as in that one).
 std::vector<LocalFrame> local_frames(const PoseMatrix& positions, const LocalPoints& points);
 
-/// To local coordinates and back, exactly: one undoes the other.
+/// Convert to local coordinates and back, exactly.
 void to_local(const std::vector<LocalFrame>& frames, PoseMatrix& positions);
 void from_local(const std::vector<LocalFrame>& frames, PoseMatrix& positions);
 

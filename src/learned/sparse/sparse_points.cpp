@@ -18,11 +18,11 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// The arc of a channel's degree: a quarter of the body height has one radian. By definition
+// The arc of a channel's degree: one radian is a quarter of the body height. By definition
 // (docs/bodies.md). The lengths are chosen by hand, not swept.
 constexpr double degrees_per_height = 4 * degrees_per_radian;
 constexpr double least_bone = 1e-4;                      // body heights
-constexpr double shortest_end = 0.02, usual_end = 0.05;  // of a bone whose length is unknown
+constexpr double shortest_end = 0.02, usual_end = 0.05;  // for bones of unknown length
 
 Vec3 three(const PoseMatrix& values, std::size_t frame, std::size_t part) {
   return {values(frame, 3 * part), values(frame, 3 * part + 1), values(frame, 3 * part + 2)};
@@ -39,7 +39,7 @@ Quat local_rotation(const BodyLayout& layout, const PoseMatrix& channels, std::s
   return layout.references[track] * exp(radians_per_degree * three(channels, frame, track));
 }
 
-// Of all tracks in the body's frame.
+// Rotations of all tracks in the body's frame.
 std::vector<Quat> global_rotations(const BodyLayout& layout, const PoseMatrix& channels,
                                    std::size_t frame) {
   std::vector<Quat> global(layout.track_count());
@@ -161,7 +161,7 @@ std::vector<std::uint8_t> observed_points(const SparsePoints& points, const Body
 
 namespace {
 
-// One frame of the way back for joints.
+// Restores the joints of one frame.
 class FrameTurning {
  public:
   FrameTurning(const SparsePoints& points, const BodyLayout& layout, double stiffness)

@@ -11,9 +11,9 @@
 
 namespace kinemend {
 
-/// P points, in body heights. Of joints the first N are the joints themselves, on a body whose
-/// limbs have the lengths of the training's mean, whatever those of the take are; the others are
-/// the free ends of bones. Of markers they are the markers.
+/// P points, in body heights. For joints the first N are the joints themselves, on a body with the
+/// mean limb lengths of the training, whatever those of the take are; the others are the free ends
+/// of bones. For markers they are the markers.
 struct SparsePoints {
   BodyKind kind = BodyKind::joints;
   std::vector<std::int32_t> parents;  ///< P, joints: the track that carries the point; -1: none
@@ -23,8 +23,7 @@ struct SparsePoints {
   std::size_t count() const noexcept { return offsets.size(); }
 };
 
-/// Mean vectors from joints to those that hang on them, of takes of which one frame each is
-/// enough.
+/// Averages the vectors from joints to their children over takes; one frame of each is enough.
 class SparsePointsBuilder {
  public:
   explicit SparsePointsBuilder(const BodyLayout& layout);
@@ -36,25 +35,25 @@ class SparsePointsBuilder {
   std::vector<Vec3> sums_;
   std::vector<double> counts_;
 };
-/// Of markers the layout says all.
+/// The points of a marker layout, which determines them fully.
 SparsePoints marker_points(const BodyLayout& layout);
 
-/// F x 3 P positions: of joints with the first joint at the origin.
+/// F x 3 P positions; for joints the first joint is at the origin.
 PoseMatrix points_of(const SparsePoints& points, const BodyLayout& layout,
                      const PoseMatrix& channels);
-/// F x 3 P: whether a point was measured, which is to say all joints above it.
+/// F x 3 P: whether a point was measured, that is, all joints above it.
 std::vector<std::uint8_t> observed_points(const SparsePoints& points, const BodyLayout& layout,
                                           const std::vector<std::uint8_t>& observed);
 
-/// The channels of a body whose points are as near as may be to `positions` (F x 3 P), from the
-/// root outward: each joint turns so that the bones below it point as those of `positions`, by the
-/// rotation R with the least
+/// The channels of a body whose points are as close as possible to `positions` (F x 3 P), from the
+/// root outward: each joint turns its bones towards those of `positions`, by the rotation R that
+/// minimises
 ///
 ///     sum over its points of |R offset - (position - joint)|^2 + stiffness^2 |R - R_0|^2
 ///
-/// R_0 is its rotation in `guide` (F x D) on the joint above as it is now, which says what
-/// positions cannot: the twist about a single bone. Bone lengths are kept, as only rotations
-/// change. Channels without points below them, the place among them, are those of the guide.
+/// R_0 is its rotation in `guide` (F x D) on the new pose of the joint above. It determines the
+/// twist about a single bone, which positions do not. Bone lengths are kept, as only rotations
+/// change. Channels without points below them, among them the place, keep the guide's values.
 PoseMatrix channels_of(const SparsePoints& points, const BodyLayout& layout,
                        const PoseMatrix& positions, const PoseMatrix& guide,
                        double stiffness = 0.2);

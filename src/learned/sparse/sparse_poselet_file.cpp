@@ -15,7 +15,7 @@ namespace kinemend {
 namespace {
 
 // Chosen by hand.
-constexpr std::size_t most_poselets = 100;  // that a model file may have
+constexpr std::size_t most_poselets = 100;  // the limit of a model file
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view space = " \t\r";
@@ -24,7 +24,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(space) - first + 1);
 }
 
-// A line of the file: where it is, for errors.
+// A line of the file, with its place for errors.
 struct Line {
   std::string_view file, text;
   std::size_t number;
@@ -34,7 +34,7 @@ struct Line {
   }
 };
 
-// Marks the points that a name means: its tracks, and the free ends that hang on them.
+// Marks the points that a name matches: its tracks, and the free ends on them.
 void mark_points(const Line& line, std::string_view name, const BodyLayout& layout,
                  const SparsePoints& points, std::vector<std::uint8_t>& marks) {
   if (name.empty()) line.refuse("a name is missing between two commas");
@@ -75,7 +75,7 @@ SparsePoselet poselet_of_line(const Line& line, const BodyLayout& layout,
   return poselet;
 }
 
-// The tracks that no poselet has.
+// The tracks that are in no poselet.
 std::vector<std::string> left_over(const std::vector<SparsePoselet>& poselets,
                                    const BodyLayout& layout) {
   std::vector<std::uint8_t> used(layout.track_count(), 0);

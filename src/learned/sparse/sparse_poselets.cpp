@@ -19,7 +19,7 @@ enum Part : std::uint8_t { torso, left_arm, right_arm, left_leg, right_leg, unkn
 constexpr std::array<std::string_view, 5> part_names{"torso", "left arm", "right arm", "left leg",
                                                      "right leg"};
 
-// A point's part, and whether the torso has it, too.
+// A point's part, and whether the torso shares it.
 struct Place {
   Part part = unknown;
   bool is_shared = false;
@@ -86,9 +86,9 @@ Place place_of_marker(const std::string& name) {
   return {};
 }
 
-// By the mean position of a standing body, in body heights: y up, x to the left.
+// Guesses the part from the mean position of a standing body, in body heights: y up, x to the left.
 Place place_at(Vec3 mean) {
-  // Height of the hips, and how far to the side arms begin. Chosen by hand, not swept.
+  // Height of the hips, and lateral distance at which arms begin. Chosen by hand, not swept.
   constexpr double hips = 0.5, shoulders = 0.16;
   const Side side = mean.x > 0 ? Side::left : Side::right;
   if (std::abs(mean.x) > shoulders && mean.y > 0.5 * hips) return limb(side, false, false);
@@ -108,7 +108,7 @@ std::vector<Place> places_of(const BodyLayout& layout, const SparsePoints& point
         if (place.part == unknown) place = place_at(points.offsets[p]);
       }
     }
-    // What has no name of its own is a piece of what it hangs on.
+    // A point of unknown name belongs to the part of its parent.
     if (place.part == unknown && points.parents[p] >= 0)
       place.part = places[static_cast<std::size_t>(points.parents[p])].part;
     if (place.part == unknown) place.part = torso;
@@ -149,7 +149,7 @@ std::vector<SparsePoselet> find_poselets(const BodyLayout& layout, const SparseP
     }
     poselets[places[p].part].points.push_back(number);
     if (places[p].is_shared) poselets[torso].points.push_back(number);
-    // The joint of the torso that a limb hangs on.
+    // A limb also has the joint of the torso that carries it.
     const std::int32_t parent = points.parents[p];
     if (parent <= 0 || places[p].part == torso ||
         places[static_cast<std::size_t>(parent)].part != torso)

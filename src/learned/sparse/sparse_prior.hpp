@@ -15,12 +15,12 @@
 
 namespace kinemend {
 
-/// A part of the body and what it does.
+/// A part of the body and the dictionary of its motion.
 struct SparsePoselet {
   std::string name;
   std::vector<std::int32_t> points;  ///< n of the body's; a point may be in several poselets
   std::vector<float> mean;           ///< 3 n: mean position in local coordinates, body heights
-  /// Windows less the mean, frame after frame: M x 3 n rows.
+  /// Windows less the mean, one frame after the other: M x 3 n rows.
   sparse::Dictionary dictionary;
 
   std::size_t channels() const noexcept { return 3 * points.size(); }
@@ -35,28 +35,28 @@ struct SparsePrior {
 };
 
 /// Torso with head, arms and legs (section 3.1.2), without means and dictionaries, by the names of
-/// the tracks and what hangs on what; markers of names that say nothing by where they are. The
-/// joints at which arms and legs hang on the torso are in both. Parts without points are left out;
-/// `whole`: all points as one.
+/// the tracks and the hierarchy; markers without a known name by their position. Joints that
+/// connect arms and legs to the torso are in both. Parts without points are left out; `whole`: one
+/// part of all points.
 std::vector<SparsePoselet> find_poselets(const BodyLayout& layout, const SparsePoints& points,
                                          bool whole = false);
 
-/// The same as a file says it, a line each:
+/// Reads them from a file instead, one per line:
 ///
 ///     torso: Hips, Spine*, Neck, Head, *Shoulder    # a comment
 ///
-/// Names of joints or markers, or shell patterns, in any poselet; a free end of a bone is where its
-/// joint is. `name` is the file's, for errors. Errors: `ErrorKind::usage`, `<name>:<line>: ...`,
-/// for a line that is none, an empty poselet, one that is there twice, and a name that the body
-/// lacks; with the names for tracks that are in no poselet.
+/// Names of joints or markers, or shell patterns, in any poselet; a free end of a bone belongs to
+/// its joint. `name` is the file's, for errors. Errors: `ErrorKind::usage`, `<name>:<line>: ...`,
+/// for a malformed line, an empty or repeated poselet, and a name that the body lacks; also, with
+/// their names, for tracks that are in no poselet.
 std::vector<SparsePoselet> parse_poselets(std::string_view text, std::string_view name,
                                           const BodyLayout& layout, const SparsePoints& points);
 
-/// The points of section 3.1.1, by names.
+/// The points of section 3.1.1, found by name.
 LocalPoints find_local_points(const BodyLayout& layout);
 
-/// To and from tensors of the model file; atoms in 16 bits. Errors: `ErrorKind::unreadable_input`
-/// naming the tensor that does not fit.
+/// Convert to and from tensors of the model file; atoms in 16 bits. Errors:
+/// `ErrorKind::unreadable_input` naming the inconsistent tensor.
 void store_sparse_prior(const SparsePrior& prior, Model& model);
 SparsePrior sparse_prior_of(const Model& model);
 

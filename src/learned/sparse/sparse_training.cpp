@@ -40,7 +40,7 @@ struct SparseTraining {
 
 // Values of a window; limits memory. Chosen by hand.
 constexpr std::size_t largest_poselet_window = 16'384;
-// An atom stands for what several windows share. Chosen by hand, not swept.
+// Each atom needs several windows that share it. Chosen by hand, not swept.
 constexpr std::size_t least_windows_per_atom = 4;
 
 const OptionTable<SparseTraining>& sparse_training_table() {
@@ -70,7 +70,7 @@ const OptionTable<SparseTraining>& sparse_training_table() {
   return options;
 }
 
-// Takes as they are asked for, of which one frame each is kept.
+// The same takes; the middle frame of each that is read is also kept in `frames`.
 TrainingTakes keeping_frames(const TrainingTakes& takes, std::vector<Take>& frames) {
   return {takes.count, [&takes, &frames](std::size_t index) {
             auto take = takes.take(index);
@@ -89,7 +89,7 @@ SparsePoints points_for(const BodyLayout& layout, const std::vector<Take>& frame
   return builder.finish();
 }
 
-// The numbers of `count` windows, at most, of all, in their order: one from each stretch of them.
+// At most `count` ascending window numbers below `all`, drawn one from each stretch of them.
 std::vector<std::size_t> drawn(std::size_t all, std::size_t count, std::uint64_t seed) {
   count = std::min(all, count);
   Random random(seed);
@@ -123,7 +123,7 @@ class WindowSample {
     seen_ = end;
   }
 
-  // Takes the mean of poselet `i` off its windows.
+  // Subtracts the mean of poselet `i` from its windows and returns it.
   std::vector<float> take_mean(std::size_t i) {
     const std::size_t channels = prior_.poselets[i].channels();
     std::vector<double> sums(channels, 0);
@@ -155,7 +155,7 @@ class WindowSample {
   const SparsePrior& prior_;
   std::vector<std::size_t> numbers_;
   std::vector<std::vector<float>> values_;
-  std::size_t seen_ = 0, next_ = 0;  // windows gone by, and numbers
+  std::size_t seen_ = 0, next_ = 0;  // windows passed, and numbers used
 };
 
 std::size_t window_count(const TrainingSequences& sequences, std::size_t window) {
@@ -179,7 +179,7 @@ std::string stored(const sparse::KsvdState& state) {
   return writer.take();
 }
 
-// Nothing where nothing was kept.
+// The stored state; none if `bytes` is empty.
 std::optional<sparse::KsvdState> restored(std::string_view bytes, std::size_t signal_values,
                                           std::size_t rows) {
   if (bytes.empty()) return {};
@@ -224,7 +224,7 @@ void learn_dictionaries(const SparseTraining& options, std::size_t windows,
     const std::optional<sparse::KsvdState> start =
         restored(stages.kept(stage), sample.values(i).size(), rows);
     const auto keep = [&](const sparse::KsvdState& state) {
-      // Where another poselet has failed, what this one did last was cut off half way.
+      // If another poselet has failed, the last step of this one is incomplete.
       if (work_is_cancelled()) return false;
       if (state.objective.size() == learning.iterations || stages.is_due(stage))
         stages.keep(stage, stored(state));
@@ -236,7 +236,7 @@ void learn_dictionaries(const SparseTraining& options, std::size_t windows,
   stages.stop_if_asked();
 }
 
-// `text` is what the file of poselets says.
+// `text`: the content of the file of poselets.
 std::vector<SparsePoselet> poselets_for(const SparseTraining& options, const std::string& text,
                                         const BodyLayout& layout, const SparsePoints& points) {
   if (options.poselets.empty()) return find_poselets(layout, points, options.whole);

@@ -1,5 +1,5 @@
-// What `sparse` adds to the paper's method, so that each part can be left out to see what it
-// brings. Only the experiments set these (`bench/papers/xiao_ablation.cpp`).
+// Switches for the additions of `sparse` to the paper's method, so that each can be left out to
+// measure its effect. Only the experiments set these (`bench/papers/xiao_ablation.cpp`).
 #pragma once
 
 #include <memory>
@@ -12,12 +12,12 @@ namespace kinemend {
 struct SparseTuning {
   bool levels_markers = true;  ///< weighs all markers alike; off: by the noise of each
   bool guides_again = true;    ///< a second pass where many samples are outliers
-  bool caps_noise = true;      ///< noise is no more than the scatter about the result
+  bool caps_noise = true;      ///< limits the noise to the scatter about the result
   bool smooths_rest = true;    ///< keeps smooth motion of markers that the atoms cannot express
-  bool leaves_biased = true;   ///< takes what `auto` makes of a part where the result is biased
-  bool holds = true;           ///< changes a part no further than its noise asks for
-  bool releases = true;        ///< from the hold, where `auto` takes outliers for noise
-  bool averages = true;        ///< with `auto` where the atoms miss much
+  bool leaves_biased = true;   ///< takes `auto`'s result for parts where the result is biased
+  bool holds = true;           ///< changes a part no further than its noise justifies
+  bool releases = true;        ///< lifts that limit where `auto` takes outliers for noise
+  bool averages = true;        ///< averages with `auto` where the atoms miss much
 };
 
 /// Errors: as of `make_sparse`.

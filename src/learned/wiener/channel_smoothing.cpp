@@ -11,7 +11,7 @@ namespace kinemend {
 void smooth_channels(PoseMatrix& poses, std::span<const std::uint8_t> missing,
                      std::span<const double> noise, double frame_rate_hz) {
   // Chosen by hand, not swept.
-  constexpr std::size_t fewest_smoothed_frames = 16;  // fewer say nothing of a strength
+  constexpr std::size_t fewest_smoothed_frames = 16;  // fewer do not determine a strength
   VectorTracks tracks(poses.frames, poses.channels / 3);
   SampleMarks marks(poses.frames, tracks.tracks());
   for (std::size_t n = 0; n < tracks.tracks(); ++n) {

@@ -17,8 +17,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Component = WienerPrior::Component;
 
-// Leading coefficients by which windows are put together at first, and rounds of that. Chosen by
-// hand, not swept.
+// Leading coefficients by which windows are clustered at first, and rounds of that. Chosen by hand,
+// not swept.
 constexpr Index clustering_rows = 30;
 constexpr int clustering_rounds = 15;
 constexpr double least_pooled_variance = 1e-7;  // square degrees

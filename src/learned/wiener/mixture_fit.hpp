@@ -18,7 +18,7 @@ struct MixtureSettings {
   std::uint64_t seed = 1;
 };
 
-/// Where expectation maximisation stands.
+/// The state of the expectation maximisation.
 struct MixtureState {
   std::size_t rounds = 0;  ///< done; 0: after k-means
   std::vector<WienerPrior::Component> components;
@@ -27,8 +27,8 @@ struct MixtureState {
 /// A mixture of Gaussians fitted to the columns of `points` (R x W, W >= 1) by k-means on the
 /// leading 30 rows and then expectation maximisation. The covariance of a component is shrunk
 /// towards the pooled one, scaled to the component's variance, so that few points in many
-/// dimensions suffice. `after_each` sees the state after each round; with one as `start`, of the
-/// same points and settings, the result is as if the rounds before had been done here.
+/// dimensions suffice. `after_each` sees the state after each round. Given such a state as `start`,
+/// of the same points and settings, the fit resumes there with an identical result.
 std::vector<WienerPrior::Component> fit_mixture(
     const Eigen::MatrixXd& points, const MixtureSettings& settings,
     const std::function<void(const MixtureState&)>& after_each = {},

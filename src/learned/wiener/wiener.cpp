@@ -38,15 +38,15 @@ const OptionTable<WienerOptions>& wiener_table() {
   return options;
 }
 
-// Against division by zero; differences that tell the noise of a channel; share of suspects, and
-// noise in degrees, from which the filter looks for dense outliers itself (ablation_wiener.csv:
-// "dense ones not looked for", "by suspects only", "always").
+// Lower limit of the noise, against division by zero; fewest differences that determine a channel's
+// noise; share of suspects, and noise in degrees, above which the filter looks for dense outliers
+// itself (ablation_wiener.csv: "dense ones not looked for", "by suspects only", "always").
 constexpr double least_noise_deg = 1e-3;
 constexpr std::size_t fewest_differences = 8;
 constexpr double dense_share = 0.03, strong_noise_deg = 3;
 
-// Of a channel, from runs of five samples that were measured and no spikes; that of `auto` where
-// there are too few.
+// The noise of a channel from runs of five samples that were measured and are not spikes; that of
+// `auto` if there are too few.
 double channel_noise(const PriorWork& work, std::span<const std::uint8_t> suspect,
                      std::size_t channel) {
   const PoseMatrix& y = work.channels.poses;
@@ -70,7 +70,7 @@ double share_of(const std::vector<std::uint8_t>& suspect, const PriorWork& work)
   return static_cast<double>(suspects) / std::max(static_cast<double>(samples), 1.0);
 }
 
-// Of dense outliers `auto` finds some, or takes them all for noise.
+// `auto` finds only some of dense outliers, or takes them all for noise.
 bool may_have_dense_outliers(const PriorWork& work, std::vector<double> noise) {
   return share_of(work.suspect, work) > dense_share || median_of(noise) > strong_noise_deg;
 }

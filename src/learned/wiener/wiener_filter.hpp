@@ -12,11 +12,11 @@
 namespace kinemend {
 
 struct WienerSettings {
-  /// How often samples are judged, and those without weight guessed, anew.
+  /// How often samples are judged again, and those without weight estimated again.
   std::size_t rounds = 2;
-  /// Standard deviations beyond which a sample gets no weight; 0: none do.
+  /// Standard deviations beyond which a sample gets no weight; 0 keeps all.
   double outlier_deviations = 4.5;
-  double least_outlier_deg = 1;  ///< samples at a smaller distance are no outliers
+  double least_outlier_deg = 1;  ///< samples at a smaller distance are not outliers
 };
 
 struct WienerTake {
@@ -35,8 +35,8 @@ struct WienerResult {
 
 /// The posterior mean of a take, window by window and overlap-added. Components are weighted by the
 /// evidence of each window. The residual is shrunk by its own spectrum (`RestModel`). A sample far
-/// from its window's estimate is rejected, and stays so. What is missing or rejected is guessed
-/// anew from each estimate. Channels come in threes, of which outliers are shared.
+/// from its window's estimate is rejected, and stays so. Each estimate replaces missing and
+/// rejected samples. Channels come in threes, which share outliers.
 WienerResult wiener_filter(const WienerPrior& prior, const WienerTake& take,
                            const WienerSettings& settings = {});
 

@@ -20,8 +20,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Rotation vectors jump by a full turn where a joint turns beyond half of one. Chosen by hand, not
-// swept.
+// Rotation vectors jump by a full turn when a joint passes half of one. Chosen by hand, not swept.
 constexpr double jump_deg = 90;
 constexpr double least_variance = 1e-6;  // square degrees
 

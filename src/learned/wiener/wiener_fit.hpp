@@ -28,29 +28,30 @@ struct WienerFitSettings {
   std::uint64_t seed = 1;
 };
 
-/// Fits a prior in two passes over the same sequences: moments of all windows, which give mean,
-/// basis and rest; then the windows in that basis, of which a random sample is kept for the
-/// mixture. Memory is independent of the number of sequences.
+/// Fits a prior in two passes over the same sequences: the first sums the moments of all windows,
+/// which give mean, basis and rest; the second keeps a random sample of the windows in that basis
+/// for the mixture. Memory is independent of the number of sequences.
 class WienerFit {
  public:
   /// `channels`: D, 1 or more.
   WienerFit(std::size_t channels, const WienerFitSettings& settings);
 
   std::size_t window_frames() const noexcept;
-  /// Takes come in halves, 0 and 1, for cross-validation.
+  /// `half`: 0 or 1, the takes' halves for cross-validation.
   void add_moments(const PoseMatrix& sequence, double weight = 1, std::size_t half = 0);
-  /// Between the passes. Errors: `ErrorKind::usage` when there was no window.
+  /// Called between the passes. Errors: `ErrorKind::usage` if there was no window.
   void find_basis();
   void add_windows(const PoseMatrix& sequence);
-  /// After both passes: what they found, and a fit that had found it. Errors: as of `StageReader`.
+  /// After both passes: their results as bytes, and restoring a fit from them. Errors: as of
+  /// `StageReader`.
   std::string stored() const;
   void restore(std::string_view bytes);
-  /// Goes on with, and keeps, the state of the stage "mixture" where there are `stages`.
+  /// Resumes and keeps the state of the stage "mixture" if `stages` is given.
   WienerPrior finish(TrainingStages* stages = nullptr) const;
 
  private:
-  // One column per window, all N coefficients, channel-major; none of windows in which a channel
-  // jumps by half a turn.
+  // One column per window, all N coefficients, channel-major. Windows in which a channel jumps by
+  // half a turn are skipped.
   Eigen::MatrixXd coefficients_of(const PoseMatrix& sequence) const;
   Eigen::MatrixXd low(const Eigen::MatrixXd& all) const;
 

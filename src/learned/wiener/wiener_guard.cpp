@@ -28,12 +28,13 @@ constexpr std::size_t track_channels = 3;  // a rotation vector
 constexpr double probe_share = 0.1;        // of the noise
 constexpr double clearly = 0.95;           // of the filter's risk
 constexpr double fewest_counted = 0.8;     // share of samples
-constexpr std::uint64_t probe_seed = 7;    // any will do
+constexpr std::uint64_t probe_seed = 7;    // any seed works
 
 // Chosen by hand, not swept.
 constexpr double most_of_typical = 25;         // a single difference, of the typical variance
 constexpr double least_guard_variance = 1e-6;  // square degrees
-constexpr double gap_fade_s = 0.1;  // depth in a gap at which the other estimate has gone
+constexpr double gap_fade_s =
+    0.1;  // as far as `auto` can tell: white noise, and no repeated frames
 
 // A filtered take, and D: the mean of d x_t / d y_t.
 struct Estimate {
@@ -98,7 +99,7 @@ class Guard {
 
  private:
   // Chosen by hand, not swept.
-  static constexpr std::size_t fewest_frames = 16;  // fewer say nothing of a risk
+  static constexpr std::size_t fewest_frames = 16;  // fewer do not determine a risk
 
   bool is_mostly_counted(std::size_t channel) const {
     std::size_t count = 0;
@@ -184,7 +185,8 @@ class Guard {
     return estimate;
   }
 
-  // Of each track a x + (1 - a) other with the a of least estimated risk, which is a parabola in a.
+  // Mixes each track as a x + (1 - a) other, with the a of least estimated risk, which is a
+  // parabola in a.
   void mix(Estimate& x, const Estimate& other) const {
     const std::size_t channels = samples_.channels, tracks = (channels + 2) / track_channels;
     std::vector<double> slope(tracks, 0), curvature(tracks, 0);
@@ -208,13 +210,13 @@ class Guard {
     for (std::size_t i = 0; i < counted_.size(); ++i) {
       const double deep = static_cast<double>(depth[i]) / (gap_fade_s * take_.rate_hz);
       const double other_share = (1 - share[i % channels]) * std::max(0.0, 1 - deep);
-      if (other_share <= 0) continue;  // the other has no weight here
+      if (other_share <= 0) continue;  // the other estimate has no weight here
       x.poses.values[i] += other_share * (other.poses.values[i] - x.poses.values[i]);
     }
   }
 
-  // F x D: frames to the nearest sample that counts. The weight of the smoother decreases with
-  // depth into a gap.
+  // F x D: frames to the nearest counted sample. The weight of the smoother decreases with depth
+  // into a gap.
   std::vector<std::size_t> gap_depths() const {
     const std::size_t channels = samples_.channels, count = counted_.size();
     std::vector<std::size_t> depth(count, 0);
@@ -248,7 +250,7 @@ class Guard {
   const WienerTake& take_;
   const WienerSettings& settings_;
   std::vector<std::uint8_t> counted_;  // F x D
-  PoseMatrix samples_;                 // those that count, and the filter's where none does
+  PoseMatrix samples_;                 // counted samples, and the filter's result elsewhere
   std::vector<double> variance_;       // D
 };
 

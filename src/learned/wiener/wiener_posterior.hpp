@@ -19,7 +19,7 @@ struct MixturePosterior {
   Eigen::MatrixXd shares;              ///< C x W, columns sum to 1
   std::vector<Eigen::MatrixXd> means;  ///< C of R x W
 
-  /// R x W: the posterior mean of the mixture.
+  /// The posterior mean of the mixture, R x W.
   Eigen::MatrixXd mean() const;
 };
 MixturePosterior mixture_posterior(const std::vector<WienerPrior::Component>& components,

@@ -14,8 +14,9 @@ namespace kinemend {
 ///
 ///     x = mean + basis z + e,    z ~ sum_c weight_c N(mean_c, covariance_c)
 ///
-/// and e are independent normal numbers of variance `rest`, which also has the coefficients beyond
-/// the basis (k >= K), those of quick motion. Units: degrees, and their squares.
+/// and e are independent normal numbers of variance `rest`, which also holds the variance of the
+/// coefficients beyond the basis (k >= K), those of quick motion. Units: degrees, and their
+/// squares.
 struct WienerPrior {
   struct Component {
     double weight = 1;
@@ -25,7 +26,7 @@ struct WienerPrior {
   double window_s = 0.5;
   Eigen::VectorXd mean;   ///< D K
   Eigen::MatrixXd basis;  ///< D K x R, orthonormal columns
-  Eigen::MatrixXd rest;   ///< D x M, M >= K: variance that is not in the basis
+  Eigen::MatrixXd rest;   ///< D x M, M >= K: variance outside the basis
   std::vector<Component> components;
 
   Eigen::Index channels() const { return rest.rows(); }
@@ -33,7 +34,7 @@ struct WienerPrior {
   Eigen::Index rank() const { return basis.cols(); }
 };
 
-/// The prior of windows at another rate, where a window may have fewer frames than there are
+/// The prior of windows at another rate, where a window may have fewer frames than the prior has
 /// coefficients: the high ones are left out.
 WienerPrior with_coefficients(const WienerPrior& prior, Eigen::Index coefficients);
 

@@ -23,8 +23,8 @@ constexpr int least_noise_octave = -1;
 constexpr int largest_noise_octave = 6;
 constexpr double noise_coefficients = 20;  // weight of the take's noise in a window
 constexpr double motionless_hz = 35;       // motion above it is negligible
-// Windows of the take that the model's own rest weighs as much as (ablation_wiener.csv, "the take
-// worth little").
+// The weight of the model's own rest, in windows of the take (ablation_wiener.csv, "the take worth
+// little").
 constexpr double prior_windows = 8;
 constexpr double least_rest_variance = 1e-9;  // square degrees
 constexpr std::size_t scale_count = 2 * largest_octave + 1;

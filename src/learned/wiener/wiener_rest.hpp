@@ -1,4 +1,4 @@
-// Models what a take does outside of the learned patterns, from the take itself.
+// Models the motion of a take outside the learned patterns, from the take itself.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,13 +16,12 @@ class RestModel {
   RestModel(const Eigen::MatrixXd& prior, const Eigen::VectorXd& noise, Eigen::Index frames,
             double window_s);
 
-  /// Adds the residual coefficients (N x D) of a window. `counts`: D, 1 for channels that were
-  /// measured.
+  /// Adds the residual coefficients (N x D) of a window. `counts`: D, 1 for measured channels.
   void add(const Eigen::MatrixXd& left, const Eigen::VectorXd& counts);
   /// Adds the sums of other windows of the take.
   void add(const RestModel& other);
   /// Sets the variances: those of the sums, less the noise and smoothed over frequency, where the
-  /// prior has the weight of eight windows. `window_weight` of a window, below 1 where windows
+  /// prior has the weight of eight windows. `window_weight`: weight of a window, below 1 if windows
   /// overlap.
   void learn(double window_weight);
   /// Posterior means of the coefficients of a window (N x D), averaged over scales of the variances

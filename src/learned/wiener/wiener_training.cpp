@@ -44,7 +44,7 @@ const OptionTable<WienerTraining>& wiener_training_table() {
   return options;
 }
 
-// Both passes over the motion, or what they found before. Returns the seconds of motion.
+// Runs both passes over the motion, or restores their results. Returns the seconds of motion.
 double find_windows(const TrainingSequences& sequences, const TrainSettings& settings,
                     WienerFit& fit) {
   const std::string stage = "windows";

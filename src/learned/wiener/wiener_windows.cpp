@@ -1,4 +1,4 @@
-// Groups windows by their missing samples and computes what the samples tell of the coefficients.
+// Groups windows by their missing samples and computes the likelihood of the coefficients.
 #include "learned/wiener/wiener_windows.hpp"
 
 #include <Eigen/LU>
@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Above this share of missing samples, one in so many, a channel is conditioned on the others.
+// If more than one in this number of samples is missing, a channel is conditioned on the others.
 // Chosen by hand (docs/methods/wiener-details.md, step 4), not swept.
 constexpr Index guessed_share = 8;
 
@@ -48,7 +48,7 @@ WienerWindows::WienerWindows(const WienerPrior& prior, Index window_frames, Inde
   }
 }
 
-// N x D, 1 where a sample of a channel that is left out is missing; empty: none.
+// N x D, 1 for missing samples of the channels that are left out; empty: none.
 std::vector<bool> WienerWindows::lost_samples(Index start,
                                               std::span<const std::uint8_t> observed) const {
   const Index channels = prior_.channels();

@@ -24,12 +24,13 @@ struct WindowGroup {
   std::vector<Lost> lost;
 };
 
-/// Cuts a take into windows. Where a channel lacks more than an eighth of a window's samples its
+/// Cuts a take into windows. If a channel lacks more than an eighth of a window's samples, the
 /// missing ones are left out of the window: the coefficients are then conditioned on the others.
 /// Otherwise they are taken from `poses`, which holds a guess.
 class WienerWindows {
  public:
-  /// `prior`: with no more coefficients than a window has frames. `noise`: D, positive, degrees.
+  /// `prior`: with at most as many coefficients as a window has frames. `noise`: D, positive,
+  /// degrees.
   WienerWindows(const WienerPrior& prior, Eigen::Index window_frames, Eigen::Index frames,
                 std::span<const std::uint8_t> observed, std::span<const double> noise);
 

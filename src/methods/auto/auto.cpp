@@ -1,5 +1,4 @@
-// The method `auto`: cleans the rotations and the positions of a take, each by the noise that they
-// show.
+// The method `auto`: cleans the rotations and the positions of a take, each by its measured noise.
 #include <algorithm>
 #include <optional>
 #include <span>
@@ -31,7 +30,7 @@ const OptionTable<AutoOptions>& auto_table() {
   return options;
 }
 
-// Nothing where no track is to be smoothed.
+// The median noise of the smoothed tracks; none if no track is to be smoothed.
 std::optional<NoiseCharacter> character_of(const TakeView& take, Space space,
                                            const CleanedTracks& verdicts) {
   std::vector<double> strengths;
@@ -50,7 +49,7 @@ TrackKind kind_of(const Track& track) {
 }
 
 struct JudgedTracks {
-  VectorTracks tracks;  // as `clean_tracks` leaves them
+  VectorTracks tracks;  // after `clean_tracks`
   CleanedTracks verdicts;
 };
 
@@ -104,7 +103,7 @@ class Auto final : public Cleaner {
       return trace;
     }
     trace.noise.assign(take.tracks.size(), 0);
-    // Keys are not measured: nothing of them is noise, however they look.
+    // Keyframes are not measured, so none of their motion is noise.
     if (take.source == Source::keyframed) {
       keep_bridges(take, rotations, sink);
       return trace;
@@ -116,7 +115,7 @@ class Auto final : public Cleaner {
   }
 
  private:
-  // Rotations and positions apart: noise of the one says nothing of the other's.
+  // Cleans rotations and positions separately: their noise is independent.
   void clean_together(const TakeView& take, const std::vector<std::size_t>& numbers,
                       const TrackSink& sink, ShareProgress& progress, CleanTrace& trace) const {
     const std::size_t frames = take.frames, count = numbers.size();
@@ -177,7 +176,7 @@ MeasuredNoise measure_noise(const TakeView& take) {
   measured.noise.assign(count, 0);
   measured.coloured.resize(count);
   measured.spikes.resize(count);
-  // Keys are not measured: nothing of them is noise.
+  // Keyframes are not measured, so none of their motion is noise.
   if (take.source == Source::keyframed) return measured;
   const auto [rotations, positions] = tracks_by_space(take);
   for (const std::vector<std::size_t>& numbers : {rotations, positions}) {

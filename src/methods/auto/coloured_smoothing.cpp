@@ -40,7 +40,7 @@ class ColouredSmoothing {
         variance_.push_back(deviation * deviation);
       }
     }
-    // Orders of differences, as of `signal::ModelGrid`; under slow noise the smoothest alone.
+    // Orders of differences, as of `signal::ModelGrid`; under slow noise only the smoothest.
     constexpr std::size_t all_orders[] = {1, 2, 3}, smooth_order[] = {3};
     candidates_ = signal::models_of_orders(is_slow_ ? std::span<const std::size_t>(smooth_order)
                                                     : std::span<const std::size_t>(all_orders),
@@ -133,8 +133,8 @@ class ColouredSmoothing {
     }
   }
 
-  // The floor of fast noise that slow noise stands on is not in its model: the rest of it goes with
-  // what the model leaves above some 5 Hz.
+  // Slow noise has a floor of fast noise that its model lacks. A Gaussian removes its remainder
+  // above about 5 Hz.
   void remove_trembling(signal::ChannelBlock& x) const {
     PoseMatrix rows(x.frames, signal::block_channels);
     rows.values.swap(x.values);
@@ -149,7 +149,7 @@ class ColouredSmoothing {
   double frame_rate_hz_;
   bool is_slow_;
   const ColourTuning& tuning_;
-  std::vector<std::size_t> channels_;  // track * 3 + axis, of those that are smoothed
+  std::vector<std::size_t> channels_;  // track * 3 + axis, of smoothed tracks
   std::vector<double> variance_;       // of the noise on each of them
   std::vector<signal::SmoothingModel> candidates_, models_;
 };

@@ -16,8 +16,8 @@ namespace {
 
 double square(double x) { return x * x; }
 
-// The frames of a window about a frame; `last` is not part of it. Windows at the ends of the take
-// are as long as the others: outliers must not be most of a short one.
+// The frames [first, last) of a window about a frame. Windows at the ends of the take are as long
+// as the others, so that outliers are not the majority of a short one.
 struct Window {
   std::size_t first, last;
 };
@@ -28,7 +28,7 @@ Window window_about(std::size_t t, std::size_t reach, std::size_t frames) {
   return {first, first + length};
 }
 
-// One track and what is known of it.
+// One track with its settings and intermediate results.
 class RobustCurve {
  public:
   RobustCurve(std::span<const Vec3> track, std::span<const std::uint8_t> missing,
@@ -55,8 +55,8 @@ class RobustCurve {
     }
   }
 
-  // Whether a sample is far from the curve and agrees with neither neighbour: samples of a motion
-  // that is too quick for the curve share a deviation, and those beside a step share a value.
+  // Whether a sample is far from the curve and agrees with neither neighbour. Samples of a motion
+  // too quick for the curve share a deviation; those beside a step share a value.
   bool is_outlier(std::size_t t) {
     const double error = norm(errors_[t]);
     if (is_missing(t) || error <= tuning_.least_error) return false;
@@ -71,8 +71,8 @@ class RobustCurve {
 
  private:
   static std::size_t frames_of(double seconds, double rate_hz) {
-    // Frames of a side: a quadratic has three unknowns, and with fewer samples about it it can be
-    // drawn through most samples of a shake.
+    // Minimum of frames on a side: a quadratic has three unknowns, and with fewer samples it can
+    // fit most samples of a shake.
     constexpr std::size_t fewest = 5;
     return std::max<std::size_t>(fewest, static_cast<std::size_t>(std::lround(seconds * rate_hz)));
   }
@@ -96,7 +96,7 @@ class RobustCurve {
     }
   }
 
-  // Deviation per axis of the samples about one that lie close to the curve: by their median.
+  // Deviation per axis of the samples about this one that lie close to the curve, by their median.
   double scale_about(std::size_t t) {
     const Window window = window_about(t, scale_reach_, track_.size());
     sizes_.clear();
@@ -108,7 +108,7 @@ class RobustCurve {
 
   // Value at frame t of the quadratic through the samples about it.
   Vec3 value_at(std::size_t t, std::size_t reach, const std::vector<double>& weights) const {
-    // A trace of every sample keeps the system solvable where all are far from the curve.
+    // A minimal weight of every sample keeps the system solvable if all are far from the curve.
     constexpr double trace = 1e-6;
     std::array<double, 5> moments{};
     std::array<Vec3, 3> products{};
@@ -128,7 +128,7 @@ class RobustCurve {
   }
 
   // The constant term of the quadratic with these sums, by Cramer's rule; that of the line or the
-  // mean where the samples do not tell a quadratic, `otherwise` without samples.
+  // mean if the samples do not determine a quadratic, `otherwise` without samples.
   static Vec3 value_of(const std::array<double, 5>& m, const std::array<Vec3, 3>& p,
                        Vec3 otherwise) {
     constexpr double singular = 1e-9;
@@ -145,13 +145,13 @@ class RobustCurve {
   std::span<const Vec3> track_;
   std::span<const std::uint8_t> missing_;
   const DenseTuning& tuning_;
-  std::vector<Vec3> errors_;  // of each sample: what it is away from the curve
+  std::vector<Vec3> errors_;  // each sample's distance from the curve
   std::size_t wide_reach_ = 0, reach_ = 0, scale_reach_ = 0;
   std::vector<double> sizes_;
 };
 
-// Whether many samples are far from the mean of their neighbours: saves the fit of tracks without
-// outliers.
+// Whether many samples are far from the mean of their neighbours. Tracks without outliers thus need
+// no fit.
 bool may_be_dense(std::span<const Vec3> track, std::span<const std::uint8_t> missing,
                   const DenseTuning& tuning) {
   std::size_t far = 0, seen = 0;

@@ -16,8 +16,8 @@ Quat mean_of(Quat a, Quat b) {
   return norm(sum) > 1e-9 ? normalized(sum) : a;
 }
 
-// Least distance of the first of five samples from lines through three of the next four, which one
-// spike among those does not change much. `at(k)` is the k-th sample from the end.
+// Smallest distance of the first of five samples from lines through three of the next four; one
+// spike among those four hardly changes it. `at(k)` is the k-th sample from the end.
 template <class At>
 double end_deviation(const At& at) {
   // Value at 0 of the least-squares line through samples at 1, 2, 3; at 2, 3, 4; and at 1, 3, 4.

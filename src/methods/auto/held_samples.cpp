@@ -1,4 +1,4 @@
-// Finds the pattern of held or interpolated samples, and brings cleaned measurements back to all
+// Finds the pattern of held or interpolated samples, and expands cleaned measurements to all
 // frames.
 #include "methods/auto/held_samples.hpp"
 
@@ -16,7 +16,7 @@ namespace kinemend {
 namespace {
 
 // Frames of a period, for speed; not swept.
-constexpr std::size_t longest_step = 8;  // limits time and room
+constexpr std::size_t longest_step = 8;  // limits time and memory
 
 // Sizes of the differences of order 1 or 2 by the frame at which they show a new measurement.
 std::vector<std::optional<double>> difference_sizes(std::span<const Vec3> track,
@@ -34,8 +34,8 @@ std::vector<std::optional<double>> difference_sizes(std::span<const Vec3> track,
   return sizes;
 }
 
-// The phase at which alone the differences are of size, if there is one: half of them are, there,
-// and hardly any of another phase, but where spikes are.
+// The only phase with large differences, if there is one: their median is large there, and hardly
+// any of another phase are large, except at spikes.
 std::optional<std::size_t> lone_phase(const std::vector<std::optional<double>>& sizes,
                                       std::size_t step, const HeldTuning& tuning) {
   std::array<double, longest_step> usual{}, large{};
@@ -67,15 +67,15 @@ bool agree(std::size_t votes, std::size_t all, const HeldTuning& tuning) {
   return static_cast<double>(votes) >= tuning.agreeing_tracks * static_cast<double>(all);
 }
 
-// How many tracks see each pattern of one join, step by step and phase by phase, and how many see
-// none of a step.
+// How many tracks show each pattern of one join, by step and phase, and how many show none of a
+// step.
 struct Votes {
   const HeldTuning& tuning;
   std::size_t moving = 0;
   std::array<std::array<std::size_t, longest_step>, longest_step + 1> votes{};
   std::array<std::size_t, longest_step + 1> against{};
 
-  // Whether the other ones of so many tracks may still agree on a step.
+  // Whether enough of this many tracks may still agree on a step.
   bool is_open(std::size_t step, std::size_t tracks) const {
     return agree(tracks - against[step], tracks, tuning);
   }
@@ -104,8 +104,8 @@ SamplePattern elected(const VectorTracks& tracks, const SampleMarks& missing, Sa
       }
     }
   }
-  // Samples held for four frames change at every second frame at most, too: the longest step is the
-  // right one.
+  // Samples held for four frames also change at most at every second frame, so the longest step is
+  // the right one.
   for (std::size_t step = longest_step; step >= 2; --step) {
     for (std::size_t phase = 0; phase < step; ++phase) {
       if (count.moving > 0 && agree(count.votes[step][phase], count.moving, tuning))
@@ -115,8 +115,8 @@ SamplePattern elected(const VectorTracks& tracks, const SampleMarks& missing, Sa
   return {};
 }
 
-// Frames, from the second on, that show something new on more than a tenth of the tracks that move;
-// nothing where no such track was seen in some frame, or none moves.
+// Frames, from the second on, that change on more than a tenth of the moving tracks; none if in
+// some frame no such track was seen, or no track moves.
 std::vector<std::size_t> new_frames(const VectorTracks& tracks, const SampleMarks& missing,
                                     const HeldTuning& tuning) {
   const double least_repeats = 0.5 * (1 - 1 / tuning.least_clock_step);
@@ -151,8 +151,8 @@ std::vector<std::size_t> new_frames(const VectorTracks& tracks, const SampleMark
   return frames;
 }
 
-// The times of a clock with this step, the k-th of which is at most a frame before frames[k]: room
-// between the latest and the earliest start, below 0 where there is none.
+// The start times of a clock with this step whose k-th tick is at most one frame before frames[k].
+// The room, the latest less the earliest start, is below 0 if no start fits.
 struct ClockStart {
   double earliest, latest;
   double room() const { return latest - earliest; }
@@ -169,8 +169,7 @@ ClockStart start_of_clock(std::span<const std::size_t> frames, double step) {
   return start;
 }
 
-// Samples that are held for a number of frames that is no whole one: all new frames are those of
-// one clock.
+// The pattern of samples held for a fractional number of frames: all new frames fit one clock.
 SamplePattern uneven_hold(const VectorTracks& tracks, const SampleMarks& missing,
                           const HeldTuning& tuning) {
   const std::vector<std::size_t> frames = new_frames(tracks, missing, tuning);
@@ -180,7 +179,7 @@ SamplePattern uneven_hold(const VectorTracks& tracks, const SampleMarks& missing
   const auto count = static_cast<double>(frames.size() - 1);
   const double mean = static_cast<double>(frames.back() - frames.front()) / count;
   if (mean < tuning.least_clock_step || mean > static_cast<double>(longest_step)) return {};
-  // The room is concave in the step.
+  // The room is concave in the step, so a ternary search finds its maximum.
   double low = mean - 1 / count, high = mean + 1 / count;
   for (int round = 0; round < 60; ++round) {
     const double a = low + (high - low) / 3, b = high - (high - low) / 3;
@@ -194,7 +193,7 @@ SamplePattern uneven_hold(const VectorTracks& tracks, const SampleMarks& missing
   const ClockStart start = start_of_clock(frames, step);
   if (start.room() <= 0) return {};
   double first = (start.earliest + start.latest) / 2;
-  while (first - step > -1) first -= step;  // what the frames before the first new one show
+  while (first - step > -1) first -= step;  // the sample shown before the first new frame
   return {SampleJoin::held, step, first};
 }
 
@@ -215,8 +214,8 @@ std::vector<Vec3> spline_curvatures(std::span<const Vec3> samples) {
   return curvatures;
 }
 
-// A frame's place among samples: `share` of the way from `sample` to the next; at the ends outside
-// of it.
+// A frame's place among samples: `share` of the distance from `sample` to the next, outside of 0..1
+// beyond the ends.
 struct Place {
   std::size_t sample;
   double share;
@@ -232,13 +231,13 @@ Vec3 spline_at(std::span<const Vec3> samples, std::span<const Vec3> curvatures, 
   const std::size_t i = place.sample;
   const double b = place.share, a = 1 - b;
   const Vec3 line = a * samples[i] + b * samples[i + 1];
-  // Straight on beyond the ends.
+  // The spline continues linearly beyond the ends.
   if (b < 0) return line - (b / 6) * (2 * curvatures[i] + curvatures[i + 1]);
   if (b > 1) return line + ((b - 1) / 6) * (curvatures[i] + 2 * curvatures[i + 1]);
   return line + ((a * a - 1) * a / 6) * curvatures[i] + ((b * b - 1) * b / 6) * curvatures[i + 1];
 }
 
-// Joined as the take was before.
+// Joins the samples as the take did.
 Vec3 joined_at(std::span<const Vec3> samples, SampleJoin join, Place place) {
   const std::size_t i = place.sample;
   if (join == SampleJoin::held) return samples[place.share >= 1 ? i + 1 : i];

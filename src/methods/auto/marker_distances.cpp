@@ -1,5 +1,5 @@
 // Compares the change of distances between tracks with the change that independent noise would
-// make.
+// cause.
 #include "methods/auto/marker_distances.hpp"
 
 #include <algorithm>
@@ -14,11 +14,11 @@ namespace kinemend {
 
 namespace {
 
-// For speed, and by hand; not swept.
+// Chosen by hand, and for speed; not swept.
 constexpr std::size_t most_frames = 240;   // limits the time
-constexpr std::size_t fewest_frames = 12;  // of a median
+constexpr std::size_t fewest_frames = 12;  // for a median
 
-// Frames with one before them, evenly over the take.
+// Evenly spaced frames that have a frame before them.
 std::vector<std::size_t> sampled_frames(std::size_t frames) {
   const std::size_t count = std::min(most_frames, frames - 1);
   std::vector<std::size_t> sampled;
@@ -26,8 +26,8 @@ std::vector<std::size_t> sampled_frames(std::size_t frames) {
   return sampled;
 }
 
-// The median change of a distance over that of noise whose difference has these variances along the
-// axes. Infinite where the two tracks are hardly seen together.
+// The median change of a distance relative to that of noise whose differences have these variances
+// along the axes. Infinite if the two tracks are seldom seen together.
 double ratio_of(const VectorTracks& tracks, const SampleMarks& marked,
                 const std::vector<std::size_t>& frames, std::size_t a, std::size_t b,
                 Vec3 squares) {
@@ -55,7 +55,7 @@ double noise_in_distances(const VectorTracks& tracks, const SampleMarks& marked,
   if (tracks.frames() < 2) return 0;
   const std::vector<std::size_t> frames = sampled_frames(tracks.frames());
   const std::size_t count = tracks.tracks();
-  // Differences from one frame to the next have so much of the noise's variance.
+  // Differences from one frame to the next have this share of the noise's variance.
   const double share = 2 * (1 - correlation);
   std::vector<double> least(count, std::numeric_limits<double>::infinity());
   for_each_parallel(count, count * count * frames.size(), [&](std::size_t a) {

@@ -9,14 +9,14 @@
 
 namespace kinemend {
 
-/// What `auto` finds in a take at its default options, whatever is known of the noise: the same
-/// figures for every method that cleans the take.
+/// The noise and spikes that `auto` finds in a take at its default options, ignoring any known
+/// noise: the same figures for every method that cleans the take.
 struct MeasuredNoise {
-  /// One a track: per axis, degrees or file units; 0 for tracks that may not change. Empty: the
-  /// take is too short to tell.
+  /// One per track: per axis, degrees or file units; 0 for tracks that may not change. Empty: the
+  /// take is too short.
   std::vector<double> noise;
-  std::vector<ColouredNoise> coloured;            ///< one a track, where its noise is coloured
-  std::vector<std::vector<std::uint8_t>> spikes;  ///< one a track: F, or empty for none
+  std::vector<ColouredNoise> coloured;            ///< one per track, if coloured
+  std::vector<std::vector<std::uint8_t>> spikes;  ///< one per track: F, or empty for none
   std::vector<NoiseCharacter> characters;  ///< at most one for rotations and one for positions
 };
 MeasuredNoise measure_noise(const TakeView& take);

@@ -1,4 +1,4 @@
-// Finds neighbours by the skeleton or, of markers, by distances that hardly change.
+// Finds neighbours by the skeleton or, for markers, by distances that hardly change.
 #include "methods/auto/neighbours.hpp"
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace {
 
 std::vector<std::vector<std::size_t>> rigid_neighbours(const TakeView& take,
                                                        const std::vector<std::size_t>& markers) {
-  // Frames that are looked at, evenly over the take, for speed; those that two markers must share;
-  // neighbours that are kept. All are chosen by hand, not swept.
+  // Frames used, evenly over the take, for speed; frames that two markers must share; neighbours
+  // kept. All are chosen by hand, not swept.
   constexpr std::size_t most_frames = 50, least_frames = 10, most_neighbours = 4;
   constexpr double farthest = 0.3, largest_spread = 0.02;  // body heights
   const Take& clip = *take.markers;

@@ -1,5 +1,5 @@
-// Measures the white noise of tracks by differences that motion hardly changes, and how far each
-// track is to be smoothed.
+// Measures the white noise of tracks by differences that motion hardly changes, and the share of
+// smoothing of each track.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -44,7 +44,7 @@ std::vector<Vec3> differences(std::span<const Vec3> track, std::span<const std::
   return result;
 }
 
-// Of white noise whose differences these are; nothing where they are too few.
+// The level of the white noise with these differences; none if they are too few.
 std::optional<double> median_level(const std::vector<Vec3>& differences) {
   if (differences.size() < 3) return std::nullopt;
   std::vector<double> sizes(differences.size());
@@ -64,9 +64,8 @@ double isotropic_level(std::span<const Vec3> track, std::span<const std::uint8_t
 
 // Huber's standard deviation of numbers with outliers: squares are limited to (2.5 deviations)^2.
 double huber_deviation(std::vector<double> numbers) {
-  // Of normal numbers of deviation 1: the mean of squares that are limited so, and the median size.
-  // Where squares are cut is chosen by hand, not swept; the other two follow by definition, to four
-  // digits.
+  // Values for normal numbers of deviation 1: the mean of squares limited at `cut`, and the median
+  // size. The cut is chosen by hand, not swept; the other two follow by definition, to four digits.
   constexpr double cut = 2.5, share_within_cut = 0.9775, median_size = 0.6745;
   constexpr int rounds = 10;  // of the fixed-point iteration
   if (numbers.empty()) return 0;

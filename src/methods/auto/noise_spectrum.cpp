@@ -20,7 +20,7 @@ namespace kinemend {
 
 namespace {
 
-// Candidates and what keeps from a division by zero. Chosen by hand (docs/methods/auto-details.md,
+// Candidates, and limits against division by zero. Chosen by hand (docs/methods/auto-details.md,
 // "What colour has the noise?"), not swept.
 constexpr std::array correlations{0.0, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.98};
 constexpr std::size_t strengths = 80;
@@ -41,7 +41,7 @@ double fast_share_of(double correlation) {
   return std::sqrt((1 - correlation) / (1 + correlation));
 }
 
-// Where the evidence is looked for: `frames` from each of `starts`.
+// Windows of `frames` frames from each of `starts`, in which the evidence is computed.
 struct Windows {
   std::size_t frames;
   std::vector<std::size_t> starts;
@@ -60,14 +60,14 @@ Windows windows_of(std::size_t frames, std::size_t length, std::size_t most) {
 
 using Curve = std::array<double, strengths>;  // -2 log likelihood of each strength
 
-// The tracks that move, as they were before they were whitened and with marked samples filled, one
-// at a time: a copy of a long take would double its room.
+// The moving tracks without whitening and with marked samples filled. They are made one at a time:
+// a copy of a long take would double its memory.
 class MovingTracks {
  public:
   MovingTracks(const VectorTracks& tracks, const SampleMarks& marked,
                const std::vector<Whitening>* whitenings)
       : tracks_(tracks), marked_(marked), whitenings_(whitenings) {
-    // What stands still has no noise.
+    // A motionless track has no noise.
     for (std::size_t n = 0; n < tracks.tracks(); ++n) {
       const auto track = tracks.track(n);
       if (std::any_of(track.begin(), track.end(),
@@ -95,8 +95,7 @@ class MovingTracks {
   std::vector<std::size_t> numbers_;
 };
 
-// Of a few marked samples the line between their neighbours tells as much, and the noise's thread
-// is not broken.
+// Short marked runs are interpolated instead, so that the noise sequence stays contiguous.
 void mark_long_runs(std::span<const std::uint8_t> marked, std::size_t few,
                     std::span<std::uint8_t> result) {
   for (std::size_t t = 0; t < marked.size();) {
@@ -109,7 +108,7 @@ void mark_long_runs(std::span<const std::uint8_t> marked, std::size_t few,
   }
 }
 
-// The windows of all tracks, those of one track behind each other.
+// The windows of all tracks, those of one track one after the other.
 struct SeenWindows {
   std::size_t tracks, frames, count;  // frames of a window, windows of a track
   std::vector<Vec3> values;
@@ -142,8 +141,8 @@ SeenWindows look_at(const MovingTracks& tracks, const Windows& windows,
   return seen;
 }
 
-// That of every track and axis under noise of one colour: each window has its likeliest motion. Of
-// windows with hardly a sample nothing is known.
+// The misfit curve of every track and axis under noise of one colour, where each window has its
+// likeliest motion. Windows with hardly a sample are ignored.
 std::vector<Curve> misfit_curves(const SeenWindows& seen,
                                  std::span<const signal::SmoothingModel> models, double correlation,
                                  const ColourTuning& tuning) {
@@ -215,7 +214,7 @@ Estimate estimate_of_colour(const SeenWindows& seen, std::span<const signal::Smo
   return found;
 }
 
-// Of the colour among these that is likeliest.
+// The estimate of the likeliest of these colours.
 Estimate estimate(const SeenWindows& seen, std::span<const std::size_t> orders,
                   std::span<const double> colours, double frame_rate_hz,
                   const ColourTuning& tuning) {
@@ -236,18 +235,18 @@ Estimate estimate(const SeenWindows& seen, std::span<const std::size_t> orders,
 
 bool is_white(const SeenWindows& seen, std::span<const std::size_t> orders, double frame_rate_hz,
               const ColourTuning& tuning) {
-  // What is correlated by more is likelier with a little than with none, too.
+  // Noise of higher correlation, too, is likelier with a little correlation than with none.
   const auto colours = std::span(correlations).first(2);
   return estimate(seen, orders, colours, frame_rate_hz, tuning).correlation == 0;
 }
 
-// Of a track: the root mean square along each axis of the velocity of means over 0.25 s.
+// The root mean square velocity of a track's means over 0.25 s, along each axis.
 Vec3 slow_speeds(std::span<const Vec3> track, double frame_rate_hz) {
   const auto half =
       static_cast<std::size_t>(std::max(1L, std::lround(0.125 * window_rate_hz(frame_rate_hz))));
   const std::size_t width = 2 * half + 1;
   if (track.size() < 2 * width) return {};
-  // Means a window apart: their difference is that of the sums on either side.
+  // Means a window apart: their difference is proportional to that of the sums on either side.
   Vec3 squares, before, after;
   for (std::size_t t = 0; t < width; ++t) {
     before += track[t];
@@ -308,8 +307,8 @@ NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& m
                                 const ColourTuning& tuning) {
   NoiseSpectrum spectrum;
   const auto second = static_cast<std::size_t>(std::lround(window_rate_hz(frame_rate_hz)));
-  // Markers may stand still, or go on alike, for a second or two; so do joints at rates that show a
-  // snappy move as some frames of noise.
+  // Markers may stand still, or move steadily, for a second or two; so may joints at rates at which
+  // a snappy move looks like some frames of noise.
   const bool needs_seconds =
       kind == TrackKind::positions || (!correlation && is_brief(tracks.frames(), frame_rate_hz));
   const std::size_t fewest = needs_seconds ? tuning.fewest_seconds * second : 0;
@@ -321,7 +320,7 @@ NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& m
   const std::size_t most_windows =
       std::clamp<std::size_t>(most_lanes / (3 * moving.count()), 4, 24);
   const std::size_t window = std::max(fewest_noisy_frames, second);
-  // White noise shows in a few windows already.
+  // A few windows are enough to recognise white noise.
   const std::span<const double> colours =
       correlation ? std::span<const double>(&*correlation, 1) : std::span(correlations);
   const auto seen = [&](std::size_t length, std::size_t most) {
@@ -354,7 +353,7 @@ NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& m
         tuning.most_of_quiet * fast_share_of(found.correlation) / fast_share_of(whole.correlation);
     for (std::size_t c = 0; c < whole.deviations.size(); ++c)
       whole.deviations[c] = std::min(whole.deviations[c], most * found.deviations[c]);
-    // At very low rates there is no model of a smooth motion.
+    // At very low rates no model of smooth motion exists.
     if (!whole.deviations.empty()) found = std::move(whole);
   }
   spectrum.correlation = found.correlation;

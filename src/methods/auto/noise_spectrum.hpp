@@ -1,4 +1,5 @@
-// Describes and estimates the noise of a take: its colour, and its strength on each track and axis.
+// Describes and estimates the noise of a take: its colour, and its strength for each track and
+// axis.
 #pragma once
 
 #include <optional>
@@ -11,43 +12,43 @@ namespace kinemend {
 
 struct Whitening;
 
-/// What tracks are: joints turn with corners, markers have mass and move smoothly.
+/// The kind of tracks: joints turn abruptly, markers have mass and move smoothly.
 enum class TrackKind { rotations, positions };
 
-/// The noise of a take as its evidence shows it: of one colour, at a strength of each track and
-/// axis. Its spectrum is flat up to a corner and falls with the square of the frequency beyond it.
+/// The noise of a take, estimated from its evidence: of one colour, with a strength for each track
+/// and axis. Its spectrum is flat up to a corner and falls with the square of the frequency beyond
+/// it.
 struct NoiseSpectrum {
   double correlation = 0;        ///< from frame to frame; 0: white
   std::vector<Vec3> deviations;  ///< N, degrees, of each axis; empty: white
-  /// What is left of it at the highest frequencies, as the deviation of white noise that is as
-  /// strong there: degrees, and over the speed of the motion in milliseconds. Medians of the tracks
-  /// and axes.
+  /// Strength of the noise at the highest frequencies, as the deviation of equally strong white
+  /// noise there: degrees, and divided by the speed of the motion in milliseconds. Medians over the
+  /// tracks and axes.
   double fast_noise = 0, fast_noise_ms = 0;
-  bool is_clear = false;  ///< more than motion could be taken for
+  bool is_clear = false;  ///< more than motion could be mistaken for
   bool is_slow = false;   ///< of positions, and mostly below their motion's highest frequencies
 
-  /// Deviation of the white noise that is as strong as this at the highest frequencies, over that
-  /// of this noise.
+  /// The deviation of white noise that is equally strong at the highest frequencies, relative to
+  /// that of this noise.
   double fast_share() const;
-  /// Of each track: the root mean square of its deviations over the axes, degrees.
+  /// For each track, the root mean square of its deviations over the axes, degrees.
   std::vector<double> strengths() const;
 };
 
-/// How far each track is to be smoothed under such noise times `scale`, 0 to 1: a track on which
-/// there is next to none, at the highest frequencies, is left alone.
+/// Share of smoothing of each track under such noise times `scale`, 0 to 1. A track with next to no
+/// noise at the highest frequencies is unchanged.
 std::vector<double> coloured_shares(const NoiseSpectrum& spectrum, double scale,
                                     double frame_rate_hz, const ColourTuning& tuning = {});
 
-/// Estimates the noise of a take whose marked samples are gone. The evidence of windows (1 s, at
-/// most 24, evenly over the take) is summed over those of one track and axis for each strength of
-/// the noise, every window with its own likeliest motion, and over all for each colour: noise is
-/// what goes on while motion comes and goes. Of positions under noise that is slow, the strength is
-/// then estimated from two stretches of 30 s, as the rest of a motion whose third differences are
-/// white, up to four times what the windows show. Takes under 24 frames (positions: 4 s) and of
-/// fewer than four tracks that move are not looked at. A colour that more than a quarter of the
-/// tracks find less likely than white is none. Where the `correlation` is known (above 0),
-/// the strength alone is estimated, and is clear.
-/// `whitenings`, one a track, if any, are undone on what is looked at.
+/// Estimates the noise of a take without its marked samples. The evidence of windows (1 s, at most
+/// 24, evenly over the take) is summed for each track and axis and each strength of the noise,
+/// every window with its own likeliest motion, and over all tracks for each colour: noise is
+/// constant while motion varies. For positions under slow noise, the strength is then estimated
+/// from two stretches of 30 s, as the residual of a motion with white third differences, up to four
+/// times that of the windows. Takes under 24 frames (positions: 4 s) and with fewer than four
+/// moving tracks are not estimated. A colour that more than a quarter of the tracks find less
+/// likely than white is rejected. If the `correlation` is known (above 0), only the strength is
+/// estimated, and the noise is clear. `whitenings`, one per track, if given, are undone first.
 NoiseSpectrum noise_spectrum_of(const VectorTracks& tracks, const SampleMarks& marked,
                                 double frame_rate_hz, TrackKind kind,
                                 std::optional<double> correlation = std::nullopt,

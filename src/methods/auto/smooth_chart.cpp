@@ -23,8 +23,8 @@ std::vector<Quat> smooth_reference(std::vector<Quat> track, double width_frames)
   std::vector<Quat> reference(frames);
   for (std::size_t t = 0; t < frames; ++t) {
     Quat sum = track[t];
-    // Both sides reach as far as the shorter one: an asymmetric mean would lag behind a turn at the
-    // ends.
+    // Both sides extend as far as the shorter one: an asymmetric mean would lag behind a turn at
+    // the ends.
     for (std::size_t k = 1; k <= std::min({reach, t, frames - 1 - t}); ++k) {
       sum = sum + weights[k] * (track[t - k] + track[t + k]);
     }

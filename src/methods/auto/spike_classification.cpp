@@ -1,4 +1,4 @@
-// Classifies candidates by their neighbours, the speed of joints, and what chance explains.
+// Classifies candidates by their neighbours, the speed of joints, and chance.
 #include "methods/auto/spike_classification.hpp"
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace {
 // Interpolates a threshold between quiet tracks (share 0) and noisy ones (share 1).
 double between(double quiet, double noisy, double share) { return quiet + (noisy - quiet) * share; }
 
-// Whether a sample agrees with the extrapolation of the samples before it or of those behind it.
-// It then is one side of an impact, at which velocity changes from one frame to the next.
+// Whether a sample agrees with the extrapolation of the samples before it or of those after it. It
+// then is one side of an impact, at which velocity changes from one frame to the next.
 bool continues_one_side(const SpikeCandidates& candidates, std::size_t t, std::size_t n) {
   const double most = candidates.tuning.side_error_share * candidates.predictions.errors(t, n);
   const auto frames = static_cast<std::ptrdiff_t>(candidates.marks.frames);
@@ -38,7 +38,7 @@ bool continues_one_side(const SpikeCandidates& candidates, std::size_t t, std::s
 }
 
 // The largest prediction error about a sample, its neighbours left out. On a noisy track other
-// candidates do not count; on a quiet one the largest error and its neighbours do not.
+// candidates are ignored; on a quiet one the largest error and its neighbours are.
 double largest_error_about(const SpikeCandidates& candidates, std::size_t t, std::size_t n,
                            bool quiet) {
   const std::size_t reach = candidates.tuning.surrounding_frames;
@@ -83,7 +83,7 @@ bool is_isolated(const SpikeCandidates& candidates, std::size_t t, std::size_t n
   const double error = candidates.predictions.errors(t, n);
   const bool quiet = share < 0.5;
   const double clearance = between(tuning.clearance_quiet, tuning.clearance_noisy, share);
-  // Among dense outliers the largest error says nothing: it may be of one more.
+  // Among dense outliers the largest error is useless: it may be another outlier.
   if (candidates.dense[n] == 0 && error <= clearance * largest_error_about(candidates, t, n, quiet))
     return false;
   if (continues_one_side(candidates, t, n)) return false;
@@ -95,8 +95,8 @@ bool is_isolated(const SpikeCandidates& candidates, std::size_t t, std::size_t n
       });
 }
 
-// Probability of at least so many events where `mean` are expected: the sum of Poisson's terms,
-// from the largest on. At most the mean are likely anyway.
+// Probability of at least `at_least` events where `mean` are expected: the sum of Poisson's terms,
+// from the largest on. Returns 1 for at most the mean.
 double poisson_tail(double mean, std::size_t at_least) {
   const auto count = static_cast<double>(at_least);
   if (count <= mean) return 1;
@@ -108,7 +108,7 @@ double poisson_tail(double mean, std::size_t at_least) {
 }
 
 // Rejects runs of spikes, at most `cluster_gap` frames apart, that are longer than Poisson chance
-// explains at the take's rate, or at that of a track of dense outliers.
+// explains at the take's rate of spikes, or at that of a track of dense outliers.
 void reject_clusters(const SpikeCandidates& candidates, SampleMarks& marked) {
   const SpikeTuning& tuning = candidates.tuning;
   const auto total = std::count(marked.marks.begin(), marked.marks.end(), 1);
@@ -136,8 +136,8 @@ void reject_clusters(const SpikeCandidates& candidates, SampleMarks& marked) {
   }
 }
 
-// In runs of spikes on tracks of dense outliers that are longer than chance explains, keeps only
-// those that are far from the samples beside them: the others are a move that is too quick to be
+// On tracks of dense outliers, keeps only those spikes of a long run (longer than chance explains)
+// that are far from the samples beside them: the others are a move that is too quick to be
 // predicted.
 void reject_quick_moves(const SpikeCandidates& candidates, SampleMarks& marked) {
   const SpikeTuning& tuning = candidates.tuning;
@@ -180,8 +180,8 @@ bool is_within_joint_speed(const SpikeCandidates& candidates, const SampleMarks&
 }
 
 // Tracks with more spikes than Poisson chance explains at the mean rate of the other tracks with
-// one spike more, those that have even more left out. Such recurrent spikes are motion, for example
-// of a toe that leaves the ground at every step.
+// one spike more, where tracks with even more are left out. Such recurrent spikes are motion, for
+// example of a toe that leaves the ground at every step.
 std::vector<std::uint8_t> find_recurrent(const SpikeCandidates& candidates,
                                          const SampleMarks& spikes) {
   const SpikeTuning& tuning = candidates.tuning;
@@ -209,8 +209,8 @@ void reject_track(std::size_t n, SampleMarks& spikes) {
   std::fill(track.begin(), track.end(), std::uint8_t{0});
 }
 
-// The smallest error that is a spike in a damaged take, from the spikes of the strict thresholds: a
-// much smaller error is motion, for example a fast toe.
+// The smallest error of a spike in a damaged take, from the spikes of the strict thresholds: a much
+// smaller error is motion, for example of a fast toe.
 double smallest_spike(const SpikeCandidates& candidates, const SampleMarks& sure) {
   const SpikeTuning& tuning = candidates.tuning;
   std::vector<double> sizes;
@@ -249,11 +249,11 @@ SampleMarks classify_spikes(const SpikeCandidates& candidates) {
     quiet_samples += marks.frames;
     const auto track = spikes.track(n);
     const auto own = static_cast<std::size_t>(std::count(track.begin(), track.end(), 1));
-    // Damage is on many tracks; a few pops of one are a move where a move is as quick.
+    // Damage affects many tracks; a few pops of one track are a move if moves are as quick.
     quiet_spikes += brief ? std::min<std::size_t>(own, 1) : own;
   }
   // Few spikes in a quiet take are motion unless they exceed the speed of joints. Many are damage:
-  // quiet tracks then get the thresholds of noisy ones, and a least error.
+  // quiet tracks then get the thresholds of noisy ones, and a smallest error.
   const double damage =
       std::max(tuning.damage_count, tuning.damage_share * static_cast<double>(quiet_samples));
   const bool damaged = static_cast<double>(quiet_spikes) >= damage;

@@ -13,7 +13,7 @@ namespace kinemend {
 struct Predictions {
   std::size_t frames;
   std::vector<double> distances;       ///< N x F, degrees
-  std::vector<std::size_t> smoothers;  ///< N: which one of `LeaveOneOut` predicts the track
+  std::vector<std::size_t> smoothers;  ///< N: the one of `LeaveOneOut` that predicts the track
 
   Predictions(std::size_t frame_count, std::size_t tracks)
       : frames(frame_count), distances(frame_count * tracks), smoothers(tracks) {}
@@ -23,12 +23,12 @@ struct Predictions {
   }
 };
 
-/// Candidates, and what they are classified by.
+/// Candidates, and the data that classify them.
 struct SpikeCandidates {
   const VectorTracks& measured;
   const Predictions& predictions;
   const SampleMarks& marks;
-  const std::vector<double>& noise;        ///< of each track, degrees
+  const std::vector<double>& noise;        ///< per track, degrees
   const std::vector<double>& shares;       ///< 0: a quiet track, 1: a noisy one
   const std::vector<std::uint8_t>& dense;  ///< 1: a track of dense outliers
   const std::vector<std::vector<std::size_t>>& nearby;

@@ -1,4 +1,4 @@
-// Predicts each sample from the others of its track, and repeats that without the candidates until
+// Predicts each sample from the others of its track, and repeats this without the candidates until
 // they no longer change.
 #include "methods/auto/spikes.hpp"
 
@@ -27,7 +27,7 @@ struct Detection {
   const signal::LeaveOneOut& smoothers;
   const TrackTuning& tuning;
   SampleMarks candidates;
-  std::vector<std::uint8_t> dense;  // of each track: 1 where its outliers are dense
+  std::vector<std::uint8_t> dense;  // per track: 1 if its outliers are dense
   std::vector<double> noise;        // without the candidates
   Predictions predictions;
 
@@ -74,8 +74,8 @@ void measure_noise(Detection& detection, std::size_t track) {
                   detection.measured.is_whitened[track] != 0, detection.tuning.noise);
 }
 
-// Outliers that hide each other are the first candidates of their track. At low rates they have to
-// be on most tracks: a pop in one frame of ten is a toe that leaves the ground at every step.
+// Outliers that hide each other are the first candidates of their track. At low rates they must be
+// on most tracks: a pop in one frame of ten may be a toe that leaves the ground at every step.
 void start_at_dense_outliers(Detection& detection) {
   const VectorTracks& measured = detection.measured;
   std::vector<std::vector<std::uint8_t>> outliers(measured.tracks());
@@ -100,7 +100,7 @@ double error_scale(const Detection& detection, std::size_t track) {
   return std::max(detection.noise[track], detection.tuning.spikes.noise_floor);
 }
 
-// The tracks, their candidates interpolated.
+// The tracks, with their candidates interpolated.
 signal::LaneBlock gather_tracks(const Detection& detection, std::span<const std::size_t> tracks) {
   signal::LaneBlock block(detection.measured.frames());
   std::vector<Vec3> filled;
@@ -295,7 +295,7 @@ DetectedSpikes find_spikes(VectorTracks& tracks, const SampleMarks& initial_cand
   start_at_dense_outliers(detection);
   iterate_candidates(detection, progress);
   std::vector<double> shares = smoothing_shares(tracks, detection.noise, frame_rate_hz, tuning);
-  // A track of dense outliers is as wrong as a noisy one, however quiet the samples between them.
+  // A track of dense outliers is treated as noisy, however quiet the samples between them.
   for (std::size_t n = 0; n < count; ++n)
     if (detection.dense[n] != 0) shares[n] = 1;
   const SampleMarks candidates = std::exchange(

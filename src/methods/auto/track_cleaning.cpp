@@ -40,7 +40,7 @@ void leave_hardly_observed(const SampleMarks& missing, std::vector<double>& shar
   }
 }
 
-// The noise of tracks whose marked samples are `missing`; white where it shows no colour.
+// The noise of tracks whose marked samples are `missing`; white unless it has a clear colour.
 NoiseSpectrum spectrum_of(const VectorTracks& tracks, const SampleMarks& missing,
                           const std::vector<Whitening>& whitenings, double frame_rate_hz,
                           const TrackCleaningSettings& settings) {
@@ -58,7 +58,7 @@ bool is_known(const std::vector<double>& noise, std::size_t track) {
   return track < noise.size() && noise[track] > 0;
 }
 
-// What is known of the noise in place of what was measured.
+// Replaces measured noise by known noise.
 void take_known(const std::vector<double>& known, CleanedTracks& cleaned) {
   for (std::size_t n = 0; n < known.size(); ++n) {
     if (!is_known(known, n)) continue;
@@ -67,7 +67,7 @@ void take_known(const std::vector<double>& known, CleanedTracks& cleaned) {
   }
 }
 
-// Every frame is a measurement.
+// Cleans tracks in which every frame is a measurement.
 CleanedTracks clean_measurements(VectorTracks& tracks, const SampleMarks& spike_candidates,
                                  const SampleMarks& always_missing,
                                  const std::vector<std::vector<std::size_t>>& nearby,

@@ -20,18 +20,18 @@ struct TrackCleaningSettings {
   double sensitivity = 1;  ///< scales the estimated noise
   bool despike = true;
   TrackKind kind = TrackKind::rotations;
-  std::optional<double> correlation{};  ///< of the noise, where it is known; 0: white
-  std::vector<double> noise{};          ///< N, degrees, where it is known, else 0; empty: nowhere
+  std::optional<double> correlation{};  ///< of the noise, if known; 0: white
+  std::vector<double> noise{};          ///< N, degrees, 0 if unknown; empty: all unknown
   TrackTuning tuning = {};
-  bool smooth = true;  ///< false: the noise and the spikes are found, and nothing is smoothed
+  bool smooth = true;  ///< false: only finds the noise and the spikes
 };
 
 struct CleanedTracks {
   SampleMarks marked;          ///< spikes
-  std::vector<double> noise;   ///< of each track, degrees, as measured
+  std::vector<double> noise;   ///< per track, degrees, as measured
   std::vector<double> shares;  ///< of smoothing, per track, 0 to 1
-  SamplePattern pattern;       ///< which frames are measurements; noise is that of these
-  NoiseSpectrum spectrum;      ///< the noise where it is not white
+  SamplePattern pattern;       ///< the frames of measurements; noise is that of these
+  NoiseSpectrum spectrum;      ///< the noise if it is not white
 };
 
 /// Interpolates spikes and smooths noise, in place. `spike_candidates` start the detection

@@ -1,4 +1,4 @@
-// Turns tracks to the principal axes of their fast motion and smooths each axis by its likeliest
+// Rotates tracks to the principal axes of their fast motion and smooths each axis by its likeliest
 // model.
 #include "methods/auto/track_smoother.hpp"
 
@@ -35,7 +35,7 @@ std::vector<Vec3> slow_motion(std::vector<Vec3> values, std::size_t half) {
   return values;
 }
 
-// Columns are the principal axes of a track's fast motion: the signal along each, and so the
+// Columns are the principal axes of a track's fast motion: the signal along each, and thus the
 // likeliest strength, differs.
 Eigen::Matrix3d principal_axes(const std::vector<Vec3>& values, double half_frames) {
   if (values.size() < 8) return Eigen::Matrix3d::Identity();
@@ -172,7 +172,7 @@ class Smoothing {
   double frame_rate_hz_;
   const SmoothingTuning& tuning_;
   signal::ModelGrid grid_;
-  std::vector<double> variance_;  // of each channel: three a chosen track
+  std::vector<double> variance_;  // of each channel: three per chosen track
   std::vector<Eigen::Matrix3d> axes_;
   std::vector<signal::SmoothingModel> models_;
 };

@@ -1,4 +1,4 @@
-// Smooths tracks under white noise, each by the strength that its evidence asks for.
+// Smooths tracks under white noise, each by its likeliest strength.
 #pragma once
 
 #include <span>

@@ -14,8 +14,8 @@ namespace kinemend {
 
 namespace {
 
-// Dense outliers bend a reference most where the take ends, since the mean there is of few samples:
-// the reference is then that of the track without them.
+// Dense outliers bend a reference most at the ends of the take, where its mean has few samples; the
+// reference is then computed without them.
 RotationChart chart_of(const std::vector<Quat>& rotations, double frame_rate_hz,
                        std::vector<std::uint8_t>* gross = nullptr) {
   std::vector<Quat> track = rotations;
@@ -34,8 +34,8 @@ RotationChart chart_of(const std::vector<Quat>& rotations, double frame_rate_hz,
   return smooth_chart(track, frame_rate_hz);
 }
 
-// A bridge follows the sample it starts at, also where that is a spike: the samples beside gaps are
-// the first to be doubted.
+// A bridge follows the sample at its start even if that is a spike, so the samples beside gaps are
+// the first suspects.
 std::vector<std::uint8_t> beside_gaps(const Track& track, std::size_t frames) {
   std::vector<std::uint8_t> marks(frames);
   for (std::size_t t = 1; t < frames; ++t) {

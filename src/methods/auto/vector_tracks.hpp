@@ -1,5 +1,5 @@
-// The data that the steps of `auto` work on: tracks of vectors in degrees, marks of samples, and
-// measures of noise.
+// The data of the steps of `auto`: tracks of vectors in degrees, marks of samples, and measures of
+// noise.
 #pragma once
 
 #include <array>
@@ -13,12 +13,12 @@
 
 namespace kinemend {
 
-/// F frames of N tracks of vectors, one track behind the other, in degrees: rotations in their
-/// charts, or positions on the same scale. Noise is taken to have the same variance along each
+/// F frames of N tracks of vectors, one track after the other, in degrees: rotations in their
+/// charts, or positions on the same scale. Noise is assumed to have the same variance along each
 /// axis.
 struct VectorTracks {
   std::vector<Vec3> values;  ///< N x F
-  /// N: 1 for a track that `whiten` has mapped; axes without noise remain without.
+  /// N: 1 for a track that `whiten` has mapped; axes without noise stay without noise.
   std::vector<std::uint8_t> is_whitened;
 
   VectorTracks(std::size_t frames, std::size_t tracks)
@@ -72,11 +72,11 @@ void fill_marked(std::span<Vec3> track, std::span<const std::uint8_t> marked);
 
 /// Standard deviation per axis of the white noise on each track, degrees; 0 for takes under 6
 /// frames: the smaller of the medians of the differences of order 3 and 5, both unbiased for white
-/// noise, which respond little to motion. Differences that touch a marked sample are left out. Of a
-/// whitened track it is the noise along the axes that have some.
+/// noise, which respond little to motion. Differences that touch a marked sample are left out. For
+/// a whitened track it is the noise along the axes that have some.
 std::vector<double> noise_levels(const VectorTracks& tracks, const SampleMarks& marked,
                                  const NoiseTuning& tuning = {});
-/// The same of one track, with its own marks.
+/// The same for one track, with its own marks.
 double noise_level(std::span<const Vec3> track, std::span<const std::uint8_t> marked,
                    bool is_whitened, const NoiseTuning& tuning = {});
 
@@ -88,7 +88,7 @@ std::vector<Vec3> fifth_differences(std::span<const Vec3> track,
 /// no differences.
 Vec3 noise_along(std::span<const Vec3> differences, const std::array<Vec3, 3>& directions);
 
-/// How much more of motion looks like noise than at 120 Hz: 1 from there up.
+/// How much more motion looks like noise than at 120 Hz: 1 from there up.
 double rate_factor_of(double frame_rate_hz, const DeadZoneTuning& tuning = {});
 
 /// Share of smoothing of each track, 0 (not changed) to 1: a ramp over its noise, so that a take as
@@ -100,17 +100,18 @@ std::vector<double> smoothing_shares(const std::vector<double>& noise, double fr
 std::vector<double> smoothing_shares(const VectorTracks& tracks, const std::vector<double>& noise,
                                      double frame_rate_hz, const TrackTuning& tuning = {});
 
-/// How sure it is that damage is damage, 0 to 1, from the tracks that show it (`is_damaged`, one a
-/// track). A few seconds below 50 Hz do not tell a snappy keyed move from noise or an outlier. What
-/// a system does wrong is on all that it measures, moves are on some joints: such a take is damaged
-/// when most tracks that move, of at least six, are. 1 for all other takes.
+/// Confidence that damage is not motion, 0 to 1, from the tracks that show it (`is_damaged`, one
+/// per track). A few seconds below 50 Hz do not distinguish a snappy keyed move from noise or an
+/// outlier. The errors of a system are on all tracks that it measures, moves are on some joints:
+/// such a take is damaged when most moving tracks, of at least six, are. 1 for all other takes.
 double agreement_of(const VectorTracks& tracks, std::span<const std::uint8_t> is_damaged,
                     double frame_rate_hz, const AgreementTuning& tuning = {});
 /// The same from the tracks whose noise exceeds the least that is smoothed.
 double noise_agreement(const VectorTracks& tracks, const std::vector<double>& noise,
                        double frame_rate_hz, const TrackTuning& tuning = {});
 
-/// Whether a take is too short, at its rate, to tell fast motion from noise by its quiet moments.
+/// Whether a take is too short, at its rate, for its quiet moments to distinguish fast motion from
+/// noise.
 bool is_brief(std::size_t frames, double frame_rate_hz, const AgreementTuning& tuning = {});
 
 }  // namespace kinemend

@@ -13,8 +13,8 @@ namespace kinemend {
 
 namespace {
 
-// Tyler's M-estimator: it uses directions only, so that spikes and impacts weigh no more than other
-// samples.
+// Tyler's M-estimator. It uses directions only, so that spikes and impacts have the weight of any
+// other sample.
 Eigen::Matrix3d scatter_of(const std::vector<Vec3>& differences, const NoiseTuning& tuning) {
   const std::size_t step = 1 + differences.size() / tuning.most_differences;
   const Eigen::Matrix3d least =

@@ -18,16 +18,16 @@ struct Whitening {
 };
 
 /// The whitening of each track, from its noise covariance: axes of Tyler's scatter of the fifth
-/// differences, and the deviation along each by `noise_along`. Identity where the deviations do not
-/// differ significantly, where the noise is small and where the track is too short. `missing`
-/// samples are left out.
+/// differences, and the deviation along each by `noise_along`. Identity if the deviations do not
+/// differ significantly, the noise is small, or the track is too short. `missing` samples are left
+/// out.
 std::vector<Whitening> estimate_whitening(const VectorTracks& tracks, const SampleMarks& missing,
                                           double frame_rate_hz, const NoiseTuning& tuning = {});
 
 /// Maps the tracks in place.
 void whiten(VectorTracks& tracks, std::span<const Whitening> whitenings);
 void undo_whitening(VectorTracks& tracks, std::span<const Whitening> whitenings);
-/// The same of one track.
+/// The same for one track.
 void undo_whitening(std::span<Vec3> track, const Whitening& whitening);
 
 }  // namespace kinemend

@@ -29,7 +29,7 @@ std::string_view to_string(Action action) {
 
 double NoiseCharacter::frequency_of_share(double share, double frame_rate_hz) const {
   const double rate_hz = frame_rate_hz / frames_per_sample;
-  // The spectrum is that of noise whose samples depend on the one before.
+  // The spectrum of first-order noise, whose samples depend on the one before.
   return rate_hz / pi *
          portable::atan(portable::tan(share * pi / 2) * (1 - correlation) / (1 + correlation));
 }

@@ -7,7 +7,7 @@ namespace kinemend {
 
 namespace {
 
-// What came out of a live filter, track by track.
+// Collects the output of a live filter, track by track.
 class Results {
  public:
   explicit Results(const TakeView& take) : take_(take), tracks_(take.tracks.size()) {}
@@ -23,7 +23,7 @@ class Results {
     }
   }
 
-  // Tracks that the filter left alone are left out.
+  // Passes on the tracks that the filter changed.
   void hand_over(const TrackSink& sink) {
     for (std::size_t n = 0; n < tracks_.size(); ++n) {
       const Track& source = take_.tracks[n];
@@ -44,7 +44,7 @@ class Results {
   std::vector<CleanedTrack> tracks_;
 };
 
-// Positions of joints have no gaps for a live filter: their bridges count like measurements.
+// A live filter sees no gaps in joint positions: their bridges are treated as measurements.
 std::vector<std::vector<Vec3>> bridged_positions(const TakeView& take) {
   std::vector<std::vector<Vec3>> bridged(take.tracks.size());
   if (take.gaps == GapTreatment::cut) return bridged;
@@ -55,7 +55,7 @@ std::vector<std::vector<Vec3>> bridged_positions(const TakeView& take) {
   return bridged;
 }
 
-// Keeps what is seen, and holds it where nothing is.
+// Passes seen samples on and holds the last one in gaps.
 template <class Sample>
 class HeldSample {
  public:

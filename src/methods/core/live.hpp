@@ -1,4 +1,4 @@
-// Methods that go through a take from its first frame to its last: causal ones, track by track, and
+// Methods that process a take from its first frame to its last: causal ones, track by track, and
 // the offline run of any live filter.
 #pragma once
 
@@ -12,13 +12,13 @@
 
 namespace kinemend {
 
-/// Cleans a take by the live filter of a cleaner, so that live and offline are the same: pushes
-/// every frame, and hands over the tracks that change. Errors: as of `Cleaner::live`.
+/// Cleans a take by the live filter of a cleaner, so that live and offline results are the same:
+/// pushes every frame, and passes on the tracks that change. Errors: as of `Cleaner::live`.
 CleanTrace clean_as_live(const Cleaner& cleaner, const TakeView& take, const TrackSink& sink,
                          const std::function<void(double)>& tell);
 
-/// A causal filter that treats each track by itself: `step(sample, seen)` returns the cleaned
-/// sample. Where gaps are cut, a track starts afresh after one longer than `longest_bridge`.
+/// A causal filter that treats each track separately: `step(sample, seen)` returns the cleaned
+/// sample. If gaps are cut, a track restarts after one longer than `longest_bridge`.
 template <class RotationStep, class PositionStep>
 class CausalTracks final : public LiveFilter {
  public:
@@ -60,7 +60,7 @@ class CausalTracks final : public LiveFilter {
   struct Positions {
     PositionStep step;
     bool selected;
-    std::size_t missing;  ///< frames since it was seen
+    std::size_t missing;  ///< frames since the track was seen
   };
 
   static bool is_seen(const Frame& frame, std::size_t owner) {
@@ -74,10 +74,10 @@ class CausalTracks final : public LiveFilter {
   std::vector<Positions> positions_;
 };
 
-/// A filter that changes no sample: a joint that is not seen keeps the last rotation that was.
+/// A filter that changes no seen sample: an unseen joint keeps the last rotation seen.
 std::unique_ptr<LiveFilter> gap_holding_filter(const TakeView& like);
 
-/// Of `Step<Quat>` and `Step<Vec3>`.
+/// The causal filter with a `Step<Quat>` and a `Step<Vec3>` for each track.
 template <template <class> class Step>
 std::unique_ptr<LiveFilter> causal_filter(const TakeView& like, const Step<Quat>& rotation,
                                           const Step<Vec3>& position) {

@@ -18,8 +18,8 @@ bool is_seen(const Path& path, std::size_t i) {
   return path.observed.empty() || path.observed[i] != 0;
 }
 
-// Velocity, per frame, of the straight line of least squares through up to `most` observed samples
-// from `end` on in the direction of `step`; nothing where fewer than three stand together.
+// Velocity, per frame, of the least-squares line through up to `most` consecutive observed samples
+// from `end` on in the direction of `step`; none if there are fewer than three.
 std::optional<Vec3> velocity_beside(const Path& path, std::size_t end, int step, std::size_t most) {
   const std::size_t room = step > 0 ? path.samples.size() - end : end + 1;
   const auto at = [&](std::size_t k) { return step > 0 ? end + k : end - k; };
@@ -126,11 +126,12 @@ void bridge_geodesic(std::vector<Quat>& track, std::size_t before, std::size_t a
     track[f] = normalized(a * exp(static_cast<double>(f - before) * step));
 }
 
-// A place and how it moves, per frame.
+// A position and its velocity, per frame.
 struct PathEnd {
   Vec3 place, velocity;
 
-  // Where the movement leads in so many frames; both are negative for what was before.
+  // The position after `frames` frames of decaying movement; both arguments are negative before the
+  // path.
   Vec3 after(double frames, double decay_frames) const {
     return place + (decay_frames * (1 - portable::exp(-frames / decay_frames))) * velocity;
   }

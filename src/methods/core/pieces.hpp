@@ -1,4 +1,4 @@
-// Tracks as filters see them: pieces without long gaps, of rotations and of positions alike.
+// Tracks as input of filters: pieces without long gaps, of rotations and of positions alike.
 #pragma once
 
 #include <cstddef>
@@ -15,23 +15,22 @@
 
 namespace kinemend {
 
-/// A stretch of a track with its gaps bridged. Of a track whose gaps are cut it starts and ends
-/// with an observed sample, and none of its gaps is longer than `longest_bridge`; of any other it
-/// is all of the track.
+/// A stretch of a track with its gaps bridged. If gaps are cut, it starts and ends with an observed
+/// sample, and none of its gaps is longer than `longest_bridge`; otherwise it is the whole track.
 template <class Sample>
 struct Piece {
   std::size_t track = 0;
   std::size_t first_frame = 0;
   std::vector<Sample> samples;
-  /// One a sample; empty: all of them, or bridges that count like measurements, which those in
-  /// positions of joints do.
+  /// One per sample. Empty: all are observed, or are bridges treated as measurements, as in
+  /// positions of joints.
   std::vector<std::uint8_t> observed;
-  std::vector<Action> actions;  ///< set by a filter that tells samples apart; else empty
+  std::vector<Action> actions;  ///< set by a filter that classifies samples; else empty
 };
 
-/// Frames of the longest gap that is bridged where gaps are cut: 0.25 s.
+/// The longest gap, in frames, that is bridged when gaps are cut: 0.25 s.
 std::size_t longest_bridge(double frame_rate_hz);
-/// Frames on either side of such a gap that the bridge across it looks at: 0.05 s, at least 3.
+/// Frames on either side of such a gap that its bridge uses: 0.05 s, at least 3.
 std::size_t bridge_support(double frame_rate_hz);
 
 /// The samples from `first` to before `end` of a piece.
@@ -52,28 +51,28 @@ Piece<Quat> rotation_piece(const TakeView& take, std::size_t track);
 /// are straight; those of markers are cubics that leave and meet the observed samples at their own
 /// velocity (by least squares).
 std::vector<Piece<Vec3>> position_pieces(const TakeView& take, std::size_t track);
-/// Puts the geodesic between its observed neighbours (at the ends the nearest one) into each
-/// unobserved sample.
+/// Replaces each unobserved sample by the geodesic between its observed neighbours (at the ends by
+/// the nearest one).
 void bridge_rotations(Piece<Quat>& piece);
 
-/// A marker's track in one piece, for methods that look at all markers in a frame: in long gaps the
-/// movement at either end dies away within about 0.1 s. Empty where nothing was observed.
+/// A marker's track in one piece, for methods that use all markers of a frame: in long gaps the
+/// movement at either end decays within about 0.1 s. Empty if nothing was observed.
 std::vector<Vec3> whole_positions(const TakeView& take, std::size_t track);
 
-/// What was observed of a track.
+/// The observed samples of a track.
 std::vector<Quat> observed_rotations(const TakeView& take, std::size_t track);
 std::vector<Vec3> observed_positions(const TakeView& take, std::size_t track);
 
-/// A cleaned track from its pieces: of markers the observed samples alone, what was not stays as
-/// it stands; of rotations all samples, those in gaps marked as filled.
+/// A cleaned track from its pieces: for markers the observed samples alone, while unobserved ones
+/// stay unchanged; for rotations all samples, those in gaps marked as filled.
 CleanedTrack assemble(Piece<Quat> piece);
 CleanedTrack assemble(const TakeView& take, std::size_t track, std::span<Piece<Vec3>> pieces);
 
-/// The sample of track `track`, of positions, in a frame of this take.
+/// The sample of the position track `track` in a frame of this take.
 Vec3& position_in(const TakeView& take, std::size_t track, Frame& frame);
 
 /// Runs `filter(piece)`, for pieces of `Quat` and of `Vec3`, on each changeable track, in parallel,
-/// and hands the tracks over.
+/// and passes the tracks to `sink`.
 template <class Filter>
 void filter_pieces(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& tell, const Filter& filter) {

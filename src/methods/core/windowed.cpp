@@ -1,4 +1,4 @@
-// Keeps the last frames of a stream, gives each one when its window is complete, and forgets the
+// Keeps the last frames of a stream, outputs each one when its window is complete, and drops the
 // oldest.
 #include "methods/core/windowed.hpp"
 
@@ -99,8 +99,8 @@ void WindowedFilter::hold_first() {
   }
 }
 
-// The window's first frame, where it is in a gap, gets what the geodesic across the whole gap has
-// there, and counts as seen. As long as the gap has no end, that is the rotation before it.
+// If the window's first frame is in a gap, it gets the value of the geodesic across the whole gap
+// and is marked as seen. While the gap has no end, that is the last rotation before it.
 void WindowedFilter::bridge_from_held() {
   for (std::size_t n = 0; n < held_.size(); ++n) {
     Held& held = held_[n];
@@ -118,7 +118,7 @@ void WindowedFilter::bridge_from_held() {
   }
 }
 
-// The frame of the window behind its first in which a rotation is seen; their number if in none.
+// The first frame of the window after frame 0 in which a rotation is seen; the frame count if none.
 std::size_t WindowedFilter::first_seen(std::size_t rotation) const {
   std::size_t frame = 1;
   while (frame < view_.frames && observed_[frame * view_.owners + rotation] == 0) ++frame;

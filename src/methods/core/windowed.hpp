@@ -1,7 +1,8 @@
 // Methods with a window: a frame's result depends on `half` frames on either side of it, and on
 // nothing else. Such a method states how it filters a piece, which offline runs use, and a step
-// that takes one sample and gives the filtered one of `half` samples before. `windowed_filter` does
-// the rest of its live form: steps where nothing is missing, pieces at gaps and at the ends.
+// that takes one sample and returns the filtered one of `half` samples before. `windowed_filter`
+// provides the rest of its live form: steps where nothing is missing, pieces at gaps and at the
+// ends.
 #pragma once
 
 #include <cstddef>
@@ -15,19 +16,19 @@
 
 namespace kinemend {
 
-/// The last samples of a track, one behind the other. Takes memory only when it is made.
+/// The last samples of a track, one after the other. Allocates only when constructed.
 template <class Sample>
 class SlidingWindow {
  public:
   explicit SlidingWindow(std::size_t length) : length_(length), samples_(2 * length) {}
 
-  /// Forgets the oldest.
+  /// Drops the oldest.
   void push(const Sample& sample) {
-    // Each stands twice, so that any `length_` in a row are there in one piece.
+    // Each sample is stored twice, so that any `length_` consecutive ones are contiguous.
     samples_[place_] = samples_[place_ + length_] = sample;
     place_ = (place_ + 1) % length_;
   }
-  /// `length` samples, the oldest first; those that have not come yet are as they were made.
+  /// `length` samples, the oldest first; samples not yet pushed have their initial value.
   std::span<const Sample> samples() const {
     return std::span<const Sample>(samples_).subspan(place_, length_);
   }
@@ -38,13 +39,13 @@ class SlidingWindow {
   std::size_t place_ = 0;
 };
 
-/// Keeps the frames that the next result depends on. At the ends of the stream they are fewer, as
-/// they are at the ends of a take. A gap of a joint that begins before the window keeps the last
-/// rotation that was seen, so that gaps longer than the window are bridged too.
+/// Keeps the frames that the next result depends on; there are fewer at the ends of the stream, as
+/// at the ends of a take. A gap of a joint that begins before the window keeps the last rotation
+/// seen, so that gaps longer than the window are bridged, too.
 class WindowedFilter : public LiveFilter {
  public:
-  /// Where gaps are cut, a filter also waits for the longest gap that is bridged, and for what its
-  /// bridge looks at behind it.
+  /// If gaps are cut, a filter also waits for the longest gap that is bridged, and for the frames
+  /// after it that its bridge uses.
   WindowedFilter(const TakeView& like, std::size_t half);
 
   std::size_t lookahead() const final { return half_ + bridge_; }
@@ -54,19 +55,19 @@ class WindowedFilter : public LiveFilter {
  protected:
   /// Takes every frame of the stream, `half` frames before `clean` is called for it.
   virtual void step(const Frame& /*newest*/) {}
-  /// Cleans `out`, which holds frame `frame` of the window as it came. `has_stepped`: `step` took
-  /// the frame `half` after it last; false once the stream has ended.
+  /// Cleans `out`, which holds the input frame `frame` of the window. `has_stepped`: the last
+  /// `step` took the frame `half` after it; false once the stream has ended.
   virtual void clean(std::size_t frame, bool has_stepped, Frame& out) = 0;
 
   std::size_t half() const { return half_; }
-  /// The frames that are kept, as a take. Its samples may be read within `clean` only.
+  /// The kept frames, as a take. Its samples may be read within `clean` only.
   const TakeView& window() const { return view_; }
 
  private:
-  // The last rotation of a joint that was seen before the window.
+  // A joint's last rotation seen before the window.
   struct Held {
     Quat rotation;
-    std::size_t frames_before = 0;  // how far before the first frame kept; 0: none was seen
+    std::size_t frames_before = 0;  // distance to the first kept frame; 0: none was seen
     bool is_in_window = false;      // the window's first frame has a bridge instead of its own
   };
 
@@ -85,11 +86,11 @@ class WindowedFilter : public LiveFilter {
   std::vector<Vec3> positions_;
   std::vector<std::uint8_t> observed_;
   std::vector<Held> held_;  // one for each rotation whose gaps are bridged
-  std::size_t next_ = 0;    // the frame of the window that comes out next
+  std::size_t next_ = 0;    // the frame of the window that is output next
   Frame newest_;
 };
 
-/// A window whose tracks are filtered each by itself.
+/// A window whose tracks are filtered separately.
 template <template <class> class Step, class Filter>
 class WindowedTracks final : public WindowedFilter {
  public:
@@ -109,8 +110,8 @@ class WindowedTracks final : public WindowedFilter {
   template <class Sample>
   struct Stepped {
     Step<Sample> step;
-    Sample filtered{};     // what the step gave last
-    std::size_t seen = 0;  // samples in a row
+    Sample filtered{};     // the last result of the step
+    std::size_t seen = 0;  // consecutive seen samples
   };
 
   // Positions of joints have no gaps.
@@ -143,7 +144,7 @@ class WindowedTracks final : public WindowedFilter {
       is_ragged_[n] = 0;
       if (!window().tracks[n].selected) continue;
       if (has_stepped && take_stepped(n, out)) continue;
-      // A marker that is missing stays so.
+      // A missing marker stays missing.
       if (window().gaps == GapTreatment::cut && !is_seen(window(), n, out)) continue;
       is_ragged_[n] = 1;
       any_ragged = true;
@@ -151,7 +152,7 @@ class WindowedTracks final : public WindowedFilter {
     if (any_ragged) clean_ragged(frame, out);
   }
 
-  // Whether nothing was missing about the frame.
+  // Takes the result of the step; false if a sample of the window is missing.
   bool take_stepped(std::size_t n, Frame& out) const {
     const std::size_t i = n - rotations_.size(), whole = 2 * half() + 1;
     if (n < rotations_.size()) {
@@ -192,12 +193,12 @@ class WindowedTracks final : public WindowedFilter {
   Filter filter_;
   std::vector<Stepped<Quat>> rotations_;
   std::vector<Stepped<Vec3>> positions_;
-  std::vector<std::uint8_t> is_ragged_;  // of each track: steps cannot tell the present frame
+  std::vector<std::uint8_t> is_ragged_;  // per track: the step has no result for this frame
 };
 
-/// The live form of a method that filters tracks each by itself, with `half` frames on either side.
-/// `make_step(track, sample)` makes a `Step<Quat>` or `Step<Vec3>`, whichever the sample is;
-/// `filter(piece)` is what `filter_pieces` runs offline.
+/// The live form of a method that filters tracks separately, with `half` frames on either side.
+/// `make_step(track, sample)` makes a `Step<Quat>` or `Step<Vec3>`, matching the sample;
+/// `filter(piece)` is the function that `filter_pieces` runs offline.
 template <template <class> class Step, class MakeStep, class Filter>
 std::unique_ptr<LiveFilter> windowed_filter(const TakeView& like, std::size_t half,
                                             const MakeStep& make_step, Filter filter) {

@@ -42,15 +42,15 @@ struct BilateralFilter {
       bilateral_filter(track, lane_weights(piece), turns, passes, ends);
     });
   }
-  // Bridges count like samples: a mean of one side only would lag behind a marker that travels.
+  // Bridges are treated as samples: a one-sided mean would lag behind a marker that travels.
   void operator()(Piece<Vec3>& piece) const {
     filter_lanes(piece,
                  [&](VectorTrack& track) { bilateral_filter(track, {}, moves, passes, ends); });
   }
 };
 
-// One pass amid a take, as `bilateral_filter` has it: a weight between two samples is found once,
-// when the later of them comes.
+// One pass away from the ends, equal to `bilateral_filter`: the weight of two samples is computed
+// once, when the later of them arrives.
 template <class Sample>
 class BilateralPass {
  public:
@@ -84,7 +84,7 @@ class BilateralPass {
   }
 
  private:
-  // Between sample i of the window and the one r before it.
+  // The weight between sample i of the window and the one r before it.
   double& weight(std::size_t i, std::size_t r) { return weights_[i * k_ + r - 1]; }
 
   BilateralKernel kernel_;
@@ -149,8 +149,8 @@ class BilateralCleaner final : public Cleaner {
   BilateralKernel kernel_of_turns(const TakeView& take) const {
     return bilateral_kernel(sigma_t_frames(take), options_.sigma_g_deg * radians_per_degree);
   }
-  // A body turned by sigma_g moves its far end by sigma_g times its height. Travel is no edge, as
-  // it would be for the length of a bone.
+  // Distances are relative to the body height: a body turned by sigma_g moves its far end by
+  // sigma_g times its height. Relative to the length of a bone, travel would be an edge.
   BilateralKernel kernel_of_moves(const TakeView& take) const {
     return bilateral_kernel(sigma_t_frames(take),
                             options_.sigma_g_deg * radians_per_degree * height_of(take));

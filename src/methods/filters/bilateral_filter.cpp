@@ -11,7 +11,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "methods/filters/bilateral_filter.cpp"
 #include "hwy/foreach_target.h"
-// Behind foreach_target.h, which includes this file again for each target.
+// Must follow foreach_target.h, which includes this file again for each target.
 #include "base/portable.hpp"
 #include "hwy/highway.h"
 #include "methods/filters/rotation_lanes-inl.hpp"
@@ -36,8 +36,8 @@ HWY_INLINE Lanes squared_distance(const LaneVec& a, const LaneVec& b) {
   return add(mul(d.x, d.x), add(mul(d.y, d.y), mul(d.z, d.z)));
 }
 
-// The band of W(i, i + r), r = 1 .. k, for a block of frames: the matrix is symmetric, so that only
-// the frames behind are stored.
+// The band of W(i, i + r), r = 1 .. k, for a block of frames: the matrix is symmetric, so only the
+// later frames are stored.
 struct Band {
   std::span<double> values;
   std::size_t stride = 0;  // between rows of r
@@ -57,8 +57,8 @@ void fill_band(const Track& track, const BilateralKernel& kernel, std::size_t en
   }
 }
 
-// Of one frame and its lanes: sum_r b_r w_{i+r} (eq. 2-3), from the far ends of the window inwards,
-// where the partial sums of the mask are the b_r. Not yet divided by the mask's sum.
+// The sum over r of b_r w_{i+r} (eq. 2-3) for one frame and its lanes. It starts at the far ends of
+// the window, where the partial sums of the mask are the b_r. Not yet divided by the mask's sum.
 HWY_INLINE LaneVec weigh(const VectorTrack& steps, const double* sample_weights, Band& band,
                          std::size_t k, std::size_t i, Lanes& mask_sum) {
   LaneVec sum{hn::Zero(tag), hn::Zero(tag), hn::Zero(tag)};

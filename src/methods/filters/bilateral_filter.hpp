@@ -18,7 +18,7 @@ struct BilateralKernel {
   std::size_t half_width() const { return temporal_weights.size() - 1; }
 };
 
-/// Weights cut where they fall to 1 percent: k = 3 sigma_t, rounded, at least 1.
+/// Weights up to where they fall to 1 percent: k = 3 sigma_t, rounded, at least 1.
 BilateralKernel bilateral_kernel(double sigma_t_frames, double sigma_g);
 
 /// Extension of a signal beyond its first and last sample.
@@ -28,7 +28,7 @@ enum class BilateralEnds {
 };
 
 /// Filters in place, `passes` times, the signal extended at its ends in each pass. Samples of
-/// weight 0 have no weight in the windows of others; no weights: all are 1.
+/// weight 0 are ignored in the windows of others; without weights all are 1.
 void bilateral_filter(RotationTrack& track, const std::vector<double>& sample_weights,
                       const BilateralKernel& kernel, std::size_t passes, BilateralEnds ends);
 void bilateral_filter(VectorTrack& track, const std::vector<double>& sample_weights,

@@ -1,4 +1,4 @@
-// The method `butterworth`: forward and backward on a whole take, forward alone where it is causal.
+// The method `butterworth`: forward and backward on a whole take, forward only if it is causal.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ const OptionTable<ButterworthOptions>& butterworth_table() {
   return options;
 }
 
-// Forward filter of one track. What was not seen holds its last value.
+// Forward filter of one track. Unseen samples hold the last value.
 template <class Sample>
 class ButterworthTrack {
  public:

@@ -1,4 +1,4 @@
-// Checks cutoffs against the Nyquist frequency and words the warning in one way for all methods.
+// Checks cutoffs against the Nyquist frequency; all methods share the text of the warning.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace kinemend {
 
-/// Only a cutoff below half the frame rate leaves a filter something to take away.
+/// A cutoff must be below half the frame rate, or the filter removes nothing.
 bool is_below_nyquist(double cutoff_hz, double frame_rate_hz);
 /// "cutoff_hz: 100 Hz is not below the Nyquist frequency of 60 Hz (half the frame rate)", the same
 /// in every method.

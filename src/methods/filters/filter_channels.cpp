@@ -1,4 +1,4 @@
-// Gathers pieces over the same frames into blocks of channels, filters these, and takes them apart
+// Groups pieces over the same frames into blocks of channels, filters these, and separates them
 // again.
 #include "methods/filters/filter_channels.hpp"
 
@@ -53,7 +53,7 @@ void filter_block(std::span<Piece<Quat>> pieces, Encoding encoding, const Channe
   }
 }
 
-// Tracks that are filtered together: their pieces are loaded when it is their turn.
+// Tracks that are filtered together; their pieces are loaded when the block is filtered.
 struct RotationBlock {
   Encoding encoding = Encoding::quaternion;
   std::vector<std::size_t> tracks;
@@ -82,7 +82,7 @@ std::vector<RotationBlock> rotation_blocks(const TakeView& take,
   return blocks;
 }
 
-// All pieces, those over the same frames together.
+// All pieces, sorted so that those over the same frames are adjacent.
 std::vector<Piece<Vec3>> pieces_by_span(const TakeView& take,
                                         const std::vector<std::size_t>& tracks) {
   std::vector<Piece<Vec3>> pieces;

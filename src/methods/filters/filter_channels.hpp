@@ -9,17 +9,17 @@
 namespace kinemend {
 
 enum class ChannelChoice {
-  quaternion,  ///< for linear filters: they commute with turning the frame on either side
-  suitable     ///< tangent space where the joint allows it: the noise is even there
+  quaternion,  ///< for linear filters: they commute with rotating the frame on either side
+  suitable     ///< tangent space if the joint allows it: the noise is uniform there
 };
 
-/// Lets `filter` work, in place, on the channels of the changeable tracks, and hands these over. It
-/// sees up to eight pieces over the same frames at a time, side by side: of positions three
-/// channels each, from their first sample on. Blocks go in parallel.
+/// Runs `filter` in place on the channels of the changeable tracks, and passes these to `sink`. It
+/// gets up to eight pieces over the same frames at a time, side by side: for positions three
+/// channels each, from their first sample on. Blocks run in parallel.
 void filter_channels(const TakeView& take, ChannelChoice choice, const TrackSink& sink,
                      const std::function<void(double)>& tell,
                      const std::function<void(PoseMatrix&)>& filter);
-/// The same on one piece, rotations as channels of quaternions.
+/// The same for one piece, with rotations as channels of quaternions.
 void filter_channels(Piece<Quat>& piece, const std::function<void(PoseMatrix&)>& filter);
 void filter_channels(Piece<Vec3>& piece, const std::function<void(PoseMatrix&)>& filter);
 

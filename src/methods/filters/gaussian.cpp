@@ -1,4 +1,4 @@
-// The method `gaussian`: a Gaussian mean of each track, which becomes a local line fit where a
+// The method `gaussian`: a Gaussian mean of each track, replaced by a local line fit where the
 // window is cut.
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ std::size_t half_width(double sigma_frames) {
   return static_cast<std::size_t>(std::lround(mask_reach * sigma_frames));
 }
 
-// exp(-j^2 / (2 sigma^2)) for j = -k .. k; k is no more than `most`.
+// exp(-j^2 / (2 sigma^2)) for j = -k .. k, with k at most `most`.
 std::vector<double> gaussian_values(double sigma_frames, std::size_t most) {
   const std::size_t k = std::min(half_width(sigma_frames), most);
   std::vector<double> values(2 * k + 1, 1.0);
@@ -42,9 +42,8 @@ std::vector<double> gaussian_values(double sigma_frames, std::size_t most) {
   return values;
 }
 
-// The mask about frame i out of `frames`: the weights of a local straight-line fit, which leave a
-// straight line as it is also where the window is cut. Where nothing is cut they are the normalised
-// Gaussian.
+// The mask about frame i out of `frames`: the weights of a local straight-line fit, which preserve
+// a straight line even if the window is cut. For a whole window they are the normalised Gaussian.
 std::vector<double> mask_at(std::span<const double> values, std::span<const double> observed,
                             std::size_t i, std::size_t frames) {
   const std::size_t k = values.size() / 2;
@@ -71,7 +70,7 @@ std::vector<double> mask_at(std::span<const double> values, std::span<const doub
   return mask;
 }
 
-// sum_r b_r w_{i+r}; b_r is zero where w is not there.
+// sum_r b_r w_{i+r}; b_r is zero if w does not exist.
 Vec3 weigh_at(const VectorTrack& increments, std::span<const double> b, std::size_t i) {
   const std::size_t k = b.size() / 2;
   Vec3 sum;
@@ -110,7 +109,7 @@ class GaussianFilter {
   }
 
  private:
-  // Samples of weight 0 count for nothing; no weights: all are 1.
+  // Samples of weight 0 are ignored; without weights all are 1.
   template <class Track>
   void filter(Track& track, const std::vector<double>& observed) const {
     const VectorTrack steps = increments(track);
@@ -131,10 +130,10 @@ class GaussianFilter {
   std::vector<double> values_;
   std::size_t frames_;
   std::vector<double> inner_;
-  std::vector<std::vector<double>> ends_;  // one a frame of the take; empty inside it
+  std::vector<std::vector<double>> ends_;  // one per frame of the take; empty away from its ends
 };
 
-// The whole mask: each increment is taken once.
+// The whole mask; each increment is computed once.
 template <class Sample>
 class GaussianStep {
  public:

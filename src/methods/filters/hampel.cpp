@@ -41,8 +41,8 @@ class Despiker {
   Despiker(SampleTrack<Sample> track, const Rule& rule)
       : track_(track), rule_(rule), medoids_(track, 2 * rule.half + 1) {}
 
-  /// Puts the median of the samples about `t` into `sample` if the one at `t` is a spike. `t` only
-  /// grows from call to call.
+  /// Replaces `sample` by the median of the samples about `t` if the one at `t` is a spike. `t`
+  /// must increase from call to call.
   bool despike(std::size_t t, Sample& sample) {
     const std::size_t first = t - std::min(t, rule_.half);
     const std::size_t last = std::min(track_.size() - 1, t + rule_.half);
@@ -57,7 +57,7 @@ class Despiker {
 
  private:
   bool is_spike(std::size_t t, std::size_t first, std::size_t last) {
-    // Frames of a window; shorter ones are left alone. Chosen by hand, not swept.
+    // Frames of a window; shorter ones are not changed. Chosen by hand, not swept.
     constexpr std::size_t least_frames = 5;
     if (last - first + 1 < least_frames) return false;
     const std::size_t middle = medoids_.find(first, last);
@@ -69,9 +69,8 @@ class Despiker {
     return last - first == 2 * rule_.half || stands_alone(t, first, last, own);
   }
 
-  // Where the take's end cuts the window, the outermost samples are far from the median in every
-  // motion. They are spikes only if the sample beside them, towards the end or inwards, is far off
-  // as well.
+  // If the take's end cuts the window, the outermost samples are far from the median in any motion.
+  // They are spikes only if the sample beside them, towards the end or inwards, is far off as well.
   bool stands_alone(std::size_t t, std::size_t first, std::size_t last, double own) const {
     const bool at_start = t - first < last - t;
     const std::size_t outer =
@@ -88,7 +87,7 @@ class Despiker {
 };
 
 struct HampelFilter {
-  std::vector<Rule> rules;  // of each track
+  std::vector<Rule> rules;  // one per track
 
   template <class Sample>
   void operator()(Piece<Sample>& piece) const {
@@ -101,7 +100,7 @@ struct HampelFilter {
   }
 };
 
-// The rule amid a take, where windows are whole.
+// The rule away from the ends, where windows are whole.
 template <class Sample>
 class HampelStep {
  public:

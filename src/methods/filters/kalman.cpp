@@ -51,7 +51,7 @@ class NoiseMeter {
 
   template <class Sample>
   double measure(Sample a, Sample b, Sample c) {
-    // By which the estimate moves with each sample. Chosen by hand, not swept.
+    // Relative change of the estimate with each sample. Chosen by hand, not swept.
     constexpr double rate = 0.05;
     const double sample = second_difference(a, b, c) * noise_per_second_difference;
     noise_ *= sample > noise_ ? 1 + rate : 1 / (1 + rate);
@@ -65,7 +65,7 @@ class NoiseMeter {
   double least_ = noise_ * 1e-5;
 };
 
-// The causal filter of one track. Noise that is not given is measured on the way.
+// The causal filter of one track. Noise that is not given is measured while filtering.
 template <class Sample>
 class LiveTrack {
  public:
@@ -144,8 +144,8 @@ class Kalman final : public Cleaner {
   }
 
  private:
-  // Of each track, from all that was observed of it: radians or file units. The option is not meant
-  // for positions of joints.
+  // The noise of each track from all its observed samples: radians or file units. The option does
+  // not apply to positions of joints.
   std::vector<double> noise_of(const TakeView& take) const {
     std::vector<double> noise(take.tracks.size());
     const std::vector<std::size_t> tracks = changeable_tracks(take);

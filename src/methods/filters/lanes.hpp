@@ -1,4 +1,4 @@
-// Turns pieces of tracks into one array for each component, as the vectorised filters take them.
+// Converts pieces of tracks to one array per component, the input of the vectorised filters.
 #pragma once
 
 #include <vector>
@@ -20,7 +20,8 @@ inline VectorTrack to_lanes(const std::vector<Vec3>& samples) {
   return track;
 }
 
-/// 1 for an observed sample, 0 for any other, with `lane_room` zeros behind. Empty where all were.
+/// 1 for an observed sample, 0 for any other, followed by `lane_room` zeros. Empty if all were
+/// observed.
 inline std::vector<double> lane_weights(const std::vector<std::uint8_t>& observed) {
   std::vector<double> weights(observed.begin(), observed.end());
   if (!weights.empty()) weights.resize(weights.size() + lane_room);
@@ -31,8 +32,8 @@ std::vector<double> lane_weights(const Piece<Sample>& piece) {
   return lane_weights(piece.observed);
 }
 
-/// Runs `filter(track)` on the samples of a piece. Rotations that were not observed come out
-/// interpolated between the filtered ones.
+/// Runs `filter(track)` on the samples of a piece. Unobserved rotations are interpolated between
+/// the filtered ones.
 template <class Sample, class Filter>
 void filter_lanes(Piece<Sample>& piece, const Filter& filter) {
   auto track = to_lanes(piece.samples);

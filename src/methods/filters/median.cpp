@@ -1,4 +1,4 @@
-// The method `median`: the L1 median of a window that moves along each track.
+// The method `median`: the L1 median of a moving window of each track.
 #include <algorithm>
 
 #include "kinemend/experimental/frame_rate.hpp"
@@ -35,8 +35,8 @@ Quat extrapolated(Quat near, Quat far) {
 }
 Vec3 extrapolated(Vec3 near, Vec3 far) { return near + 2.0 * (near - far); }
 
-// Tukey's rule for the last sample at either end: the median of it, of the median beside it, and of
-// the point that the medians beside it lead to.
+// Tukey's rule for the last sample at either end: the median of that sample, of the median beside
+// it, and of the extrapolation of the medians beside it.
 template <class Sample>
 Sample end_median(Sample end, Sample near, Sample far, std::vector<Vec3>& scratch) {
   const Sample three[3] = {end, near, extrapolated(near, far)};
@@ -44,7 +44,7 @@ Sample end_median(Sample end, Sample near, Sample far, std::vector<Vec3>& scratc
   return l1_median(samples, medoid(samples), scratch);
 }
 
-// Of a sample without neighbours on both sides, or of any where the window is one sample.
+// The result for a sample without neighbours on both sides, or for a window of one sample.
 template <class Sample>
 Sample lone_median(SampleTrack<Sample> track, std::size_t t, std::size_t half,
                    std::vector<Vec3>& scratch) {
@@ -76,7 +76,7 @@ struct MedianFilter {
   }
 };
 
-// The median of the `half` samples on either side, amid a window that may be longer.
+// The median of the `half` samples on either side, within a window that may be longer.
 template <class Sample>
 class MedianStep {
  public:
@@ -116,7 +116,7 @@ class Median final : public Cleaner {
 
   std::unique_ptr<LiveFilter> live(const TakeView& like) const override {
     const std::size_t half = half_frames(like.frame_rate_hz);
-    // The ends look at the medians of the two frames beside them.
+    // The ends use the medians of the two frames beside them.
     const std::size_t end = half == 0 ? 0 : half == 1 ? 3 : 4;
     const std::size_t window_half = std::max(half, end);
     return windowed_filter<MedianStep>(

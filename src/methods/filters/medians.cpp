@@ -88,7 +88,7 @@ Vec3 spatial_median(std::span<const Vec3> points, std::size_t start) {
   return best;
 }
 
-// Twice |a - b| of the nearer signs; points: |a - b|.
+// Twice |a - b| with the nearer signs for rotations, |a - b| for points.
 double distance_of(Quat a, Quat b) {
   const Quat d{a.w - b.w, a.x - b.x, a.y - b.y, a.z - b.z};
   const double same = dot(d, d);
@@ -96,7 +96,7 @@ double distance_of(Quat a, Quat b) {
 }
 double distance_of(Vec3 a, Vec3 b) { return norm(a - b); }
 
-// The sums of distances, in the order that `MovingMedoid` takes them in.
+// Sums distances in the same order as `MovingMedoid`.
 template <class Sample>
 std::size_t least_sum(std::span<const Sample> samples, std::vector<double>& sums) {
   sums.assign(samples.size(), 0.0);

@@ -19,8 +19,8 @@ namespace kinemend {
 
 namespace {
 
-// How far the root position is averaged when the window is the whole take: beyond, the body is
-// elsewhere.
+// Range over which the root position is averaged when the window is the whole take: beyond it, the
+// body is elsewhere.
 const double travel_window_s = NonlocalOptions{}.window_s;
 
 const OptionTable<NonlocalOptions>& nonlocal_table() {
@@ -41,7 +41,7 @@ const OptionTable<NonlocalOptions>& nonlocal_table() {
   return result;
 }
 
-// Joints that turn at all; all of them where the skeleton names no channels.
+// Joints with rotation channels; all joints if the skeleton names no channels.
 std::vector<std::size_t> pose_joints(const Skeleton& skeleton) {
   std::vector<std::size_t> joints;
   for (std::size_t j = 0; j < skeleton.joint_count(); ++j) {
@@ -53,13 +53,13 @@ std::vector<std::size_t> pose_joints(const Skeleton& skeleton) {
   return joints;
 }
 
-// Half of a whole window of so many seconds, in frames: 2 r + 1 of them are nearest to it.
+// Half of a window of `seconds`, in frames: 2 r + 1 is nearest to the window.
 std::size_t radius_frames(double seconds, double frame_rate_hz, std::size_t least) {
   const auto radius = std::lround((seconds * window_rate_hz(frame_rate_hz) - 1) / 2);
   return std::max(least, static_cast<std::size_t>(std::max(radius, 0L)));
 }
 
-// Poses are compared as a whole: each frame is cleaned by what the method makes of its window.
+// Poses are compared as a whole: each frame is cleaned by running the method on its window.
 class NonlocalWindow final : public WindowedFilter {
  public:
   NonlocalWindow(const Cleaner& cleaner, const TakeView& like, std::size_t half)
@@ -118,7 +118,7 @@ class NonlocalCleaner final : public Cleaner {
   }
 
   LiveSupport live_support(double frame_rate_hz) const override {
-    // The noise of a whole take and the whole take itself are not known live.
+    // Live use cannot measure the noise of a whole take or search the whole take.
     const bool is_windowed = options_.bandwidth_deg > 0 && options_.window_s > 0;
     return options_.causal || is_windowed ? LiveSupport{} : Cleaner::live_support(frame_rate_hz);
   }
@@ -155,7 +155,7 @@ class NonlocalCleaner final : public Cleaner {
     return settings;
   }
 
-  // What belongs to the pose, selected or not, and the numbers of the tracks that it is made of.
+  // All tracks of the pose, selected or not, with their numbers.
   struct Pose {
     NonlocalTake take;
     std::vector<std::size_t> rotations, positions, points;
@@ -211,7 +211,7 @@ class NonlocalCleaner final : public Cleaner {
     return assemble(std::move(piece));
   }
 
-  // Bandwidth and distance of noise from the take; false when there is no noise to remove.
+  // Sets bandwidth and distance of noise from the take; false if there is no noise to remove.
   static bool choose_bandwidth(const TakeView& take, const Pose& pose, NonlocalSettings& settings,
                                CleanTrace& trace) {
     trace.noise.assign(take.tracks.size(), 0.0);

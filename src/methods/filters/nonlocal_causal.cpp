@@ -1,4 +1,4 @@
-// Keeps the last poses and their distances, and averages each new pose with those that are alike.
+// Keeps the last poses and their distances, and averages each new pose with similar ones.
 #include "methods/filters/nonlocal_causal.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace kinemend {
 namespace {
 
 // The noise of the frames so far, from second differences of whole poses: their median over frames
-// does not see the few in which something jumps.
+// ignores the few frames with a jump.
 class RunningNoise {
  public:
   // Sum over joints of the squared second difference of three successive poses.
@@ -34,7 +34,8 @@ class RunningNoise {
   }
 
  private:
-  // Before which no noise is known, and over which it is measured. Chosen by hand, not swept.
+  // Fewest frames before the noise is known, and the number over which it is measured. Chosen by
+  // hand, not swept.
   static constexpr std::size_t least_frames = 8;
   static constexpr std::size_t most_frames = 256;
   std::size_t count_ = 0;
@@ -42,13 +43,13 @@ class RunningNoise {
   std::vector<double> sorted_;
 };
 
-// The last things of a kind, the newest first. Their memory is used again.
+// A ring of the last items, the newest first. Their memory is reused.
 template <class T>
 class Latest {
  public:
   explicit Latest(std::size_t most) : things_(most) {}
   std::size_t size() const { return std::min(count_, things_.size()); }
-  // Room for a new one, in place of the oldest.
+  // Returns a place for a new item, overwriting the oldest.
   T& add() { return things_[count_++ % things_.size()]; }
   // 0 is the newest.
   T& operator[](std::size_t age) { return things_[(count_ - 1 - age) % things_.size()]; }
@@ -86,8 +87,8 @@ class CausalNonlocal final : public LiveFilter {
   bool flush(Frame&) override { return false; }
 
  private:
-  // Of one frame: per lag, the squared angles to the frame so far back, over joints measured in
-  // both.
+  // For one frame and each lag: the sum of squared angles to the frame that long ago, over joints
+  // measured in both.
   struct Distances {
     std::vector<double> sums, pairs;
   };
@@ -96,7 +97,7 @@ class CausalNonlocal final : public LiveFilter {
     return frame.observed.empty() || frame.observed[joint] != 0;
   }
 
-  // Puts the frame before the past ones. What was not measured is held.
+  // Adds the frame to the past ones. Unmeasured rotations are held.
   void remember(const Frame& frame) {
     past_.add() = frame;
     for (const std::size_t joint : joints_) {
@@ -206,7 +207,7 @@ class CausalNonlocal final : public LiveFilter {
   RunningNoise noise_;
   Latest<Frame> past_;           // the present frame first
   Latest<Distances> distances_;  // of the frames of a patch, the present one first
-  std::vector<double> weights_;  // of the poses 1, 2, ... frames ago; the present one weighs 1
+  std::vector<double> weights_;  // of the poses 1, 2, ... frames ago; the present one has weight 1
   std::vector<double> sorted_;
 };
 

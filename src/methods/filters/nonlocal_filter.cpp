@@ -1,4 +1,4 @@
-// Measures distances of patches block by block, turns them into weights, and averages poses by
+// Computes distances of patches block by block, converts them to weights, and averages poses with
 // these.
 #include "methods/filters/nonlocal_filter.hpp"
 
@@ -51,7 +51,7 @@ class Averager {
   }
 
   struct Moves {
-    std::vector<VectorTrack> turns;  ///< one per rotation track; empty where it is not wanted
+    std::vector<VectorTrack> turns;  ///< one per rotation track; empty if not wanted
     std::vector<VectorTrack> shifts;
     std::vector<VectorTrack> point_moves;
   };
@@ -123,7 +123,7 @@ class Averager {
   }
 
  private:
-  // A row for each neighbour, `lane_room` longer than the block.
+  // One row per neighbour, `lane_room` longer than the block.
   struct Weights {
     std::vector<double> values;
     std::vector<Neighbour> neighbours;
@@ -140,8 +140,8 @@ class Averager {
     ~Weights() = default;
   };
 
-  // Where the body travels, the value of the weighted line through its moves: poses before and
-  // behind a frame have different total weights, and their mean would lag or lead.
+  // The value of the weighted line through a body's moves: poses before and after a frame have
+  // different total weights, so that their mean would lag or lead while the body travels.
   class LineOfMoves {
    public:
     void add(double weight, std::ptrdiff_t offset, Vec3 move) {
@@ -287,7 +287,7 @@ class Averager {
     }
   }
 
-  // The points' moves less that of their centre.
+  // Uses the points' moves relative to that of their centre.
   void add_centred_distances(std::size_t a, std::size_t b, std::size_t count,
                              std::vector<double>& sums, std::vector<double>& pairs) const {
     const Moved moved = point_sums(a, b, count);
@@ -299,7 +299,7 @@ class Averager {
     }
   }
 
-  // Distances of the block's frames to each neighbour; infinite where it has no weight.
+  // Distances of the block's frames to each neighbour; infinite for one without weight.
   Weights find_distances(std::size_t first, std::size_t count) const {
     Weights result =
         settings_.whole_take ? whole_take_distances(first, count) : window_distances(first, count);
@@ -307,7 +307,7 @@ class Averager {
     return result;
   }
 
-  // Turns distances into weights.
+  // Converts distances to weights.
   void weigh(std::size_t count, double bandwidth, Weights& weights) const {
     const std::vector<double> floors = nearest_distances(count, weights);
     const std::size_t stride = count + lane_room;
@@ -384,9 +384,8 @@ class Averager {
     }
   }
 
-  // The distance of weight 1. Measured from the nearest neighbour, the largest neighbour's weight
-  // is the 1 that the pose itself weighs, as the paper has it, and a common factor of all weights
-  // makes no difference.
+  // The distance of weight 1. Relative to the nearest neighbour, the largest weight of a neighbour
+  // is 1, that of the pose itself, as in the paper; a common factor of all weights does not matter.
   std::vector<double> nearest_distances(std::size_t count, const Weights& weights) const {
     const std::size_t stride = count + lane_room;
     if (settings_.noise_distance > 0) {
@@ -440,7 +439,7 @@ std::size_t NonlocalTake::frames() const {
 }
 
 double best_bandwidth(const NonlocalTake& take, const NonlocalSettings& settings, double variance) {
-  // At which risks are estimated: up to 384 frames over the take, for speed; not swept.
+  // Frames at which risks are estimated: up to 384 over the take, for speed; not swept.
   constexpr std::size_t block = 64, most_blocks = 6;
   std::vector<double> bandwidths, risks;
   for (int step = 0; step < 8; ++step) {

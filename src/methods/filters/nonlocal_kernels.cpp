@@ -4,7 +4,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "methods/filters/nonlocal_kernels.cpp"
 #include "hwy/foreach_target.h"
-// Behind foreach_target.h, which includes this file again for each target.
+// Must follow foreach_target.h, which includes this file again for each target.
 #include "hwy/highway.h"
 #include "methods/filters/rotation_lanes-inl.hpp"
 
@@ -91,16 +91,16 @@ void decay_lanes(double scale, const double* floors, std::size_t count, double* 
   }
 }
 
-// Log(a^-1 b) is this times the vector part of a^-1 b; its sign is that of a . b.
+// The factor from the vector part of a^-1 b to Log(a^-1 b); its sign is that of a . b.
 HWY_INLINE Lanes logarithm_scale(const LaneQuat& a, const LaneQuat& b) {
   const Lanes cosine = dot(a, b);
   const Lanes scale = polynomial(logarithm_coefficients, quarter_sine(hn::Abs(cosine)));
   return hn::CopySignToAbs(scale, cosine);
 }
 
-// One row of scales serves the neighbours at +n and at -n where they follow each other in the list:
-// the scale of a pair does not depend on its direction. Returns the index of the neighbour's own
-// scale at frame i.
+// Fills one row of scales for the neighbours at +n and at -n if they follow each other in the list:
+// the scale of a pair does not depend on its direction. Returns the neighbour's own scales from
+// frame `first` on.
 const double* fill_scales(const RotationTrack& track, std::size_t first, std::size_t count,
                           const Neighbour& neighbour, const Neighbour* opposite, double* row) {
   const std::size_t step = opposite ? static_cast<std::size_t>(neighbour.offset) : 0;
@@ -121,8 +121,8 @@ HWY_INLINE LaneVec vector_part(const LaneQuat& a, const LaneQuat& b) {
           sub(sub(mul(a.w, b.z), mul(a.z, b.w)), sub(mul(a.x, b.y), mul(a.y, b.x)))};
 }
 
-// The vector part of q_i^-1 q_n is linear in q_n: the scaled quaternions are summed up, as
-// differences from q_i, which are zero where nothing moves, and multiplied once.
+// The vector part of q_i^-1 q_n is linear in q_n: the scaled quaternions are summed, as differences
+// from q_i (zero without motion), and multiplied once.
 void mean_turn_lanes(const RotationTrack& track, const double* observed, std::size_t first,
                      std::size_t count, std::span<const Neighbour> neighbours,
                      std::span<const double* const> scales, VectorTrack& out) {
@@ -229,7 +229,7 @@ void mean_turn(const RotationTrack& track, const double* observed, std::size_t f
     if (!opposite_of(n)) continue;
     stride = std::max(stride, count + lane_room + static_cast<std::size_t>(neighbours[n].offset));
   }
-  // Not set to zero, which would take longer than the work.
+  // Not initialised to zero, which would take longer than the work.
   const std::unique_ptr<double[]> rows(new double[neighbours.size() * stride]);
   std::vector<const double*> scales;
   while (scales.size() < neighbours.size()) {

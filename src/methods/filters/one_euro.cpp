@@ -22,7 +22,7 @@ const OptionTable<OneEuroOptions>& one_euro_table() {
   return options;
 }
 
-// Share of the new sample in an exponential mean of this cutoff.
+// Weight of the new sample in an exponential mean of this cutoff.
 double smoothing(double cutoff_hz, double rate_hz) {
   const double time_constant_s = 1 / (2 * pi * cutoff_hz);
   return 1 / (1 + time_constant_s * rate_hz);
@@ -31,7 +31,7 @@ double smoothing(double cutoff_hz, double rate_hz) {
 template <class Sample>
 class OneEuroTrack {
  public:
-  // `scale`: the distance that counts as one radian.
+  // `scale`: the distance that corresponds to one radian.
   OneEuroTrack(const OneEuroOptions& options, double rate_hz, double scale)
       : options_(options), rate_hz_(rate_hz), scale_(scale) {}
 

@@ -1,10 +1,10 @@
-// Takes increments of a track, weighs them by a mask, and turns the track by the sums.
+// Computes increments of a track, weights them by a mask, and turns the track by the sums.
 #include "methods/filters/orientation_filter.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "methods/filters/orientation_filter.cpp"
 #include "hwy/foreach_target.h"
-// Behind foreach_target.h, which includes this file again for each target.
+// Must follow foreach_target.h, which includes this file again for each target.
 #include "hwy/highway.h"
 #include "methods/filters/rotation_lanes-inl.hpp"
 

@@ -20,7 +20,7 @@ namespace lanes {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// At most 8 lanes: the arrays have that much room behind their last element.
+// At most 8 lanes: the arrays have that many extra elements at the end.
 using Doubles = hn::CappedTag<double, 8>;
 using Lanes = hn::Vec<Doubles>;
 inline constexpr Doubles tag{};
@@ -97,7 +97,7 @@ HWY_INLINE Lanes quarter_sine(Lanes absolute_dot) {
   return hn::Max(sub(half, mul(half, absolute_dot)), hn::Zero(tag));
 }
 
-// |Log(a^-1 b)|^2: relative error below 1e-13 but for the 1e-15 rad^2 that rounding leaves at zero.
+// Log(a^-1 b)|^2: relative error below 1e-13, except for 1e-15 rad^2 of rounding at zero.
 HWY_INLINE Lanes squared_angle(const LaneQuat& a, const LaneQuat& b) {
   const Lanes u = quarter_sine(hn::Abs(dot(a, b)));
   return mul(u, polynomial(squared_angle_coefficients, u));
@@ -136,7 +136,7 @@ HWY_INLINE Lanes exponential_decay(Lanes x) {
 HWY_INLINE LaneQuat exponential(const LaneVec& v) {
   const Lanes angle = hn::Sqrt(add(mul(v.x, v.x), add(mul(v.y, v.y), mul(v.z, v.z))));
   const Lanes half = mul(angle, all(0.5));
-  // Half turns taken off change the quaternion's sign only. pi in two parts.
+  // Subtracting half turns changes only the quaternion's sign. pi is in two parts.
   const Lanes turns = hn::Round(mul(half, all(0.31830988618379067)));
   Lanes y = sub(half, mul(turns, all(3.1415926218032837)));
   y = sub(y, mul(turns, all(3.178650954705639e-08)));

@@ -1,4 +1,4 @@
-// Makes tracks with room for whole vectors behind their last frame.
+// Makes tracks with padding for whole vectors after their last frame.
 #include "methods/filters/rotation_track.hpp"
 
 namespace kinemend {

@@ -8,8 +8,8 @@
 
 namespace kinemend {
 
-/// Padding behind the last frame of a track, so that full vectors can be loaded and stored there.
-/// As many doubles as the widest vectors hold, by definition.
+/// Padding after the last frame of a track, so that full vectors can be loaded and stored there.
+/// The number of doubles in the widest vectors, by definition.
 inline constexpr std::size_t lane_room = 8;
 
 /// Vectors over time, one array per component. The arrays are `lane_room` longer than `frames`.

@@ -1,7 +1,7 @@
 // Kalman filter and Rauch-Tung-Striebel smoother of one track of rotations or points. The state is
 // the sample x and its velocity w (rotations: in the joint's own frame), the error state a vector
-// of three and its rate. Noise is alike in all directions, so that one 2 x 2 covariance stands for
-// each of the three axes.
+// of three and its rate. Noise is isotropic, so that one 2 x 2 covariance serves each of the three
+// axes.
 #pragma once
 
 #include <cstddef>
@@ -18,11 +18,11 @@ struct KalmanModel {
   bool with_velocity = true;
   double frame_step_s = 1.0 / 120;
   /// Spectral density of the white acceleration (rad^2 / s^3), or of the white velocity (rad^2 / s)
-  /// of the position model; the points' unit for rad.
+  /// of the position model; for points in their unit instead of rad.
   double process_density = 1;
 };
 
-/// Covariance of one axis: of the sample, of both, of the velocity.
+/// Covariance of one axis: of the sample, of sample and velocity, of the velocity.
 struct Covariance {
   double xx = 0, xv = 0, vv = 0;
 };
@@ -38,11 +38,11 @@ inline Vec3 minus(Quat a, Quat b) { return log(conjugate(b) * a); }
 inline Vec3 minus(Vec3 a, Vec3 b) { return a - b; }
 inline Quat plus(Quat a, Vec3 v) { return normalized(a * exp(v)); }
 inline Vec3 plus(Vec3 a, Vec3 v) { return a + v; }
-/// An error in the frame of x advanced by `step`, seen in the frame of x.
+/// Transforms an error from the frame of x advanced by `step` to the frame of x.
 inline Vec3 carried_back(Quat, Vec3 error, Vec3 step) { return rotate(exp(step), error); }
 inline Vec3 carried_back(Vec3, Vec3 error, Vec3) { return error; }
 
-/// The state at a first sample: the velocity is anything up to 100 rad / s times `scale`.
+/// The state at a first sample. The velocity has a deviation of 100 rad / s times `scale`.
 template <class Sample>
 TrackState<Sample> start_state(Sample sample, double noise, double scale) {
   return {sample, {}, {noise * noise, 0, 1e4 * scale * scale}};
@@ -59,7 +59,7 @@ TrackState<Sample> predict(const TrackState<Sample>& state, const KalmanModel& m
            p.xv + dt * p.vv + q * dt * dt / 2, p.vv + q * dt}};
 }
 
-/// Takes a measured sample in. `variance` is that of one axis.
+/// Updates the state by a measured sample. `variance` is that of one axis.
 template <class Sample>
 void update(TrackState<Sample>& state, Sample measured, double variance) {
   Covariance& p = state.covariance;
@@ -99,8 +99,8 @@ void smooth_back(TrackState<Sample>& filtered, const TrackState<Sample>& predict
   filtered.velocity += rate_shift;
 }
 
-/// Smooths a whole track. `observed`: one mark a sample, empty means all; the others are filled.
-/// A track without an observed sample stays as it is.
+/// Smooths a whole track. `observed`: one mark per sample, empty means all; the others are filled.
+/// A track without an observed sample is unchanged.
 template <class Sample>
 std::vector<Sample> kalman_smooth(std::span<const Sample> track,
                                   std::span<const std::uint8_t> observed, double noise,

@@ -17,7 +17,7 @@ const OptionTable<WeightedMeanOptions>& weighted_mean_table() {
   return options;
 }
 
-// All passes as one mask: what they make of an impulse far from both ends.
+// All passes as one mask: their impulse response far from both ends.
 std::vector<double> mask_of(int passes) {
   const std::size_t half = 2 * static_cast<std::size_t>(passes);
   PoseMatrix impulse(4 * half + 1, 1);
@@ -28,7 +28,8 @@ std::vector<double> mask_of(int passes) {
   return mask;
 }
 
-// Amid a take: channels of quaternions with continued signs, or positions about the middle one.
+// The method away from the ends: channels of quaternions with continued signs, or positions about
+// the middle one.
 template <class Sample>
 class WeightedMeanStep {
  public:
