@@ -110,7 +110,7 @@ std::vector<std::size_t> ankles_of(const Skeleton& skeleton) {
 }  // namespace feet
 
 std::vector<Leg> find_legs(const Skeleton& skeleton) {
-  // A shorter bone is a twist joint, and a shorter foot is none. Chosen by hand, not swept.
+  // A shorter bone is a twist joint, and a shorter foot is rejected. Chosen by hand, not swept.
   constexpr double shortest_bone = 0.08, shortest_foot = 0.02;  // body heights
   const double height = body_height(skeleton);
   std::vector<Leg> legs;

@@ -41,7 +41,7 @@ Stage stage_for(const Take& take, const Report& report) {
 Channels fine_channels(const Take& before, const Take* after, double body_height, bool is_served) {
   // Chosen by hand, not swept.
   constexpr double most_bytes = 1'000'000, least_share = 1.0 / 64, served_share = 1.0 / 16;
-  // A served page is not limited in size: nobody mails it, and the user is waiting for it.
+  // The size of a served page is not limited: it is not sent by mail, and the user is waiting.
   if (is_served) return page::channels_of(before, after, body_height, served_share);
   double share = 1;
   Channels channels = page::channels_of(before, after, body_height, share);
