@@ -1,4 +1,4 @@
-// Finds the direction of each bone at rest and the least turn that brings it to the layout's.
+// Finds the direction of each bone at rest and the shortest rotation that turns it to the layout's.
 #include "body/body_alignment.hpp"
 
 #include <cmath>
@@ -8,7 +8,7 @@ namespace kinemend::representation {
 
 namespace {
 
-// The one child joint or end site of a joint.
+// Returns the single child joint or end site of a joint; none if it has several.
 std::optional<Vec3> only_end(const Skeleton& skeleton, const RestPose& rest, std::int32_t joint) {
   std::optional<Vec3> end;
   int count = 0;
@@ -25,7 +25,7 @@ std::optional<Vec3> only_end(const Skeleton& skeleton, const RestPose& rest, std
   return count == 1 ? end : std::nullopt;
 }
 
-// Global, all local rotations identity.
+// Returns the global rotation of a joint if all local rotations are identity.
 Quat unturned_rotation(const Skeleton& skeleton, std::int32_t joint) {
   Quat rotation;
   for (; joint >= 0; joint = skeleton.parents[static_cast<std::size_t>(joint)])
@@ -33,7 +33,7 @@ Quat unturned_rotation(const Skeleton& skeleton, std::int32_t joint) {
   return rotation;
 }
 
-// The only child of each track; -1: it has none, -2: several.
+// Returns the only child of each track; -1 if it has none, -2 if several.
 std::vector<std::int32_t> only_children(const BodyLayout& layout) {
   std::vector<std::int32_t> children(layout.track_count(), -1);
   for (std::size_t i = 1; i < layout.track_count(); ++i) {
@@ -47,7 +47,7 @@ std::vector<std::int32_t> only_children(const BodyLayout& layout) {
 
 std::vector<Vec3> bone_directions(const BodyLayout& layout, const Take& clip, const RestPose& rest,
                                   const std::vector<std::int32_t>& tracks) {
-  // Bones that are shorter have no direction. Chosen by hand, not swept.
+  // Shorter bones have no direction. Chosen by hand, not swept.
   constexpr double least_share = 1e-3;  // of all the skeleton's bones
   double all = 0;
   for (const Vec3 offset : clip.skeleton.offsets) all += norm(offset);

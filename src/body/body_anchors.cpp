@@ -16,7 +16,7 @@ namespace kinemend::representation {
 
 namespace {
 
-// The rotation that turns the expected vectors, about their centre, onto the seen ones.
+// Returns the rotation that turns the expected vectors, about their centre, onto the seen ones.
 Quat fitted_rotation(const std::vector<Anchor>& anchors, const RigidFit& fit) {
   rotation::Matrix4 sum{};
   double size = 0;
@@ -34,7 +34,7 @@ Quat fitted_rotation(const std::vector<Anchor>& anchors, const RigidFit& fit) {
         sum[i + 1][j + 1] += av[i] * bv[j] + av[j] * bv[i] - (i == j ? d : 0);
     }
   }
-  // Semidefinite, as the eigensolver wants it.
+  // The eigensolver requires a semidefinite matrix.
   for (std::size_t i = 0; i < 4; ++i) sum[i][i] += size;
   return rotation::leading_eigenvector(sum);
 }
@@ -58,10 +58,11 @@ std::optional<RigidFit> least_squares(const std::vector<Anchor>& anchors) {
   return fit;
 }
 
-// Anchors that lie far from where the fit expects them.
+// Removes anchors that lie far from where the fit expects them, and returns whether any was
+// removed.
 bool drop_strangers(const RigidFit& fit, double body_height, std::vector<Anchor>& anchors) {
-  // Of the body height, and of the median distance: what is farther off is left out. Chosen by
-  // hand, not swept.
+  // Anchors farther off than both limits are removed: a share of the body height, and a multiple of
+  // the median distance. Chosen by hand, not swept.
   constexpr double least_share = 0.05, times_median = 4;
   std::vector<double> distances;
   distances.reserve(anchors.size());
@@ -78,7 +79,8 @@ bool drop_strangers(const RigidFit& fit, double body_height, std::vector<Anchor>
   return any;
 }
 
-// The point of the shape that stands for the body: on its vertical axis, as high as its anchors.
+// Returns the shape's point that represents the body: on its vertical axis, at the mean height of
+// the anchors.
 Vec3 body_centre(const BodyLayout& layout) {
   double height = 0;
   int anchors = 0;
@@ -154,7 +156,7 @@ double low_level(const Take& clip, Quat upright, std::span<const std::int32_t> m
 
 double floor_height(const Take& clip, const BodyLayout& layout, const BodyMatch& match) {
   if (!match.feet.empty()) {
-    // Where the lowest of the layout's markers are missing, those that are left stand higher.
+    // If the lowest markers of the layout are missing, the remaining ones lie higher.
     double lowest = std::numeric_limits<double>::infinity(), known = lowest;
     for (std::size_t i = 0; i < layout.track_count(); ++i) {
       lowest = std::min(lowest, layout.means[i].y);

@@ -11,15 +11,15 @@
 
 namespace kinemend::representation {
 
-/// Fewer points do not tell how a body is turned. By definition.
+/// With fewer points a body's rotation is unknown. By definition.
 inline constexpr std::size_t least_anchors = 3;
 
-/// A marker where it is seen, and where it is in the body's shape; any axes and one unit.
+/// A marker's observed position and its position in the body's shape; any axes, one unit.
 struct Anchor {
   Vec3 seen, expected;
 };
 
-/// seen = rotation (expected - expected_centre) + seen_centre
+/// A rigid fit: seen = rotation (expected - expected_centre) + seen_centre.
 struct RigidFit {
   Quat rotation;
   Vec3 expected_centre, seen_centre;
@@ -32,32 +32,33 @@ struct RigidFit {
     return rotate(conjugate(rotation), seen - seen_centre) + expected_centre;
   }
 };
-/// Least squares (Horn 1987); anchors that lie far off where the others say are left out. None for
-/// fewer than three, or where all are at one spot.
+/// Fits by least squares (Horn 1987) without outlier anchors. Returns none for fewer than three
+/// anchors, or if all are at one point.
 std::optional<RigidFit> fit_rigidly(std::vector<Anchor> anchors, double body_height);
 
-/// The fit of the layout's shape to the anchors seen in a frame, file units, upright axes.
+/// Returns the fit of the layout's shape to the anchors seen in a frame, in file units and upright
+/// axes.
 std::optional<RigidFit> fit_frame(const Take& clip, const BodyLayout& layout,
                                   const BodyMatch& match, std::size_t frame);
 
-/// Headings and places of the channels, from the anchors. `floor`: height of the floor.
+/// Writes headings and places of the channels from the anchors. `floor`: height of the floor.
 void follow_anchors(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
                     double floor, BodyChannels& channels);
 
-/// Height of the floor in upright axes: the feet return to it again and again.
+/// Returns the height of the floor in upright axes, the level to which the feet keep returning.
 double floor_height(const Take& clip, const BodyLayout& layout, const BodyMatch& match);
 
-/// The lowest of some markers, frame by frame, smoothed over a tenth of a second; empty where none
-/// of them is ever seen.
+/// Returns the low level of the lowest of some markers, smoothed over a tenth of a second; 0 if
+/// none of them is ever seen.
 double low_level(const Take& clip, Quat upright, std::span<const std::int32_t> markers);
 
-/// A marker in upright axes.
+/// Returns a marker's position in upright axes.
 inline Vec3 upright_position(const Take& clip, Quat upright, std::size_t frame,
                              std::size_t marker) {
   return rotate(upright, clip.position(frame, marker));
 }
 
-/// Twice as cheap as a quaternion: a turn about y.
+/// A turn about y, which costs half as much as a quaternion.
 class TurnAboutY {
  public:
   explicit TurnAboutY(double angle);

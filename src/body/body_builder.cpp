@@ -18,7 +18,7 @@ struct BodyLayoutBuilder::State {
   std::variant<std::monostate, representation::JointLearning, representation::MarkerLearning>
       learning;
 
-  // What is learned of takes of one kind; the first take decides.
+  // The data learned from takes of one kind; the first take decides the kind.
   template <class Learning>
   Learning& of_kind(BodyKind kind) {
     if (std::holds_alternative<std::monostate>(learning))

@@ -1,4 +1,4 @@
-// Tells trunk and neck by what hangs on them, or by their names.
+// Finds trunk and neck by the limbs attached to them, or by their names.
 #include "body/body_chains.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace kinemend::representation {
 
 namespace {
 
-// From just below `top` down to `bottom`, which is one of them where `with_bottom`.
+// Returns the joints from just below `top` down to `bottom`, which is included if `with_bottom`.
 std::vector<std::size_t> path(const NamedTree& tree, std::int32_t top, std::int32_t bottom,
                               bool with_bottom) {
   std::vector<std::size_t> joints;
@@ -38,7 +38,7 @@ BodyChains chains_by_topology(const NamedTree& tree) {
   const std::int32_t chest =
       tree.common_ancestor(find(Bone::upper_arm, Side::left), find(Bone::upper_arm, Side::right));
   const std::int32_t head = find(Bone::head, Side::none);
-  // Where the legs hang on a joint above the pelvis, it does not belong to the trunk.
+  // If the legs are attached to a joint above the pelvis, the trunk begins above that joint.
   std::int32_t hips = find(Bone::pelvis, Side::none);
   const std::int32_t legs =
       tree.common_ancestor(find(Bone::thigh, Side::left), find(Bone::thigh, Side::right));

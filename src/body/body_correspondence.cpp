@@ -1,4 +1,4 @@
-// Applies a name map, checks a layout against a take, and lists what has no counterpart.
+// Applies a name map, checks a layout against a take, and lists unmatched tracks and names.
 #include "body/body_correspondence.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace kinemend::representation {
 
 namespace {
 
-// By the whole name, else by what is left of it without case and prefixes.
+// Finds a name exactly, or ignoring case and prefixes.
 std::int32_t find_name(const std::vector<std::string>& names, std::string_view name) {
   const auto same = std::find(names.begin(), names.end(), name);
   if (same != names.end()) return static_cast<std::int32_t>(same - names.begin());

@@ -14,7 +14,7 @@ namespace kinemend::representation {
 
 namespace {
 
-// Column of a joint among `Take::translated_joints`.
+// Returns a joint's column in `Take::translated_joints`.
 std::optional<std::size_t> translation_column(const Take& clip, std::size_t joint) {
   const auto& joints = clip.translated_joints;
   const auto found =
@@ -23,7 +23,7 @@ std::optional<std::size_t> translation_column(const Take& clip, std::size_t join
   return static_cast<std::size_t>(found - joints.begin());
 }
 
-// A joint with those above it, from the top, and where each one's offset stands.
+// A joint and its ancestors from the top, with the column of each one's offset.
 class Chain {
  public:
   Chain(const Take& clip, std::int32_t joint) : clip_(clip) {
@@ -40,7 +40,7 @@ class Chain {
     Quat rotation;
     Vec3 position;
   };
-  // Global, after the first `count` joints of the chain.
+  // Returns the global point after the first `count` joints of the chain.
   Point at(std::size_t frame, std::size_t count) const {
     Point point;
     for (std::size_t i = 0; i < count; ++i) {
@@ -142,12 +142,12 @@ void follow_root(const Take& clip, const BodyLayout& layout, const BodyMatch& ma
 
 double floor_height(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
                     const RootMotion& root) {
-  // Height of an ankle that stands, in body heights (Drillis and Contini 1966).
+  // Height of the ankle of a standing person in body heights (Drillis and Contini 1966).
   constexpr double ankle_share = 0.039;
   const std::size_t frames = clip.frame_count();
   if (frames == 0) return 0;
   if (match.feet.empty()) {
-    // Without feet, heights are measured from the one that the body mostly keeps.
+    // Without feet, the floor follows from the root's median height.
     std::vector<double> heights;
     for (const Vec3 p : root.positions) heights.push_back(p.y);
     return median_of(heights) - layout.place.y * match.body_height;

@@ -21,7 +21,7 @@ void encode_track(const Take& clip, const BodyLayout& layout, const std::vector<
                   BodyChannels& channels) {
   const Quat from_reference = conjugate(layout.references[track]);
   const auto joint = static_cast<std::size_t>(match.tracks[track]);
-  std::vector<std::size_t> frames;  // those that were measured
+  std::vector<std::size_t> frames;  // measured frames
   std::vector<Vec3> vectors;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     if (!clip.is_observed(f, joint)) continue;

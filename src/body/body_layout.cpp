@@ -1,4 +1,4 @@
-// Names the channels of a layout and checks the rules that it has to keep.
+// Names the channels of a layout and checks its rules.
 #include <fmt/format.h>
 
 #include <array>
@@ -30,7 +30,7 @@ void check_length(std::string_view array, std::size_t found, std::size_t expecte
 }
 
 void check_joints(const BodyLayout& layout) {
-  // How far a length of 1 may be off by rounding.
+  // Tolerated rounding error of a length of 1.
   constexpr double unit = 1e-6;
   const std::size_t count = layout.track_count();
   check_length("parents", layout.parents.size(), count);

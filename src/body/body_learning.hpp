@@ -1,4 +1,4 @@
-// What is summed up over many takes to learn a layout.
+// The sums over many takes from which a layout is learned.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,7 @@ class JointLearning {
                      const std::vector<Quat>& rotations);
 
   std::vector<std::string> patterns_;
-  BodyLayout layout_;  // of all that may turn; references are identity, the place is the floor
+  BodyLayout layout_;  // all tracks that may turn; references are identity, the place is the floor
   std::vector<Track> tracks_;
   Vec3 place_sum_, place_low_, place_high_;
   std::size_t places_ = 0, takes_ = 0;
@@ -62,9 +62,9 @@ class MarkerLearning {
   void stand_upright(const Take& clip, const BodyMatch& match);
 
   std::vector<std::string> patterns_;
-  BodyLayout layout_;  // as far as it is known
+  BodyLayout layout_;  // the part known so far
   std::vector<Track> tracks_;
-  std::vector<Distance> distances_;  // N x N, of a track to those behind it
+  std::vector<Distance> distances_;  // N x N, from a track to later ones
   std::size_t takes_ = 0;
 };
 

@@ -19,7 +19,7 @@ namespace kinemend::representation {
 namespace {
 
 bool moves(const Take& clip, std::size_t joint) {
-  // Radians; a turn that is smaller is rounding.
+  // Radians; a smaller turn is rounding.
   constexpr double least = 1e-3;
   for (std::size_t f = 1; f < clip.frame_count(); ++f) {
     if (clip.is_observed(f, joint) &&
@@ -36,7 +36,7 @@ bool moves(const Take& clip, std::size_t joint) {
   return false;
 }
 
-// Joints that only carry the hips do not belong to the body.
+// Finds the body's root; joints that only carry the hips do not belong to the body.
 std::size_t body_root(const Take& clip) {
   std::size_t root = 0;
   while (!moves(clip, root)) {
@@ -68,7 +68,7 @@ void JointLearning::start(const Take& clip) {
   const Skeleton& skeleton = clip.skeleton;
   const std::size_t root = body_root(clip);
   const auto meant = names_meant(skeleton.names, patterns_, "joint");
-  // The track that a joint is, or hangs on; -1 outside of the body.
+  // The track of a joint, or the one it is attached to; -1 outside the body.
   std::vector<std::int32_t> track_at(clip.joint_count(), -1), tracks;
   for (std::size_t j = root; j < clip.joint_count(); ++j) {
     const std::int32_t above = j == root || skeleton.parents[j] < 0
@@ -130,13 +130,13 @@ void JointLearning::add(const Take& clip) {
 }
 
 BodyLayout JointLearning::finish() const {
-  // Joints that move by less do not belong to the body. Chosen by hand, not swept.
+  // Joints that move less do not belong to the body. Chosen by hand, not swept.
   constexpr double least_turn = 0.1 * radians_per_degree;
   constexpr double least_travel = 1e-5;  // body heights
   BodyLayout layout;
   layout.kind = BodyKind::joints;
   layout.trend_s = layout_.trend_s;
-  std::vector<std::int32_t> kept_at;  // where a track went, or what it hung on
+  std::vector<std::int32_t> kept_at;  // new index of a track or of the one it was attached to
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     const Track& track = tracks_[i];
     const std::int32_t parent = layout_.parents[i];

@@ -19,7 +19,7 @@ namespace kinemend::representation {
 
 namespace {
 
-// Markers that are seen now and then only, or have no name of their own, are no tracks.
+// Markers that are seen rarely, or have no name of their own, are not tracks.
 std::vector<std::int32_t> usable_markers(const Take& clip, const std::vector<std::uint8_t>& meant) {
   std::vector<std::int32_t> usable;
   std::vector<std::string> taken;
@@ -43,7 +43,7 @@ bool names_any(std::string_view name, std::initializer_list<std::string_view> wo
                      [&](std::string_view word) { return name.find(word) != name.npos; });
 }
 
-// From feet to head by their usual names, else where the floor seems to be.
+// Finds the direction from feet to head by usual marker names, else from the apparent floor.
 Quat upright_by_names(const Take& clip) {
   std::vector<std::size_t> high, low;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
@@ -72,14 +72,14 @@ Quat upright_by_names(const Take& clip) {
       {0, 1, 0});
 }
 
-// The name of the same marker on the other side: "rank" for "lank".
+// Returns the name of the same marker on the other side: "rank" for "lank".
 std::string mirrored(std::string name) {
   if (name.starts_with("left")) return "right" + name.substr(4);
   if (name.starts_with('l')) name.front() = 'r';
   return name;
 }
 
-// Turns the shape so that left is left.
+// Turns the shape so that its left side is at the left.
 void face_ahead(BodyLayout& layout) {
   std::vector<std::string> names;
   for (const std::string& name : layout.names) names.push_back(plain_name(name));
@@ -120,7 +120,7 @@ MarkerLearning::MarkerLearning(std::vector<std::string> patterns, double trend_s
 }
 
 void MarkerLearning::sum_distances(const Take& clip, const BodyMatch& match) {
-  // Evenly spread, for speed; not swept.
+  // Frames are evenly spread, for speed; not swept.
   constexpr std::size_t most_frames = 256;
   const std::size_t count = tracks_.size(), frames = clip.frame_count();
   const std::size_t sampled = std::min(frames, most_frames);
@@ -142,11 +142,12 @@ void MarkerLearning::sum_distances(const Take& clip, const BodyMatch& match) {
   }
 }
 
-// How much the distances between a track and others vary: the variance that three in ten of them
-// stay below. Near ones count little: the markers of a hand are steady among themselves.
+// Returns how much the distances between a track and others vary: the variance below which three in
+// ten of them stay. Near markers weigh less, because the markers of a hand are steady among
+// themselves.
 double MarkerLearning::unsteadiness(std::size_t track) const {
-  // The distance at which a neighbour counts, and the share of the neighbours (docs/bodies.md,
-  // "Anchors"). Chosen by hand, not swept.
+  // The distance at which a neighbour has full weight, and the share of the neighbours
+  // (docs/bodies.md, "Anchors"). Chosen by hand, not swept.
   constexpr double far = 0.15;  // body heights
   constexpr double share_of_others = 0.3;
   const std::size_t count = tracks_.size();
@@ -171,7 +172,7 @@ double MarkerLearning::unsteadiness(std::size_t track) const {
   return std::numeric_limits<double>::infinity();
 }
 
-// The steadiest third, at least four.
+// Chooses the steadiest third of the tracks, at least four, as anchors.
 void MarkerLearning::choose_anchors() {
   // Chosen by hand, not swept.
   constexpr std::size_t least = 4;
@@ -223,8 +224,7 @@ void MarkerLearning::sum_means(const Take& clip, const BodyMatch& match) {
   }
 }
 
-// Turns the shape so that it stands as the body does on average, faces ahead and is centred on its
-// anchors.
+// Turns the shape so that it is upright on average, faces ahead and is centred on its anchors.
 void MarkerLearning::stand_upright(const Take& clip, const BodyMatch& match) {
   Vec3 up;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -247,9 +247,9 @@ void MarkerLearning::stand_upright(const Take& clip, const BodyMatch& match) {
   for (Vec3& point : layout_.shape) point = point - (1.0 / anchors) * centre;
 }
 
-// The shape of the first take, which starts from the frame in which most anchors are seen.
+// Learns the shape of the first take, beginning with the frame in which most anchors are seen.
 BodyMatch MarkerLearning::start(const Take& clip) {
-  // In which the shape and its fits to the frames follow each other. Not swept.
+  // The alternations of fitting the shape to frames and updating it. Not swept.
   constexpr int rounds = 4;
   BodyMatch match;
   match.tracks = usable_markers(clip, names_meant(clip.names, patterns_, "marker"));
@@ -274,7 +274,7 @@ BodyMatch MarkerLearning::start(const Take& clip) {
                             upright_position(clip, match.upright, best, marker));
     anchors[i] = clip.is_observed(best, marker) ? layout_.anchors[i] : 0;
   }
-  // Anchors that are not seen in that frame are placed by the others first.
+  // Anchors not seen in that frame are first placed by the others.
   std::swap(anchors, layout_.anchors);
   for (int round = 0; round < rounds; ++round) {
     tracks_.assign(count, {});

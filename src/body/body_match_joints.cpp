@@ -44,7 +44,7 @@ class JointMatcher {
   }
   bool is_free(std::size_t joint) const { return mapped_.used[joint] == 0 && turning_[joint] != 0; }
 
-  // A take with all the names of the layout is of its skeleton.
+  // A take that has all names of the layout has its skeleton.
   bool match_same_names() {
     std::vector<std::int32_t> joints;
     for (const std::string& name : layout_.names) joints.push_back(skeleton_.find(name));
@@ -67,8 +67,8 @@ class JointMatcher {
     match_chain(known.neck, found.neck, false);
   }
 
-  // Joints of the trunk and of the neck are told apart by their order: names differ too much. The
-  // ends of the chain are matched first: what hangs on the upper end turns with it.
+  // Matches joints of the trunk or the neck by their order, because their names differ too much.
+  // The ends of the chain are matched first, because the upper end carries other limbs.
   void match_chain(std::vector<std::size_t> tracks, std::vector<std::size_t> joints,
                    bool last_first) {
     std::erase_if(tracks, [&](std::size_t track) { return mapped_.settled[track] != 0; });
@@ -96,7 +96,8 @@ class JointMatcher {
     return true;
   }
 
-  // Of several joints of one bone the one of the same word, else the last, which hangs lowest.
+  // Matches bones by name. Among several joints of a bone it takes the one with the same word, else
+  // the last, which is the lowest.
   void match_bones() {
     for (std::size_t i = 0; i < known_.size(); ++i) {
       const BoneName& known = known_[i];
@@ -115,7 +116,7 @@ class JointMatcher {
     }
   }
 
-  // A root of another name is the joint that carries all others.
+  // A root with another name is the joint that carries all others.
   void match_root() {
     if (mapped_.settled[0] != 0) return;
     const NamedTree tree{found_, skeleton_.parents};
@@ -128,7 +129,7 @@ class JointMatcher {
     if (common >= 0) set(0, static_cast<std::size_t>(common));
   }
 
-  // A track between matched ones is the joint between theirs, where there is one on either side.
+  // A track between matched tracks is the joint between theirs, if each side has exactly one.
   void match_between() {
     for (std::size_t i = 1; i < layout_.track_count(); ++i) {
       const auto parent = static_cast<std::size_t>(layout_.parents[i]);
@@ -145,7 +146,7 @@ class JointMatcher {
     }
   }
 
-  // Joints above `bottom` and below `top` that are no tracks yet.
+  // Returns the joints above `bottom` and below `top` that are not tracks yet.
   std::vector<std::int32_t> free_joints(std::int32_t top, std::int32_t bottom) const {
     std::vector<std::int32_t> joints;
     if (bottom < 0) return joints;
@@ -163,7 +164,7 @@ class JointMatcher {
                : static_cast<std::int32_t>(found - mapped_.tracks.begin());
   }
 
-  // The track that a track's joint hangs on in the take.
+  // Returns the track that a track's joint is attached to in the take.
   std::int32_t track_above(std::size_t track) const {
     std::int32_t joint = mapped_.tracks[track];
     do {
@@ -172,7 +173,8 @@ class JointMatcher {
     return joint < 0 ? -1 : track_of(joint);
   }
 
-  // Lets go of joints that do not hang on the same track as in the layout, from the root outward.
+  // Releases joints that are not attached to the same track as in the layout, from the root
+  // outward.
   void drop_misplaced() {
     for (std::size_t i = 0; i < layout_.track_count(); ++i) {
       if (mapped_.tracks[i] < 0 || track_above(i) == matched_parent(layout_, mapped_.tracks, i))
@@ -190,7 +192,7 @@ class JointMatcher {
   std::vector<BoneName> known_, found_;
 };
 
-// A matched joint is the bone that its track is, whatever its name.
+// A matched joint is the bone of its track, whatever its name.
 std::vector<BoneName> bones_of(const BodyLayout& layout, const Take& clip,
                                const std::vector<std::int32_t>& tracks) {
   std::vector<BoneName> bones = bone_names(clip.skeleton.names);

@@ -1,4 +1,4 @@
-// Finds the markers of a layout in a take, by name, and the person that most of them belong to.
+// Finds the markers of a layout in a take by name, and the person with the most matches.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,10 +19,10 @@ namespace representation {
 
 namespace {
 
-// Evenly spread, for speed; not swept.
+// Frames are evenly spread, for speed; not swept.
 constexpr std::size_t most_frames = 64;
 
-// LASI of `Subject36_LASI`.
+// Returns LASI for `Subject36_LASI`.
 std::string after_underscore(std::string_view name) {
   const std::size_t at = name.find_last_of('_');
   return at == name.npos ? std::string() : plain_name(name.substr(at + 1));
@@ -50,7 +50,7 @@ std::vector<std::pair<std::size_t, std::size_t>> anchors_of(const BodyLayout& la
   return anchors;
 }
 
-// How the person stands most of the time tells what is up.
+// Finds the up direction from how the person stands most of the time.
 Quat upright_by_anchors(const Take& clip, const BodyLayout& layout, const BodyMatch& match) {
   const std::size_t frames = clip.frame_count(), sampled = std::min(frames, most_frames);
   Vec3 up;
@@ -61,9 +61,9 @@ Quat upright_by_anchors(const Take& clip, const BodyLayout& layout, const BodyMa
   return shortest_rotation(nearest_axis(up), {0, 1, 0});
 }
 
-// The median of how much longer distances between anchors are than in the layout.
+// Returns the median ratio of distances between anchors to those in the layout.
 double body_height_by_anchors(const Take& clip, const BodyLayout& layout, const BodyMatch& match) {
-  // Anchors that are nearer tell no ratio. Chosen by hand, not swept.
+  // Anchors closer together give no reliable ratio. Chosen by hand, not swept.
   constexpr double least_distance = 0.03;  // body heights
   const auto anchors = anchors_of(layout, match);
   const std::size_t frames = clip.frame_count(), sampled = std::min(frames, most_frames);
@@ -89,7 +89,7 @@ double body_height_by_anchors(const Take& clip, const BodyLayout& layout, const 
 
 std::vector<std::int32_t> feet_of(const BodyLayout& layout, const Take& clip,
                                   const std::vector<std::int32_t>& tracks) {
-  // Markers that are lower on the model are those of feet. Chosen by hand, not swept.
+  // Markers below this height on the model belong to feet. Chosen by hand, not swept.
   constexpr double foot_height = 0.1;  // body heights
   const std::vector<std::size_t> seen = seen_often(clip);
   std::vector<std::int32_t> feet;
@@ -128,7 +128,7 @@ class MarkerMatcher {
     return !name.empty() && std::find(known_.begin(), known_.end(), name) != known_.end();
   }
 
-  // Of several people in a take the one that has most of the markers; the first of equals.
+  // Chooses the person with the most known markers; the first one if several have the same number.
   void choose_subject() {
     std::map<std::string_view, std::size_t> counts;
     for (std::size_t m = 0; m < found_.size(); ++m) {
@@ -150,7 +150,7 @@ class MarkerMatcher {
            (subject.empty() || subject == subject_);
   }
 
-  // Of several of one name, the one that is seen most.
+  // Matches by name; of several markers with one name, the most seen one is taken.
   void match_by(const std::vector<std::string>& known, const std::vector<std::string>& found) {
     for (std::size_t i = 0; i < known.size(); ++i) {
       if (mapped_.settled[i] != 0 || known[i].empty()) continue;

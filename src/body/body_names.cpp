@@ -1,4 +1,4 @@
-// Splits names into words and interprets each beside the names of its neighbours.
+// Splits names into words and interprets each by the names of its neighbours.
 #include "body/body_names.hpp"
 #include "kinemend/experimental/letter_case.hpp"
 
@@ -11,15 +11,15 @@ namespace kinemend::representation {
 
 namespace {
 
-// Words whose meaning hangs on the others of the same side.
+// Words whose meaning depends on other words of the same side.
 enum class Word : std::uint8_t {
   unknown,
-  plain,     // means what `bone` says
+  plain,     // its meaning is `bone`
   shoulder,  // clavicle or upper arm
   leg,       // shin or thigh
-  hip,       // pelvis, thigh, or what is between
-  foot,      // foot, or toe where there is an ankle
-  hand,      // hand, or palm where there is a wrist
+  hip,       // pelvis, thigh, or the joint between them
+  foot,      // foot, or toe if there is an ankle
+  hand,      // hand, or palm if there is a wrist
 };
 
 struct Spelling {
@@ -92,7 +92,7 @@ bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0;
 bool is_letter_or_digit(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-// "LHipJoint" is l, hip, joint; "Bip01 L Thigh" is bip01, l, thigh.
+// Splits a name: "LHipJoint" gives l, hip, joint; "Bip01 L Thigh" gives bip01, l, thigh.
 std::vector<std::string> tokens_of(std::string_view name) {
   const std::size_t colon = name.find_last_of(":|");
   if (colon != name.npos && colon + 1 < name.size()) name.remove_prefix(colon + 1);
@@ -119,7 +119,7 @@ std::string_view without_digits(std::string_view word) {
   return word;
 }
 
-// What tools put before every name of a skeleton.
+// Whether tools put the word before every name of a skeleton.
 bool is_prefix(std::string_view token) {
   static constexpr std::array<std::string_view, 7> prefixes{"mixamorig", "bip", "joint",    "jnt",
                                                             "bone",      "def", "character"};
@@ -127,7 +127,7 @@ bool is_prefix(std::string_view token) {
 }
 
 void drop_prefixes(std::vector<std::string>& tokens) {
-  // VRM: J_Bip_L_Hand, J_Bip_C_Hips.
+  // VRM uses J_Bip_L_Hand and J_Bip_C_Hips.
   if (tokens.size() > 3 && tokens[0] == "j" && tokens[1] == "bip")
     tokens.erase(tokens.begin(), tokens.begin() + (tokens[2] == "c" ? 3 : 2));
   while (tokens.size() > 1 && is_prefix(tokens.front())) tokens.erase(tokens.begin());
@@ -150,7 +150,7 @@ const Spelling* spelling_of(std::string_view word) {
   return find(without_digits(word));
 }
 
-// "handindex1", "finger1" and "index1" are one word.
+// Maps "handindex1", "finger1" and "index1" to one word.
 std::string finger_word(std::string word) {
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 12> spelled{
       {{"handthumb", "thumb"},
@@ -193,7 +193,7 @@ Side side_of(std::string_view token) {
   return Side::none;
 }
 
-// Takes the side off: a token of its own, or a prefix of a word that is known without it.
+// Removes the side: a token of its own, or a prefix of a word that is known without it.
 Side take_side(std::vector<std::string>& tokens, std::string& word) {
   const auto token = std::find_if(tokens.begin(), tokens.end(),
                                   [](const auto& t) { return side_of(t) != Side::none; });
@@ -214,7 +214,7 @@ Side take_side(std::vector<std::string>& tokens, std::string& word) {
   return Side::none;
 }
 
-// What the names of one side tell about each other.
+// The words found on one side, by which ambiguous words are resolved.
 struct SideWords {
   bool upper_arm = false, clavicle = false, thigh = false, hip = false, shin = false, ankle = false,
        wrist = false, other_fingers = false;
@@ -277,7 +277,7 @@ std::vector<BoneName> bone_names(const std::vector<std::string>& names) {
     const SideWords& others = sides[static_cast<std::size_t>(bone.side)];
     const Spelling* spelling = spelling_of(bone.word);
     if (spelling != nullptr) bone.bone = bone_in_context(*spelling, bone.side, others);
-    // A hand with one finger only moves all of them by it.
+    // A hand with only one finger moves all of them by it.
     if (bone.word == "index1" && !others.other_fingers) bone.word = "fingers";
   }
   return result;

@@ -1,4 +1,4 @@
-// Reads what part of the body a joint is from its name, however a file spells it.
+// Finds the body part of a joint from its name, however a file spells it.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace kinemend::representation {
 
 enum class Side : std::uint8_t { none, left, right };
 
-/// A part of a body by what it moves, however files spell it.
+/// A body part named by the joint that moves it, however files spell it.
 enum class Bone : std::uint8_t {
   other,
   pelvis,
@@ -35,11 +35,11 @@ struct BoneName {
   std::string word;  ///< lower case, without side, separators and prefixes: "forearm", "index1"
 };
 
-/// What the joints of one skeleton are by their names. Names are read beside each other: a
-/// "LeftShoulder" beside a "LeftArm" is a clavicle, beside a "LeftCollar" an upper arm.
+/// Returns the bones of a skeleton's joints by their names. The meaning of a name depends on the
+/// others: "LeftShoulder" is a clavicle beside "LeftArm", but an upper arm beside "LeftCollar".
 std::vector<BoneName> bone_names(const std::vector<std::string>& names);
 
-/// Lower case, without subject, separators and prefixes such as `mixamorig:`.
+/// Returns the name in lower case, without subject, separators and prefixes such as `mixamorig:`.
 std::string plain_name(std::string_view name);
 
 }  // namespace kinemend::representation

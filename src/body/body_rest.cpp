@@ -1,4 +1,4 @@
-// Chooses a standing pose, turns it upright, and measures the body height by the legs.
+// Chooses a standing pose, turns it upright, and measures the body height from the legs.
 #include "body/body_rest.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ Vec3 unit_vector(Axis axis) {
   return {axis == Axis::x ? 1.0 : 0.0, axis == Axis::y ? 1.0 : 0.0, axis == Axis::z ? 1.0 : 0.0};
 }
 
-// Directions that nearly lie along an axis are meant to.
+// Directions close to an axis are meant to lie along it.
 Vec3 snapped(Vec3 direction) {
   // Chosen by hand, not swept.
   constexpr double near = 0.87;  // cosine of 30 degrees
@@ -32,7 +32,7 @@ Vec3 snapped(Vec3 direction) {
   return direction;
 }
 
-// The direction that vectors agree on; nothing where they do not.
+// The common direction of several vectors; none if they disagree.
 class Agreement {
  public:
   void add(Vec3 v) {
@@ -50,11 +50,12 @@ class Agreement {
   double length_ = 0;
 };
 
-// From the feet to the hips and from the pelvis to the head, of joints at `positions`.
+// Returns the up direction of joints at `positions`: from the feet to the hips and from the pelvis
+// to the head.
 std::optional<Vec3> standing_direction(const std::vector<Vec3>& positions,
                                        const std::vector<BoneName>& bones) {
-  // How nearly the directions must be the same: the length of their sum over that of all. Chosen by
-  // hand, not swept.
+  // Required agreement of the directions: the length of their sum over the sum of their lengths.
+  // Chosen by hand, not swept.
   constexpr double agreement = 0.8;
   Agreement up;
   const auto add = [&](std::int32_t low, std::int32_t high) {
@@ -69,7 +70,8 @@ std::optional<Vec3> standing_direction(const std::vector<Vec3>& positions,
   return up.direction(agreement);
 }
 
-// From right to left by hips and shoulders, else from ankles to toes; at right angles to `up`.
+// Returns the facing direction, perpendicular to `up`: from the line across hips and shoulders,
+// else from ankles to toes.
 std::optional<Vec3> facing_direction(const std::vector<Vec3>& positions,
                                      const std::vector<BoneName>& bones, Vec3 up) {
   // As in `standing_direction`. Chosen by hand, not swept.
@@ -92,8 +94,8 @@ std::optional<Vec3> facing_direction(const std::vector<Vec3>& positions,
   return ahead.direction(agreement);
 }
 
-// How straight a body stands: the length of the mean of the unit vectors up along its legs and,
-// counted as much, along its trunk; 1 where bones are not found.
+// Returns how straight a body stands: the length of the mean of the unit vectors up its legs and
+// its trunk, equally weighted; 1 if bones are not found.
 double straightness(const std::vector<Vec3>& positions, const std::vector<BoneName>& bones) {
   Vec3 legs;
   int bones_found = 0;
@@ -116,7 +118,7 @@ double straightness(const std::vector<Vec3>& positions, const std::vector<BoneNa
 }
 
 std::size_t straightest_frame(const Take& clip, const std::vector<BoneName>& bones) {
-  // Evenly spread, for speed; not swept.
+  // Frames are evenly spread, for speed; not swept.
   constexpr std::size_t most_frames = 200;
   const std::size_t frames = clip.frame_count(), sampled = std::min(frames, most_frames);
   std::size_t best = 0;
@@ -131,7 +133,7 @@ std::size_t straightest_frame(const Take& clip, const std::vector<BoneName>& bon
   return best;
 }
 
-// The skeleton with all local rotations identity, in one frame.
+// Returns one frame of the skeleton with all local rotations identity.
 Take unturned_clip(const Take& clip) {
   Take still;
   still.skeleton = clip.skeleton;
@@ -155,7 +157,7 @@ RestPose pose_of(const Take& still) {
   return rest;
 }
 
-// Left, up and ahead of the pose. `snap`: the file's axes are meant.
+// Turns the pose upright. `snap`: snap directions to the file's axes.
 void stand_upright(const std::vector<BoneName>& bones, bool snap, RestPose& rest) {
   const auto direction = standing_direction(rest.positions, bones).value_or(Vec3{0, 1, 0});
   const Vec3 up = snap ? snapped(direction) : nearest_axis(direction);
@@ -167,7 +169,7 @@ void stand_upright(const std::vector<BoneName>& bones, bool snap, RestPose& rest
   if (angle != 0) rest.upright = exp({0, -angle, 0}) * rest.upright;
 }
 
-// Of a joint's positions at rest, the distances to its ends summed up from the leaves.
+// Returns the longest path through a joint at rest, between two of its ends.
 double longest_way(const Skeleton& skeleton) {
   std::vector<double> deepest(skeleton.joint_count());
   double longest = 0;
@@ -186,13 +188,13 @@ double longest_way(const Skeleton& skeleton) {
 }  // namespace
 
 Quat shortest_rotation(Vec3 from, Vec3 to) {
-  // Sine below which no axis is told; of rounding.
+  // No axis is found below this sine, which is rounding.
   constexpr double same = 1e-7;
   const Vec3 axis = cross(from, to);
   const double sine = norm(axis), cosine = dot(from, to);
   if (sine < same && cosine > 0) return {};
   if (sine < same) {
-    // Half a turn, about any axis at right angles.
+    // Half a turn about any perpendicular axis.
     const Vec3 other = cross(from, std::fabs(from.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 0, 1});
     return exp((pi / norm(other)) * other);
   }
@@ -214,7 +216,7 @@ std::int32_t find_bone(const std::vector<BoneName>& bones, Bone bone, Side side)
 }
 
 RestPose rest_pose(const Take& clip, const std::vector<BoneName>& bones) {
-  // Straightness of legs and trunk from which the rest pose stands. Chosen by hand, not swept.
+  // A rest pose at least this straight is standing. Chosen by hand, not swept.
   constexpr double straight = 0.9;
   RestPose rest = pose_of(unturned_clip(clip));
   const bool stands = straightness(rest.positions, bones) > straight;
@@ -227,7 +229,7 @@ RestPose rest_pose(const Take& clip, const std::vector<BoneName>& bones) {
 }
 
 Quat upright_world(const Take& clip, const std::vector<BoneName>& bones, const RestPose& rest) {
-  // Frames, evenly spread, for speed; how nearly they must agree. Not swept.
+  // The number of frames, evenly spread, for speed, and their required agreement. Not swept.
   constexpr std::size_t most_frames = 64;
   constexpr double agreement = 0.5;
   const auto rest_up = standing_direction(rest.positions, bones);
@@ -241,14 +243,14 @@ Quat upright_world(const Take& clip, const std::vector<BoneName>& bones, const R
   const auto mostly = standing.direction(agreement);
   if (mostly && !(rest_up && dot(snapped(*mostly), snapped(*rest_up)) < -0.5)) up = *mostly;
   if (!mostly && !rest_up) up = unit_vector(guess_up_axis(clip));
-  // A leaning body does not tilt the world.
+  // The nearest axis is used, because a leaning body does not tilt the world.
   return shortest_rotation(nearest_axis(up), {0, 1, 0});
 }
 
 double body_height_from_legs(const Skeleton& skeleton, const std::vector<BoneName>& bones) {
   // Thigh and shank are 0.245 and 0.246 of the body height (Drillis and Contini 1966).
   constexpr double leg_share = 0.491;
-  // From a hand along the arm and the trunk to a toe.
+  // The longest path leads from a hand along the arm and the trunk to a toe.
   constexpr double way_share = 1.45;
   double length = 0;
   int legs = 0;

@@ -1,4 +1,4 @@
-// Turns rotations into the layout's frames and continues vectors past half a turn.
+// Turns rotations into the layout's frames and continues vectors beyond half a turn.
 #include "body/body_rotations.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ class VectorContinuation {
  public:
   explicit VectorContinuation(Vec3 first) : previous_(first), steady_(first) {}
 
-  // `v` or another vector of the same rotation.
+  // Returns `v` or another vector of the same rotation.
   Vec3 next(Vec3 v) {
     const Vec3 from_steady = continue_rotation_vector(v, steady_);
     const Vec3 from_previous = continue_rotation_vector(v, previous_);
@@ -48,7 +48,7 @@ std::vector<Quat> track_rotations(const Take& clip, const BodyMatch& match, cons
 }
 
 void continue_vectors(std::span<Vec3> vectors, double frame_rate_hz) {
-  // Of a vector that lies too far away (docs/bodies.md). Chosen by hand, not swept.
+  // The longest time that a vector may be too far away (docs/bodies.md). Chosen by hand, not swept.
   constexpr double patience_s = 0.5;
   if (vectors.empty()) return;
   const auto patience =
@@ -56,7 +56,7 @@ void continue_vectors(std::span<Vec3> vectors, double frame_rate_hz) {
   VectorContinuation continuation(vectors.front());
   std::vector<Vec3> beyond;
   for (std::size_t f = 1; f < vectors.size();) {
-    // A stretch beyond half a turn, empty where this sample is within.
+    // A stretch beyond half a turn; it is empty if this sample is within half a turn.
     VectorContinuation onward = continuation;
     beyond.clear();
     std::size_t far_samples = 0;

@@ -16,7 +16,7 @@ namespace kinemend::representation {
 
 namespace {
 
-// Samples of weight 0 on the straight line between their neighbours, held at the ends.
+// Puts samples of weight 0 on the straight line between their neighbours, and holds the ends.
 template <class Value>
 void bridge(std::vector<Value>& track, std::span<const double> weights) {
   const std::size_t frames = track.size();
@@ -53,8 +53,8 @@ Vec3 middle_of(std::vector<Vec3>& values) {
   return best;
 }
 
-// Windows stay centred near the ends, so that a straight line stays one; the end samples follow
-// Tukey's rule, so that a spike there goes too.
+// Windows stay centred near the ends, so that a straight line is unchanged; the end samples follow
+// Tukey's rule, which also removes a spike there.
 template <class Value>
 std::vector<Value> running_median(const std::vector<Value>& track, std::size_t half_window) {
   const std::size_t frames = track.size();
@@ -79,7 +79,7 @@ std::vector<Value> running_median(const std::vector<Value>& track, std::size_t h
 template <class Value>
 std::vector<Value> despiked(std::vector<Value> track, std::span<const double> weights,
                             double frame_rate_hz) {
-  // See docs/bodies.md, "Trend". Chosen by hand, not swept.
+  // The window of the median: see docs/bodies.md, "Trend". Chosen by hand, not swept.
   constexpr double median_s = 0.1;
   bridge(track, weights);
   const double half_window =
@@ -87,8 +87,8 @@ std::vector<Value> despiked(std::vector<Value> track, std::span<const double> we
   return running_median(track, static_cast<std::size_t>(half_window));
 }
 
-// Parabolas fitted with Gaussian weights; towards the ends of the track they become straight lines,
-// which noise bends less there.
+// Fits parabolas with Gaussian weights; towards the ends of the track they become straight lines,
+// because noise bends those less.
 class LocalFit {
  public:
   LocalFit(const std::vector<double>& track, const std::vector<double>& weights,
@@ -112,7 +112,7 @@ class LocalFit {
   }
 
  private:
-  // Of w k^i and w k^i y, k the frames from the middle.
+  // Sums of w k^i and w k^i y, where k counts frames from the middle.
   struct Sums {
     double s0 = 0, s1 = 0, s2 = 0, s3 = 0, s4 = 0, t0 = 0, t1 = 0, t2 = 0;
 
@@ -120,7 +120,7 @@ class LocalFit {
       const double determinant = s0 * s2 - s1 * s1;
       return determinant > 1e-9 * s0 * s2 ? (s2 * t0 - s1 * t1) / determinant : t0 / s0;
     }
-    // `instead`: where the samples tell no parabola.
+    // `instead`: returned if the samples do not determine a parabola.
     double parabola(double instead) const {
       const double a = s2 * s4 - s3 * s3, b = s2 * s3 - s1 * s4, c = s1 * s3 - s2 * s2;
       const double determinant = s0 * a + s1 * b + s2 * c;
@@ -155,18 +155,18 @@ class LocalFit {
   double end_frames_;
 };
 
-// Between four equally spaced values: u = 0 at the second, 1 at the third.
+// Interpolates between four equally spaced values: u = 0 at the second, 1 at the third.
 double cubic(const double* y, double u) {
   const double a = u + 1, b = u, c = u - 1, d = u - 2;
   return -y[0] * b * c * d / 6 + y[1] * a * c * d / 2 - y[2] * a * b * d / 2 + y[3] * a * b * c / 6;
 }
 
-// The trend bends so little that a value every eighth of the deviation tells it, save at the ends,
-// where it has no neighbours.
+// The trend bends so little that a value every eighth of the deviation suffices, except at the
+// ends, where a value has no neighbours.
 std::vector<double> local_fit(const std::vector<double>& track, std::span<const double> weights,
                               double deviation_frames) {
-  // What is bridged counts for next to nothing, but leaves no frame without any sample. Chosen by
-  // hand, not swept.
+  // Bridged samples have almost no weight, but leave no frame without any sample. Chosen by hand,
+  // not swept.
   constexpr double least_weight = 1e-4;
   const std::size_t frames = track.size();
   std::vector<double> known(weights.begin(), weights.end()), trend(frames);

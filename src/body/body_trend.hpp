@@ -1,4 +1,4 @@
-// The slow part of a track: the trend of heading and place that a body's frame follows.
+// The trend of heading and place that a body's frame follows.
 #pragma once
 
 #include <span>
@@ -8,22 +8,22 @@
 
 namespace kinemend::representation {
 
-/// The slow part of a track: a running median over a tenth of a second (five frames at least), so
-/// that spikes do not move it, then at each frame the parabola fitted with Gaussian weights of
-/// standard deviation `deviation_s` (cut at three of them), so that curves are hardly cut; towards
-/// the ends it becomes the straight line, so that steady motion stays as it is, and noise is not
-/// amplified. `weights`: one a frame, how well the sample is known; where all are 0 the
-/// track is held or bridged in a straight line. Cost grows linearly with length.
+/// Returns the slow part of a track. A running median over a tenth of a second (five frames at
+/// least) removes spikes; then at each frame a parabola is fitted with Gaussian weights of standard
+/// deviation `deviation_s` (cut at three of them), which hardly flattens curves. Towards the ends
+/// it becomes a straight line, which keeps steady motion and does not amplify noise. `weights`: the
+/// certainty of each frame's sample; where all are 0 the track is held or bridged by a straight
+/// line. Cost grows linearly with length.
 std::vector<double> smooth_trend(std::vector<double> track, std::span<const double> weights,
                                  double frame_rate_hz, double deviation_s);
 
-/// The same of x and z of a path; y becomes 0. The median is the sample with the least sum of
-/// distances to those around it, so that it does not matter how the axes are turned.
+/// Returns the trend of x and z of a path; y becomes 0. The median is the sample with the least sum
+/// of distances to the others, so that the orientation of the axes does not matter.
 std::vector<Vec3> smooth_path(std::vector<Vec3> path, std::span<const double> weights,
                               double frame_rate_hz, double deviation_s);
 
-/// Angles (radians) continued from frame to frame; samples of weight 0 are passed over, and a few
-/// that are thrown far off do not turn what follows by a whole turn.
+/// Continues angles (radians) from frame to frame. Samples of weight 0 are skipped, and a few
+/// outliers do not shift later angles by a whole turn.
 void continue_angles(std::span<double> angles, std::span<const double> weights);
 
 }  // namespace kinemend::representation

@@ -1,5 +1,4 @@
-// Reads and writes mapping files, which say what the joints or markers of a take are called in a
-// model.
+// Reads and writes mapping files, which give the take's name for each joint or marker of a model.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -101,8 +101,8 @@ Quat mean_rotation(const Take& clip, std::size_t joint) {
 
 Vec3 continue_rotation_vector(Vec3 v, Vec3 previous) {
   const double angle = norm(v);
-  // An identity has no axis of its own: it lies on every sphere of whole turns, nearest along
-  // `previous`.
+  // An identity has no axis of its own: any sphere of whole turns represents it, and the nearest
+  // point lies along `previous`.
   if (angle == 0) {
     const double length = norm(previous);
     const double turns = std::round(length / (2 * pi));

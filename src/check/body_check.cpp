@@ -21,13 +21,14 @@ void put_largest(double value, std::optional<double>& largest) {
   largest = std::max(value, largest.value_or(value));
 }
 
-// Frames in which a foot is low, and those of them in which one stands.
+// The number of frames in which a foot is low, and of those in which one has ground contact.
 struct TimeOnFloor {
   std::size_t low = 0, standing = 0;
 };
 
 TimeOnFloor time_on_floor(const BodyPoints& body, Up up, const std::vector<Contact>& contacts) {
-  // Body heights above the lowest that the feet come (a quantile). Chosen by hand, not swept.
+  // Body heights above the lowest level of the feet, which is this quantile. Chosen by hand, not
+  // swept.
   constexpr double near_floor = 0.08, lowest_share = 0.05;
   std::vector<double> lowest(body.frames, std::numeric_limits<double>::infinity());
   for (const Foot& foot : body.feet) {
@@ -53,7 +54,7 @@ TimeOnFloor time_on_floor(const BodyPoints& body, Up up, const std::vector<Conta
   return time;
 }
 
-// Half of the time the pelvis, or the middle of all markers, is as high as that of a person who
+// Whether the median height of the pelvis, or of the middle of all markers, is that of a person who
 // stands or squats.
 bool is_upright(const BodyPoints& body, Up up) {
   // Body heights above the lowest point of a foot. Chosen by hand, not swept.
@@ -70,12 +71,12 @@ bool is_upright(const BodyPoints& body, Up up) {
   return !heights.empty() && median_of(heights) > least_height * body.height;
 }
 
-// A person who is upright stands now and then. Errors of video and of depth cameras move feet that
-// stood, so that none is ever at rest.
+// An upright person has ground contact now and then. Errors of video and depth cameras move
+// standing feet, so that none is ever at rest.
 void report_no_contact(const BodyPoints& body, Up up, const std::vector<Contact>& contacts,
                        CheckReport& report) {
-  // A jump may be shorter; the time that a person is at least low, and the most of it that counts
-  // as never standing. Chosen by hand, not swept.
+  // The shortest take, because a jump may be shorter; the least share of time with a low foot; and
+  // the largest share with contact that is reported. Chosen by hand, not swept.
   constexpr double shortest_s = 2, least_low = 0.5, most_standing = 0.1;
   const auto frames = static_cast<double>(body.frames);
   if (frames < shortest_s * body.frame_rate_hz || !is_upright(body, up)) return;
@@ -90,7 +91,7 @@ void report_no_contact(const BodyPoints& body, Up up, const std::vector<Contact>
 
 void report_feet(const BodyPoints& body, Up up, const CheckSettings& settings,
                  CheckReport& report) {
-  // That of docs/check.md, `sink`. Chosen by hand, not swept.
+  // The distance in docs/check.md, `sink`. Chosen by hand, not swept.
   constexpr double close_m = 0.02;  // scale of the weights about the floor
   const std::vector<Contact> contacts = find_contacts(body, up);
   std::vector<Vec3> places;
@@ -113,20 +114,21 @@ void report_feet(const BodyPoints& body, Up up, const CheckSettings& settings,
       report_cm(FindingKind::sink, sink, "is below the floor during ground contact");
   }
   report_no_contact(body, up, contacts, report);
-  // Feet that never stand neither slide nor sink.
+  // Without ground contact, slide and sink are undefined.
   if (contacts.empty()) return;
   put_largest(slide_cm, report.figures.slide_cm);
   if (!depths.empty()) put_largest(sink_cm, report.figures.sink_cm);
 }
 
 // In the air a body falls at 9.81 m/s^2, and the pelvis does so within a third. A hanging or
-// sitting body falls more slowly, so that only a rate that is too high can be detected.
+// sitting body falls more slowly, so only a rate that is too high can be detected.
 void report_rate_of_fall(const BodyPoints& body, Up up, CheckReport& report) {
-  // A rate is the root of how much too quickly a body falls. Both limits are chosen by hand, not
+  // The error of the rate is the square root of this ratio. Both limits are chosen by hand, not
   // swept.
   constexpr double gravity = 9.81, most_ratio = 2.5;  // a rate 1.6 times too high
   constexpr double least_height_m = 0.05;             // fall of the centre, above the noise
-  // Flights that must agree, and frames of one that tells a parabola. Chosen by hand, not swept.
+  // The number of flights that must agree, and the frames that determine a parabola. Chosen by
+  // hand, not swept.
   constexpr std::size_t fewest_flights = 2, fewest_frames = 6;
   std::vector<double> falls;
   for (const FrameSpan& span : find_flights(body, up)) {
@@ -146,7 +148,7 @@ void report_rate_of_fall(const BodyPoints& body, Up up, CheckReport& report) {
 }
 
 void check_points(const BodyPoints& body, const CheckSettings& settings, CheckReport& report) {
-  // Of a take, fewer of which tell nothing of contacts. Chosen by hand, not swept.
+  // Shorter takes say nothing about contacts. Chosen by hand, not swept.
   constexpr std::size_t fewest_frames = 10;
   if (body.feet.empty() || body.frames < fewest_frames) return;
   const std::optional<Up> up = settings.up ? Up{*settings.up, 1} : find_up(body);
@@ -172,7 +174,7 @@ void check_body(const Take& clip, const std::vector<Subject>& subjects,
     check_points(body_points(clip, subject.markers, report.metres_per_unit, settings.names),
                  settings, own);
     for (Finding& finding : own.findings) {
-      // The rate is the same for all persons: one suffices.
+      // The rate is the same for all people: one finding suffices.
       const bool is_rate = finding.kind == FindingKind::rate;
       if (is_rate && std::exchange(has_rate, true)) continue;
       if (!is_rate && !subject.name.empty()) finding.track = subject.name + " " + finding.track;

@@ -54,7 +54,7 @@ void validate(const CheckSettings& settings) {
   if (settings.robot) validate(*settings.robot);
 }
 
-// The checks saw the take without its calibration frames.
+// Shifts the frames, because the checks read the take without its calibration frames.
 void shift_frames(CheckReport& report, std::size_t frames) {
   for (Finding& finding : report.findings) {
     finding.first_frame += frames;
@@ -90,7 +90,7 @@ void report_left_out(const Take& clip, const std::vector<std::size_t>& markers,
                              "angles, forces and the like among the points are ignored"});
 }
 
-// With a row for each joint.
+// Returns a report with a row for each joint.
 CheckReport report_on_joints(const Take& clip) {
   clip.validate();
   CheckReport report;
@@ -114,7 +114,7 @@ struct MarkerRows {
   std::vector<std::int32_t> track_of;
 };
 
-// With a row for each marker that is a position.
+// Returns a report with a row for each marker that is a position.
 CheckReport report_on_markers(const Take& clip, MarkerRows& rows) {
   clip.validate();
   CheckReport report;
@@ -132,7 +132,7 @@ CheckReport report_on_markers(const Take& clip, MarkerRows& rows) {
   return report;
 }
 
-// The markers of the person with the most markers, or all where there are no subjects.
+// Returns the markers of the person with the most markers, or all if there are no subjects.
 const std::vector<std::size_t>& largest_of(const std::vector<Subject>& subjects,
                                            const std::vector<std::size_t>& markers) {
   const auto largest = std::max_element(
@@ -186,7 +186,7 @@ CheckReport check_markers(const Take& clip, const CheckSettings& settings) {
   check::check_unit(clip, largest_of(subjects, markers), settings, report);
   check::check_gaps(find_gaps(clip), track_of, report);
   check::check_swaps(clip, track_of, report);
-  // Other checks would report an exchange of labels twice for each of two tracks.
+  // Without this, other checks would report an exchange of labels twice for both tracks.
   Take labelled = clip;
   undo_swaps(labelled, report.swaps);
   check::check_noise_and_spikes(labelled, markers, settings, report);

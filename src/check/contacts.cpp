@@ -1,4 +1,4 @@
-// Finds the spans in which a foot stands and those in which the body is in the air.
+// Finds the spans in which a foot has ground contact and those in which the body is in the air.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ namespace {
 
 using feet::ContactThresholds, feet::sole_point, feet::SolePoint, feet::touches;
 
-// Follows, from frame to frame, the touching point that moves least, about which the foot turns.
+// Follows the touching point that moves least from frame to frame; the foot turns about it.
 Contact measure(const std::vector<SolePoint>& points,
                 const std::vector<std::vector<std::uint8_t>>& touching, std::size_t foot,
                 const FrameSpan& span, double frame_rate_hz) {

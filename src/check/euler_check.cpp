@@ -44,7 +44,7 @@ struct LeapSize {
   double degrees = 0;
 };
 
-// Degrees of the middle angle to the nearest gimbal lock.
+// Returns the degrees from the middle angle to the nearest gimbal lock.
 double to_gimbal_lock(double middle, RotationOrder order) {
   const bool repeats_axis = order.axes[0] == order.axes[2];
   return std::fabs(wrap_angle(middle - (repeats_axis ? 0 : 90), 90));
@@ -52,8 +52,8 @@ double to_gimbal_lock(double middle, RotationOrder order) {
 
 LeapSize leap_of(const double* before, const double* now, const AngleColumns& joint,
                  double turn_deg) {
-  // Degrees of a leap; share of it that the joint turns at most; degrees from gimbal lock. Chosen
-  // by hand, not swept.
+  // The degrees of a leap, the largest share of it that the joint turns, and the degrees from
+  // gimbal lock. Chosen by hand, not swept.
   constexpr double large = 90, share_of_leap = 0.25, near_lock = 8;
   LeapSize result;
   double whole = 0, wrapped = 0;

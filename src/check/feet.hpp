@@ -1,4 +1,4 @@
-// Contacts of feet with the floor, and flights, for the checks of the body.
+// Ground contacts of feet, and flights, for the checks of the body.
 #pragma once
 
 #include <cstddef>
@@ -13,26 +13,26 @@ namespace kinemend::check {
 
 using feet::along, feet::body_points, feet::BodyPoints, feet::find_up, feet::Foot, feet::Up;
 
-/// The points of a foot, smoothed over 20 ms on either side.
+/// Returns the points of a foot, smoothed over 20 ms on either side.
 std::vector<feet::SolePoint> sole_points(const BodyPoints& body, const Foot& foot, Up up);
 
-/// A span in which a foot stands.
+/// A span in which a foot has ground contact.
 struct Contact {
   std::size_t foot = 0;
   FrameSpan span;
   double slide_m = 0;  ///< displacement of the point that moves least
-  Vec3 place;          ///< mean of its lowest points
+  Vec3 place;          ///< median of the foot's lowest points in each frame
 };
 
-/// A point touches the floor where it is slow and near its usual standing height; thresholds to
-/// begin are tighter than those to continue (hysteresis). By foot, then frame.
+/// Finds contacts, by foot, then frame. A point touches the floor if it is slow and near its usual
+/// standing height; the thresholds to begin are tighter than those to continue (hysteresis).
 std::vector<Contact> find_contacts(const BodyPoints& body, Up up);
 
-/// Spans in which every point of every foot is clear of the floor.
+/// Returns the spans in which every point of every foot is clear of the floor.
 std::vector<FrameSpan> find_flights(const BodyPoints& body, Up up);
 
-/// Acceleration of the body in a flight, m/s^2, downwards: that of the least-squares parabola
-/// through the heights of its centre.
+/// Returns the downward acceleration of the body in a flight, m/s^2: that of the least-squares
+/// parabola through the heights of its centre.
 double fall(const BodyPoints& body, Up up, const FrameSpan& span);
 
 }  // namespace kinemend::check

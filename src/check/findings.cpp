@@ -1,4 +1,4 @@
-// Names kinds of findings and sorts findings by how much they matter.
+// Names kinds of findings and sorts findings by their importance.
 #include "check/checks.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Finds frames that repeat or hold nothing but zeros, and the rate that repeats indicate.
+// Finds frames that repeat or contain only zeros, and the rate that repeats indicate.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,9 +11,9 @@ namespace kinemend::check {
 
 namespace {
 
-// Equal to the frame before to the precision of text.
+// Whether a frame equals the previous one to the precision of text.
 bool repeats(const Take& clip, std::size_t frame) {
-  // Rounding by writers of text; not swept.
+  // Text writers round to this; not swept.
   constexpr double same_angle = 1e-7;  // radians
   const Vec3 step = clip.root_position(frame) - clip.root_position(frame - 1);
   if (norm(step) > 1e-9 * (1 + norm(clip.root_position(frame)))) return false;
@@ -38,7 +38,7 @@ bool repeats(const Take& clip, const std::vector<std::size_t>& markers, std::siz
   return seen > 0;
 }
 
-// Most of every second step repeats: the take was converted from half the rate (or a third).
+// If most of every second step repeats, the take was converted from half the rate (or a third).
 void report_low_rate(const std::vector<std::uint8_t>& repeated, CheckReport& report) {
   for (const std::size_t stride : {2, 3, 4, 5}) {
     for (std::size_t phase = 0; phase < stride; ++phase) {
@@ -58,7 +58,7 @@ void report_low_rate(const std::vector<std::uint8_t>& repeated, CheckReport& rep
 }
 
 void report_repeats(const std::vector<std::uint8_t>& repeated, CheckReport& report) {
-  // Of a take, fewer of which tell nothing of its rate. Chosen by hand, not swept.
+  // Shorter takes say nothing about their rate. Chosen by hand, not swept.
   constexpr std::size_t fewest_frames = 10;
   const auto count = static_cast<std::size_t>(std::count(repeated.begin(), repeated.end(), 1));
   if (repeated.size() < fewest_frames || count == 0) return;

@@ -1,4 +1,4 @@
-// Finds bones that change their length, and markers that change their distance to those of their
+// Finds bones that change their length, and markers that change their distance to others on their
 // segment.
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@ namespace kinemend::check {
 
 namespace {
 
-// The largest value that holds for three frames in a row, and where: single frames are spikes.
-// Negative values are unknown.
+// The largest value that lasts for three frames, and its frame: single frames are spikes. Negative
+// values are unknown.
 struct Peak {
   double value = 0;
   std::size_t frame = 0;
@@ -27,7 +27,7 @@ Peak lasting_peak(const std::vector<double>& values) {
   return peak;
 }
 
-// The frames about a peak in which a value is at least half of it.
+// Returns the frames around a peak in which a value is at least half of it.
 FrameSpan about(const std::vector<double>& values, const Peak& peak) {
   FrameSpan span{peak.frame, peak.frame};
   while (span.first > 0 && values[span.first - 1] > 0.5 * peak.value) --span.first;
@@ -45,7 +45,7 @@ void report_length(const std::vector<double>& change_percent, const std::string&
                              peak.value, "%", std::move(words)});
 }
 
-// Some skeletons have a reference point above the hips; the distance between these is not a bone.
+// Some skeletons have a reference point above the hips; the distance between the two is not a bone.
 bool carries_the_body(const Skeleton& skeleton, std::int32_t joint) {
   for (std::int32_t parent = skeleton.parents[static_cast<std::size_t>(joint)]; parent >= 0;
        parent = skeleton.parents[static_cast<std::size_t>(parent)]) {
@@ -60,14 +60,14 @@ struct RigidNeighbour {
   double spread = 0;  // 10th to 90th percentile
 };
 
-// Markers at a nearly constant distance, as on the same segment.
+// Returns markers at a nearly constant distance, as those on the same segment are.
 std::vector<RigidNeighbour> rigid_neighbours(const Take& clip,
                                              const std::vector<std::size_t>& markers,
                                              std::size_t of) {
-  // Spread of a rigid distance, 10th to 90th percentile, as a share of it. Chosen by hand, not
-  // swept.
+  // The spread of a rigid distance, 10th to 90th percentile, relative to the distance. Chosen by
+  // hand, not swept.
   constexpr double rigid_share = 0.04;
-  // Neighbours that are kept, and frames in which both are seen. Chosen by hand, not swept.
+  // The number of neighbours kept, and of frames in which both are seen. Chosen by hand, not swept.
   constexpr std::size_t wanted = 4, fewest_frames = 20;
   const std::size_t frames = clip.frame_count(), count = std::min(frames, most_looked_at);
   std::vector<RigidNeighbour> found;
@@ -92,7 +92,8 @@ std::vector<RigidNeighbour> rigid_neighbours(const Take& clip,
   return found;
 }
 
-// A marker that slips on its segment changes its distance to most neighbours; these only to it.
+// A marker that slips on its segment changes its distance to most neighbours; they change theirs
+// only to it.
 std::vector<double> departures(const Take& clip, std::size_t marker,
                                const std::vector<RigidNeighbour>& neighbours) {
   std::vector<double> result(clip.frame_count(), -1), now;

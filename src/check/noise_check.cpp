@@ -1,5 +1,5 @@
-// Reports noise and spikes. The verdicts are those of the method `auto`, so that what is found here
-// is what it would repair.
+// Reports noise and spikes with the verdicts of the method `auto`, so that findings match what it
+// would repair.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,7 +24,7 @@ void add_noise(TrackHealth& track, double noise, double limit, std::size_t frame
                              noise, report.noise_unit, "jitters from frame to frame"});
 }
 
-// One finding for each run of frames, as `clean` repairs and counts them.
+// Adds one finding for each run of frames, as `clean` repairs and counts them.
 void add_spikes(TrackHealth& track, const std::string& name,
                 const std::map<std::size_t, double>& sizes, const std::string& unit,
                 CheckReport& report) {
@@ -51,16 +51,16 @@ TakeView view_for(const Take& clip, const CheckReport& report) {
 
 // The verdict of `auto` on a take, and the noise that `learned` expects.
 struct Verdict {
-  CleanTrace trace;                                        // no noise: too short to tell
-  std::vector<std::map<std::size_t, double>> spike_sizes;  // of each track, by frame
-  std::vector<NoiseCharacter> expected;  // that `auto` does not see; `is_expected`: slow
+  CleanTrace trace;                                        // no noise: too short to measure
+  std::vector<std::map<std::size_t, double>> spike_sizes;  // for each track, by frame
+  std::vector<NoiseCharacter> expected;  // noise that `auto` does not see; `is_expected`: slow
 };
 
-// How far the tracks of a space are from the truth, as the network expects: per axis, the middle
-// one of those from which it takes noise out, or 0 where these are less than half of all.
+// Returns the error per axis that the network expects in the tracks of a space: the median of the
+// tracks from which it removes noise, or 0 if these are less than half of all.
 double expected_strength(const TakeView& take, const CleanTrace& trace, Space space) {
-  // The references of real2/ and worlds/train-allowed have fewer; takes of video and depth cameras
-  // more. Not swept.
+  // The references of real2/ and worlds/train-allowed have a smaller share; takes of video and
+  // depth cameras a larger one. Not swept.
   constexpr double least_share = 0.5;
   double tracks = 0;
   std::vector<double> strengths;
@@ -76,8 +76,8 @@ double expected_strength(const TakeView& take, const CleanTrace& trace, Space sp
   return is_enough ? median_of(strengths) : 0;
 }
 
-// `auto` does not see noise that does not show from frame to frame. The network is asked for all
-// that it expects, shown or not.
+// Noise that does not show from frame to frame is invisible to `auto`. The network returns all
+// noise that it expects, visible or not.
 std::vector<NoiseCharacter> noise_expected(const TakeView& take,
                                            const std::vector<NoiseCharacter>& measured) {
   const TrackSink nowhere = [](std::size_t, const CleanedTrack&) {};
@@ -86,10 +86,11 @@ std::vector<NoiseCharacter> noise_expected(const TakeView& take,
   TakeView asked = take;
   if (asked.source == Source::unknown) asked.source = Source::video;
   const CleanTrace trace = make_learned()->clean(asked, nowhere, {});
-  // Where it has no say it hands over to `auto`, and does not know what is left.
+  // If the network cannot judge the take it falls back to `auto`, and the remaining error is
+  // unknown.
   if (trace.left.empty()) return expected;
   for (const Space space : {Space::rotation, Space::position}) {
-    // The network knows nothing of the places of a body.
+    // The network has not learned the places of a body.
     if (space == Space::position && take.joints != nullptr) continue;
     const double strength = expected_strength(take, trace, space);
     const auto explains = [&](const NoiseCharacter& noise) {
@@ -106,7 +107,7 @@ std::vector<NoiseCharacter> noise_expected(const TakeView& take,
 
 void report_expected(const Verdict& verdict, std::size_t frames, CheckReport& report) {
   for (const NoiseCharacter& noise : verdict.expected) {
-    // The colour of other noise is not known.
+    // The spectrum of other noise is unknown.
     if (noise.is_expected) report.noise.push_back(noise);
     report.findings.push_back(
         {FindingKind::expected_noise, Severity::note, "", 0, frames - 1, noise.strength,
@@ -160,7 +161,7 @@ void check_noise_and_spikes(const Take& clip, const std::vector<std::size_t>& ma
   const Verdict verdict = verdict_of(view_for(clip, report));
   const std::vector<double>& noise = verdict.trace.noise;
   report.noise = verdict.trace.characters;
-  // Without a unit there is no limit to compare with.
+  // Without a unit no limit applies.
   const double limit = report.metres_per_unit > 0
                            ? 0.01 * settings.noise_cm / report.metres_per_unit
                            : std::numeric_limits<double>::infinity();

@@ -21,8 +21,8 @@ namespace {
 
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
-// Feet by frame, in metres: how far the point nearest to its standing level is above it, how deep
-// the foot is below the lowest of these levels, and whether it stands.
+// Feet by frame, in metres: the height of the point nearest to its standing level, the depth of the
+// foot below the lowest of these levels, and whether it has ground contact.
 struct FeetByFrame {
   std::vector<std::vector<double>> heights, depths;
   std::vector<std::vector<std::uint8_t>> stands;
@@ -38,7 +38,8 @@ std::vector<double> heights_of(const std::vector<feet::SolePoint>& points, std::
   return lowest;
 }
 
-// A toe that points down is lower than where it stands; the floor is where the lowest point stands.
+// A toe that points down is lower than its standing level; the floor is the level of the lowest
+// standing point.
 std::vector<double> depths_of(const std::vector<feet::SolePoint>& points, std::size_t frames) {
   double floor = nowhere;
   for (const feet::SolePoint& point : points) floor = std::min(floor, point.level);
@@ -67,7 +68,7 @@ void mark(std::vector<std::uint8_t>& flags, std::size_t first, std::size_t last)
             flags.begin() + static_cast<std::ptrdiff_t>(last + 1), std::uint8_t{1});
 }
 
-// Heels and toes of a take of joints, also on steps, into the report.
+// Marks contacts of heels and toes of a take of joints, including those on steps, in the report.
 void mark_contacts(const Take& clip, const CheckSettings& settings, const BodyPoints& body,
                    FeetByFrame& all, RobotFindings& robot) {
   Take named = clip;
@@ -128,8 +129,8 @@ void report_floating_feet(const BodyPoints& body, const FeetByFrame& all,
   }
 }
 
-// Whether a time in the air is a fall: the pelvis falls at about 9.81 m/s2, a body that hangs or
-// sits does not. In short times the two do not differ.
+// Whether a time in the air is not a fall: the pelvis falls at about 9.81 m/s2, but a hanging or
+// sitting body does not. In short times the two cannot be distinguished.
 bool is_carried(const BodyPoints& body, Up up, const FrameSpan& span) {
   constexpr double least_s = 0.2, least_fall = 0.5 * 9.81;
   const double seconds = static_cast<double>(span.length()) / body.frame_rate_hz;

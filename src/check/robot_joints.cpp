@@ -1,4 +1,4 @@
-// Finds joints that are faster than their limits, and values that jump within one frame.
+// Finds joints that exceed their limits, and values that jump within one frame.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace kinemend::check {
 
 namespace {
 
-// The joints from the root to the first that has several children carry the whole body: no motor
+// The joints from the root to the first with several children carry the whole body, so no motor
 // turns them.
 std::vector<std::uint8_t> motor_joints(const Skeleton& skeleton) {
   std::vector<std::size_t> children(skeleton.joint_count());
@@ -43,7 +43,7 @@ JointLimits limits_of(const std::string& name, const RobotSettings& settings) {
   return limits;
 }
 
-// Speed and acceleration of a joint by frame, degrees and seconds; 0 where they are not known.
+// Speed and acceleration of a joint by frame, in degrees and seconds; 0 if unknown.
 struct JointRates {
   std::vector<double> speeds, accelerations;
 };
@@ -67,7 +67,7 @@ JointRates rates_of(const Take& clip, std::size_t joint, std::size_t step) {
   return rates;
 }
 
-// Runs of frames above a limit; a short time below it does not end a run.
+// Returns runs of frames above a limit; a short time below it does not end a run.
 std::vector<FrameSpan> spans_above(const std::vector<double>& values, double limit,
                                    double frame_rate_hz) {
   constexpr double bridged_s = 0.1;
@@ -104,7 +104,7 @@ void report_rates(const std::string& name, const JointRates& rates, const JointL
                "accelerates more than", "deg/s2");
 }
 
-// By how much the two sides of the step from f to f + 1 miss each other if each goes on for half
+// Returns the distance between the two sides of the step from f to f + 1 if each continues for half
 // the step with its own velocity.
 double miss(Quat before, Quat from, Quat to, Quat after) {
   const Quat left = from * exp(0.5 * log(conjugate(before) * from));
@@ -115,9 +115,10 @@ double miss(Vec3 before, Vec3 from, Vec3 to, Vec3 after) {
   return norm(from + 0.5 * (from - before) - (to - 0.5 * (after - to)));
 }
 
-// The steps whose sides miss each other by more than `limit` while the steps beside them miss less:
-// half as much after a jump that stays, as much about a single wrong sample, which is a spike. A
-// track that jitters misses often; only what is far above that is a jump.
+// Returns the steps whose sides miss each other by more than `limit` while the steps beside them
+// miss less. After a jump that stays these miss half as much; beside a single wrong sample, a
+// spike, they miss as much. In a jittery track, which misses often, only steps far above the usual
+// are jumps.
 template <class Value, class Seen>
 std::vector<std::pair<std::size_t, double>> jumps_of(std::size_t frames, double limit,
                                                      const Value& value, const Seen& seen) {
@@ -137,7 +138,7 @@ std::vector<std::pair<std::size_t, double>> jumps_of(std::size_t frames, double 
   return jumps;
 }
 
-// At low rates motion itself changes more within a frame.
+// At low rates the motion itself changes more within a frame.
 double at_rate(double limit, double frame_rate_hz) {
   constexpr double usual_rate_hz = 60;
   return limit * std::max(1.0, usual_rate_hz / frame_rate_hz);

@@ -1,4 +1,4 @@
-// Compares each run with how often its track and the other tracks are flagged.
+// Compares each run with the frequency of flags on its track and on the others.
 #include "check/runs.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ struct Counts {
   }
 };
 
-// Laplace's rule of succession: a share is never 0 or 1.
+// Laplace's rule of succession, which never gives a share of 0 or 1.
 double share_without(const Counts& all, const Counts& subset) {
   return (static_cast<double>(all.yes - subset.yes) + 1) /
          (static_cast<double>(all.known - subset.known) + 2);
@@ -29,7 +29,7 @@ double share_without(const Counts& all, const Counts& subset) {
 }  // namespace
 
 std::vector<std::vector<FrameSpan>> improbable_runs(const FlagTable& table, std::size_t shortest) {
-  // Natural logarithm of the chance of docs/check.md, 1e-6. Chosen by hand, not swept.
+  // Natural logarithm of the chance in docs/check.md, 1e-6. Chosen by hand, not swept.
   constexpr double log_chance = -13.8;  // 1e-6
   std::vector<Counts> of_step(table.steps), of_track(table.tracks);
   std::vector<std::uint8_t> is_witness(table.tracks);

@@ -1,4 +1,4 @@
-// Finds runs of flagged frames, and which of them chance does not explain.
+// Finds runs of flagged frames, and those that chance does not explain.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace kinemend::check {
 
-/// Runs of frames for which `holds` is true.
+/// Returns the runs of frames for which `holds` is true.
 template <class Holds>
 std::vector<FrameSpan> runs_where(std::size_t frames, const Holds& holds) {
   std::vector<FrameSpan> runs;
@@ -24,7 +24,7 @@ std::vector<FrameSpan> runs_where(std::size_t frames, const Holds& holds) {
   return runs;
 }
 
-/// One flag per step of each of N tracks, from the track's samples.
+/// One flag for each step of each of N tracks, from the track's samples.
 enum class Flag : std::uint8_t {
   no,
   yes,
@@ -42,10 +42,10 @@ struct FlagTable {
   Flag operator()(std::size_t step, std::size_t track) const { return flags[track * steps + step]; }
 };
 
-/// The runs of `yes`, at least `shortest` long, that chance does not explain: where p is the share
-/// of `yes` on the track outside the run, or among the other tracks during the run if that is more,
-/// a run of r has p^r below 1e-6. Runs that the other tracks share (p of a half or more) are not
-/// specific to one track. One list per track.
+/// Returns the runs of `yes`, at least `shortest` long, that chance does not explain: a run of r
+/// for which p^r is below 1e-6, where p is the share of `yes` on the track outside the run, or
+/// among the other tracks during the run if that is more. Runs that other tracks share (p of a half
+/// or more) are not specific to one track. One list for each track.
 std::vector<std::vector<FrameSpan>> improbable_runs(const FlagTable& table, std::size_t shortest);
 
 }  // namespace kinemend::check

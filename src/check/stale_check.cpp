@@ -17,10 +17,10 @@ namespace kinemend::check {
 
 namespace {
 
-// Spans of docs/check.md, `frozen` and `bridged`. Chosen by hand, not swept.
+// The spans in docs/check.md, `frozen` and `bridged`. Chosen by hand, not swept.
 constexpr std::size_t shortest_frozen_steps = 2;    // three samples in a row
 constexpr std::size_t shortest_straight_steps = 3;  // five samples in a row
-constexpr double share_of_usual = 0.01;  // of the usual step or bend, below which it counts as zero
+constexpr double share_of_usual = 0.01;  // of the usual step or bend; smaller ones are zero
 
 // Sizes of the steps and the bends of one track; negative where a sample is missing. Step t lies
 // between samples t and t + 1, bend t at sample t + 1.
@@ -37,17 +37,18 @@ double usual_size(const std::vector<double>& sizes) {
   return median_of(known);
 }
 
-// Text rounds the samples, so that a repeated or interpolated one deviates by some last digits.
+// Text rounds samples, so a repeated or interpolated one may deviate in its last digits.
 void set_flags(const std::vector<double>& sizes, double most, std::size_t track, FlagTable& table) {
   for (std::size_t t = 0; t < sizes.size(); ++t) {
     if (sizes[t] >= 0) table(t, track) = sizes[t] <= most ? Flag::yes : Flag::no;
   }
 }
 
-// The step of a file's digits: the smallest size but 0, where sizes of that kind are common; else
-// 0.
+// Returns the step of a file's digits: the smallest nonzero size, if sizes of that kind are common;
+// else 0.
 double quantum(const std::vector<double>& sizes) {
-  // Share of all sizes, and within which two sizes are the same step. Chosen by hand, not swept.
+  // The least share of such sizes, and the tolerance within which two sizes are the same step.
+  // Chosen by hand, not swept.
   constexpr double common_share = 0.05, same = 1e-3;
   double least = std::numeric_limits<double>::infinity();
   for (const double s : sizes) {
@@ -61,7 +62,7 @@ double quantum(const std::vector<double>& sizes) {
   return static_cast<double>(small) > common_share * static_cast<double>(known) ? least : 0;
 }
 
-// What counts as a change on a track.
+// The scale by which a change of a track is judged.
 struct ChangeScale {
   double usual = 0;
   double digits = 0;  // rounding error of the file
@@ -72,7 +73,7 @@ struct ChangeScale {
   double clear() const { return std::max(0.3 * usual, digits); }
 };
 
-// Motion decelerates before it rests and bends before it is straight; a stale span has at least one
+// Motion decelerates before it rests and bends before it is straight. A stale span has at least one
 // end where it does not: the size beside it is large and not decreasing.
 bool has_sharp_end(const std::vector<double>& sizes, const FrameSpan& run,
                    const ChangeScale& scale) {
@@ -85,7 +86,7 @@ bool has_sharp_end(const std::vector<double>& sizes, const FrameSpan& run,
          (run.last + 2 < sizes.size() && is_sharp(run.last + 1, run.last + 2));
 }
 
-// A slow line may be straight by rounding.
+// A slow line may be straight only by rounding.
 bool moves_along(const std::vector<double>& steps, const FrameSpan& run, const ChangeScale& scale) {
   return *std::min_element(steps.begin() + static_cast<std::ptrdiff_t>(run.first),
                            steps.begin() + static_cast<std::ptrdiff_t>(run.last) + 1) >
@@ -95,12 +96,12 @@ bool moves_along(const std::vector<double>& steps, const FrameSpan& run, const C
 // Chosen by hand, not swept.
 constexpr double slack_rad = 1e-4;  // beyond the end of a hinge, by the digits of a file
 
-// The range of a hinge, a joint that turns about one axis alone, as a knee does; other joints have
+// The range of a hinge, a joint that turns about only one axis, as a knee does; other joints have
 // none.
 struct HingeRange {
-  Quat end;        // the joint at one end
+  Quat end;        // rotation of the joint at one end
   Vec3 axis;       // towards the other, in the frame of `end`
-  double rad = 0;  // from end to end; 0: the joint stands still
+  double rad = 0;  // from end to end; 0: the joint does not move
 };
 
 std::optional<HingeRange> hinge_range(const Take& clip, std::size_t joint) {
@@ -135,7 +136,7 @@ bool is_at_an_end(const HingeRange& range, Quat rotation) {
   return from_end <= slack_rad || from_end >= range.rad - slack_rad;
 }
 
-// A stretched knee is as still as a frozen one.
+// A stretched knee is as still as a frozen one, so spans at the end of a hinge are removed.
 void leave_out_hinge_ends(const Take& clip, std::size_t joint, std::vector<FrameSpan>& frozen) {
   if (frozen.empty()) return;
   const std::optional<HingeRange> range = hinge_range(clip, joint);
@@ -145,7 +146,7 @@ void leave_out_hinge_ends(const Take& clip, std::size_t joint, std::vector<Frame
   });
 }
 
-// The samples that each kind of span covers.
+// The frozen and bridged spans.
 struct StaleSpans {
   std::vector<std::vector<FrameSpan>> frozen, bridged;  // one list per track
 };
@@ -163,7 +164,7 @@ StaleSpans find_stale(const std::vector<TrackChanges>& tracks, std::size_t frame
     if (step_scales[n].usual == 0) return;
     set_flags(tracks[n].steps, share_of_usual * step_scales[n].usual, n, repeats);
     set_flags(tracks[n].bends, share_of_usual * bend_scales[n].usual, n, straight);
-    // A frozen span is a straight line too.
+    // A frozen span is also a straight line.
     for (std::size_t t = 0; t + 2 < frames; ++t) {
       if (repeats(t, n) == Flag::yes || repeats(t + 1, n) == Flag::yes) straight(t, n) = Flag::no;
     }
@@ -191,7 +192,7 @@ std::size_t shortest_frames(const CheckReport& report, const CheckSettings& sett
   return frames_in(settings.shortest_stale_s, report.frame_rate_hz, 2);
 }
 
-// Both kinds of a track, by frame; they do not overlap.
+// Reports both kinds of spans of each track, by frame; they do not overlap.
 void report_stale(const StaleSpans& spans, const std::vector<std::size_t>& tracks,
                   CheckReport& report) {
   struct Stale {
@@ -224,8 +225,8 @@ double largest_component(Vec3 v) {
   return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
 }
 
-// Bends of a rotation: a gap is bridged along the geodesic or in the angles of the file, whichever
-// is the straighter.
+// A gap in a rotation is bridged along the geodesic or in the file's angles; its bends are those of
+// the straighter one.
 TrackChanges rotation_changes(const Take& clip, std::size_t joint) {
   const std::size_t frames = clip.frame_count();
   const RotationOrder order = clip.skeleton.rotation_order(joint);

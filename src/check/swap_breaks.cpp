@@ -1,4 +1,4 @@
-// Extrapolates tracks across gaps and jumps, pairs the breaks, and asks nearby markers.
+// Extrapolates tracks across gaps and jumps, pairs the breaks, and compares nearby markers.
 #include "check/swap_breaks.hpp"
 
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace kinemend::check {
 
 namespace {
 
-// Velocity a frame at the end of a run of samples; `step` is -1 for the run before `frame`, 1 for
-// the one behind. Across a gap noise has more influence, so more samples are used.
+// Returns the velocity a frame at the end of a run of samples; `step` is -1 for the run before
+// `frame`, 1 for the one after. Across a gap noise has more influence, so more samples are used.
 std::optional<Vec3> end_velocity(const Take& clip, std::size_t marker, std::size_t frame,
                                  std::ptrdiff_t step, std::size_t most_frames) {
   const auto frames = static_cast<std::ptrdiff_t>(clip.frame_count());
@@ -33,7 +33,7 @@ std::optional<Vec3> end_velocity(const Take& clip, std::size_t marker, std::size
   return (1.0 / static_cast<double>(step * reach)) * (far - near);
 }
 
-// The first frame after `frame` in which the marker is seen.
+// Returns the first frame after `frame` in which the marker is seen.
 std::optional<std::size_t> next_seen(const Take& clip, std::size_t marker, std::size_t frame) {
   for (std::size_t f = frame + 1; f < clip.frame_count(); ++f) {
     if (clip.is_observed(f, marker)) return f;
@@ -42,7 +42,7 @@ std::optional<std::size_t> next_seen(const Take& clip, std::size_t marker, std::
 }
 
 std::optional<Exchange> exchange_of(const Take& clip, const Break& a, const Break& b) {
-  // Mismatch as exchanged over the mismatch as labelled. A quarter: "four times less" of
+  // The mismatch as exchanged over that as labelled. A quarter is the "four times less" of
   // docs/check.md. Chosen by hand, not swept.
   constexpr double largest_doubt = 0.25;
   const double a_to_b = side_mismatch(clip, a.marker, a.before, b.marker, b.after);
@@ -155,11 +155,11 @@ struct Neighbour {
   double spread = 0;  // quartile range of the distance
 };
 
-// The markers with the least spread of their distance.
+// Returns the markers whose distance has the least spread.
 std::vector<Neighbour> steady_neighbours(const Take& clip, const std::vector<std::size_t>& markers,
                                          std::size_t of, std::size_t except,
                                          const std::vector<std::size_t>& frames) {
-  // Neighbours that are asked, and frames in which both are seen. Chosen by hand, not swept.
+  // The number of neighbours used, and of frames in which both are seen. Chosen by hand, not swept.
   constexpr std::size_t wanted = 5, fewest_frames = 8;
   std::vector<Neighbour> found;
   std::vector<double> distances;

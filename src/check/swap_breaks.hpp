@@ -1,4 +1,4 @@
-// Finds places at which two markers may have exchanged their labels.
+// Finds places where two markers may have exchanged their labels.
 #pragma once
 
 #include <cstddef>
@@ -17,14 +17,14 @@ struct Break {
   double mismatch = 0;     ///< distance of the extrapolated sides, file units
 };
 
-/// Distance of the track of `from` up to frame `before` and that of `to` from frame `after` on,
-/// both extrapolated to the middle between them with their velocities there. About half the third
-/// difference where they are successive frames of one track.
+/// Returns the distance between the track of `from` up to frame `before` and that of `to` from
+/// frame `after` on, both extrapolated to the middle with their velocities there. For successive
+/// frames of one track it is about half the third difference.
 double side_mismatch(const Take& clip, std::size_t from, std::size_t before, std::size_t to,
                      std::size_t after);
 
-/// All gaps between samples, and the successive samples whose mismatch is 6 times the usual one of
-/// their marker. By frame `before`. `markers` are those examined.
+/// Returns all gaps between samples, and the successive samples whose mismatch is 6 times the usual
+/// one of their marker, by frame `before`. `markers`: those examined.
 std::vector<Break> find_breaks(const Take& clip, const std::vector<std::size_t>& markers);
 
 /// Two breaks at which the markers exchange their labels: each track continues in the other's.
@@ -37,17 +37,17 @@ struct Exchange {
   double doubt = 0;             ///< mismatch with labels exchanged over that without
 };
 
-/// No break is in two exchanges; the least doubtful ones are kept. By frame.
+/// Returns the exchanges by frame. No break is in two of them; the least doubtful ones are kept.
 std::vector<Exchange> find_exchanges(const Take& clip, const std::vector<Break>& breaks);
 
-/// Evidence from distances to nearby markers that two markers are exchanged in some frames: the
-/// mean departure from their usual distances as labelled, and with labels exchanged.
+/// Evidence on an exchange from distances to nearby markers: their mean departure from the usual
+/// distances in the frames in question, as labelled and with labels exchanged.
 struct NeighbourVerdict {
   double as_labelled = 0;
   double exchanged = 0;
-  bool known = false;  ///< false where no neighbour was seen
+  bool known = false;  ///< false if no neighbour was seen
 };
-/// `swapped[f]` is 1 in the frames in question, 0 in those that usual distances are from.
+/// `swapped[f]`: 1 in the frames in question, 0 in those that give the usual distances.
 NeighbourVerdict ask_neighbours(const Take& clip, const std::vector<std::size_t>& markers,
                                 std::size_t first_marker, std::size_t second_marker,
                                 const std::vector<std::uint8_t>& swapped);

@@ -31,8 +31,8 @@ std::vector<std::size_t> named_markers(const Take& clip) {
   return markers;
 }
 
-// The frames between the exchanges of one pair, every other span of them: those of odd number or
-// those of even number, whichever are fewer.
+// Returns every other span between the exchanges of one pair: the odd or the even ones, whichever
+// have fewer frames.
 std::vector<FrameSpan> swapped_spans(const std::vector<Exchange>& exchanges, std::size_t frames) {
   std::vector<FrameSpan> odd, even;
   std::size_t in_odd = 0, in_even = 0;
@@ -46,14 +46,15 @@ std::vector<FrameSpan> swapped_spans(const std::vector<Exchange>& exchanges, std
   return in_odd <= in_even ? odd : even;
 }
 
-// Across a gap two tracks may seem to cross by chance, so that neighbours must confirm it.
+// Across a gap two tracks may seem to cross by chance, so neighbours must confirm the exchange.
 bool neighbours_agree(const Take& clip, const std::vector<std::size_t>& markers,
                       const std::pair<std::size_t, std::size_t>& pair, const FrameSpan& span,
                       const std::vector<FrameSpan>& all_spans, std::size_t longest_gap) {
-  // A gap over which an exchange is sure without neighbours. Chosen by hand, not swept.
+  // Across gaps up to this length an exchange is certain without neighbours. Chosen by hand, not
+  // swept.
   constexpr double short_gap_s = 0.03;
   std::vector<std::uint8_t> swapped(clip.frame_count());
-  // Other swapped spans of the pair are left out of the usual distances.
+  // Other swapped spans of the pair do not contribute to the usual distances.
   for (const FrameSpan& s : all_spans) std::fill_n(swapped.begin() + s.first, s.length(), 2);
   std::fill_n(swapped.begin() + span.first, span.length(), 1);
   const check::NeighbourVerdict verdict =

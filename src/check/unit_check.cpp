@@ -1,4 +1,4 @@
-// Finds out whether the unit of a take fits a person.
+// Checks whether the unit of a take fits a person.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,14 +11,14 @@ namespace kinemend::check {
 namespace {
 
 // Chosen by hand, not swept.
-constexpr std::size_t fewest_joints = 10;  // of a body whose size is meaningful
-constexpr std::size_t fewest_markers = 8;  // the same
+constexpr std::size_t fewest_joints = 10;  // of a body with a meaningful size
+constexpr std::size_t fewest_markers = 8;  // of such a body
 
 std::string size_text(double metres) {
   return metres >= 0.1 ? fmt::format("{:.3g} m", metres) : fmt::format("{:.3g} mm", 1000 * metres);
 }
 
-// The median over frames of the largest extent along an axis, file units.
+// Returns the median over frames of the largest extent along an axis, in file units.
 double usual_extent(const Take& clip, const std::vector<std::size_t>& markers) {
   const std::size_t frames = clip.frame_count(), count = std::min(frames, most_looked_at);
   std::vector<double> extents;
@@ -39,7 +39,7 @@ double usual_extent(const Take& clip, const std::vector<std::size_t>& markers) {
   return median_of(extents);
 }
 
-// The unit in which markers span a person.
+// Returns the unit in which the markers have the extent of a person.
 const LengthUnit* unit_of_extent(double extent) {
   static constexpr std::array<LengthUnit, 4> units{
       {{"mm", 0.001}, {"cm", 0.01}, {"m", 1.0}, {"inch", 0.0254}}};

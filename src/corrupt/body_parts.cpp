@@ -25,7 +25,7 @@ Side side_of(std::string_view bare) {
   const std::string name = lower_case(bare);
   if (name.find("left") != std::string::npos) return Side::left;
   if (name.find("right") != std::string::npos) return Side::right;
-  // LWRA, RToe; elbowL, hip_r.
+  // The side may be a capital at either end: LWRA, RToe; elbowL, hip_r.
   if (bare.size() < 2) return Side::none;
   const auto is_upper = [](char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; };
   const char first = bare[0], last = bare[bare.size() - 1];
@@ -41,7 +41,7 @@ Side side_of(std::string_view bare) {
 }  // namespace
 
 NamedPart named_part(std::string_view name) {
-  // Legs first: `Foot_Index` is no finger.
+  // Legs are tested first, because `Foot_Index` is not a finger.
   static constexpr std::array<std::string_view, 14> legs{"leg",  "knee", "kne", "ankle", "ank",
                                                          "foot", "heel", "hee", "toe",   "thigh",
                                                          "thi",  "tib",  "hip", "shank"};

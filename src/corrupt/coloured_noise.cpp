@@ -15,12 +15,12 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Integral of (1 + x^2)^(-slope / 2) over x >= 0.
+// Returns the integral of (1 + x^2)^(-slope / 2) over x >= 0.
 double shape_integral(double slope) {
   return std::sqrt(pi) / 2 * portable::tgamma((slope - 1) / 2) / portable::tgamma(slope / 2);
 }
 
-// sum_k x_k exp(2 pi i k n / N) in place; N is a power of two (Cooley and Tukey, radix 2).
+// Computes sum_k x_k exp(2 pi i k n / N) in place; N is a power of two (Cooley and Tukey, radix 2).
 void inverse_transform(std::vector<Complex>& x) {
   const std::size_t size = x.size();
   for (std::size_t i = 1, j = 0; i < size; ++i) {
@@ -40,7 +40,7 @@ void inverse_transform(std::vector<Complex>& x) {
     for (std::size_t first = 0; first < size; first += length) {
       for (std::size_t k = 0; k < half; ++k) {
         const Complex turn = turns[k * step], odd = x[first + k + half];
-        // Written out: operator* of std::complex looks for infinities.
+        // This is written out because operator* of std::complex tests for infinities.
         const Complex turned{odd.real() * turn.real() - odd.imag() * turn.imag(),
                              odd.real() * turn.imag() + odd.imag() * turn.real()};
         x[first + k + half] = x[first + k] - turned;
@@ -50,8 +50,8 @@ void inverse_transform(std::vector<Complex>& x) {
   }
 }
 
-// The period goes beyond the take by the time in which the noise forgets itself, as its end is
-// like its beginning.
+// The period exceeds the take by the correlation time of the noise, because its end resembles its
+// beginning.
 std::size_t period_frames(NoiseShape shape, std::size_t frames, double rate_hz) {
   const double least = static_cast<double>(frames) + rate_hz / shape.corner_hz;
   return std::bit_ceil(static_cast<std::size_t>(std::max(2.0, std::ceil(least))));
@@ -75,7 +75,7 @@ std::vector<double> coloured_noise(NoiseShape shape, std::size_t frames, double 
   Random own = random;
   std::vector<Complex> harmonics(period);
   for (std::size_t k = 0; k <= period / 2; ++k) {
-    // Harmonic k stands for the band of a step about it; of the first and last half a step lies
+    // Harmonic k represents a band one step wide around it; half of the first and last band lies
     // within [0, rate / 2].
     const bool is_end = k == 0 || k == period / 2;
     const double variance =
@@ -101,8 +101,8 @@ std::vector<Vec3> coloured_vectors(NoiseShape shape, std::size_t frames, double 
 }
 
 std::vector<double> random_path(std::size_t frames, double rate_hz, const Random& random) {
-  // Velocities that last for some seconds, as those of a heading that a magnetometer corrects. A
-  // corner of 0.2 Hz and its slope are chosen by hand, not swept.
+  // The velocities persist for some seconds, like those of a heading that a magnetometer corrects.
+  // The corner of 0.2 Hz and the slope are chosen by hand, not swept.
   constexpr NoiseShape velocity{0.2, 4};
   // The variance of the integral of noise with density S(0) at 0 Hz grows by S(0) / 2 a second.
   const double scale = std::sqrt(2 / (60 * noise_density(velocity, 0)));

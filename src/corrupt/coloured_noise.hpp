@@ -16,20 +16,21 @@ struct NoiseShape {
   double slope = 2;      ///< above 1, so that the variance over all frequencies is finite
 };
 
-/// Density (1/Hz) at `frequency_hz` of a process of unit variance over [0, infinity).
+/// Returns the density (1/Hz) at `frequency_hz` of a process of unit variance over [0, infinity).
 double noise_density(NoiseShape shape, double frequency_hz);
 
-/// Stationary Gaussian noise with that density up to half of the rate and nothing above, by the sum
-/// of its harmonics over a period that is longer than the take. What a rate cannot hold is missing,
-/// not folded: the density below does not depend on the rate. Rates that differ by powers of two
-/// give the same harmonics from the same generator. Rates above 1,000 Hz count as that.
+/// Returns stationary Gaussian noise with that density up to half the rate and nothing above, as
+/// the sum of its harmonics over a period longer than the take. Frequencies that a rate cannot hold
+/// are left out, not folded: the density below them does not depend on the rate. Rates that differ
+/// by powers of two give the same harmonics from the same generator. Rates above 1,000 Hz are
+/// treated as 1,000 Hz.
 std::vector<double> coloured_noise(NoiseShape shape, std::size_t frames, double rate_hz,
                                    const Random& random);
-/// The same, independent along each axis.
+/// Returns such noise independently along each axis.
 std::vector<Vec3> coloured_vectors(NoiseShape shape, std::size_t frames, double rate_hz,
                                    const Random& random);
 
-/// The integral of slow noise: a path that starts at zero with a standard deviation of
+/// Returns the integral of slow noise: a path that starts at zero and has a standard deviation of
 /// sqrt(t / 60 s) after t seconds, without steps from frame to frame.
 std::vector<double> random_path(std::size_t frames, double rate_hz, const Random& random);
 

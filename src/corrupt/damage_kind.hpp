@@ -12,7 +12,7 @@ namespace kinemend::corrupt {
 
 using Notes = std::vector<std::string>;
 
-/// Runs `damage` on the clip and reports what it changed.
+/// Runs `damage` on the clip and reports the changes.
 DamageReport measured(std::string kind, Take& clip, const std::function<void(Notes&)>& damage);
 
 DamageReport measured(std::string kind, VectorMotion& motion,
@@ -20,7 +20,8 @@ DamageReport measured(std::string kind, VectorMotion& motion,
 
 /// A kind of damage is a struct with `name`, `summary`, `paper`, `Options`, `table()` and
 /// `damage(clip, random, options, notes)`. It gets its own generator, to be forked for each joint.
-/// `damage` also takes a `VectorMotion`, unless it needs a skeleton: then it takes a `Take` only.
+/// `damage` also accepts a `VectorMotion`, unless it needs a skeleton: then it accepts only a
+/// `Take`.
 template <class Kind, class Motion>
 DamageReport apply_kind(Motion& motion, Random& random, const OptionValues& values) {
   const auto options = Kind::table().parse(values);
@@ -42,7 +43,7 @@ Damage entry() {
   return damage;
 }
 
-/// The sections of the table, one per source file.
+/// These functions add the sections of the table, one for each source file.
 void add_rotation_noise(std::vector<Damage>& table);
 void add_biases(std::vector<Damage>& table);
 void add_outliers(std::vector<Damage>& table);

@@ -1,4 +1,4 @@
-// Adds up the steps of the body in the drifting direction and lets the place wander.
+// Sums the steps of the body in the drifting direction and lets the place wander.
 #include "corrupt/drift.hpp"
 
 #include "corrupt/coloured_noise.hpp"

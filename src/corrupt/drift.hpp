@@ -9,15 +9,15 @@
 
 namespace kinemend::corrupt {
 
-/// The drift of a suit that knows turns and steps but neither north nor place.
+/// The drift of a suit that measures turns and steps but neither north nor place.
 struct Drift {
-  std::vector<Quat> headings;  ///< F turns about the axis that points up
-  std::vector<Vec3> places;    ///< F; where the body's centre has got to
+  std::vector<Quat> headings;  ///< F turns about the up axis
+  std::vector<Vec3> places;    ///< F; drifted places of the body's centre
 };
 
-/// `centres` are the true centres (F). A step is taken in the direction of the heading of its time;
-/// `place` drifts along the floor besides. Headings in degrees and lengths in the unit of
-/// `centres`, both after a minute.
+/// Returns the drift of `centres`, the true centres (F). Each step is taken in the direction of the
+/// drifted heading at its time; `place` adds a drift along the floor. `heading_deg` (degrees) and
+/// `place` (the unit of `centres`) are the standard deviations after a minute.
 Drift drifted(const std::vector<Vec3>& centres, double rate_hz, Axis up, double heading_deg,
               double place, const Random& random);
 

@@ -19,14 +19,14 @@ struct Span {
   std::size_t first = 0, last = 0;
 };
 
-// Values in a span: that of the frame before it ("last"; the rest pose where there is none) or the
+// The values in a span: that of the frame before it ("last"; the rest pose if there is none) or the
 // rest pose.
 struct Filling {
   bool rest = false;
   bool mark = true;  // as not observed
 };
 
-// Length of a span: geometric with the given mean, so that it decays exponentially.
+// Returns the length of a span, geometric with the given mean.
 std::size_t random_length(Random& random, double mean_frames, std::size_t longest) {
   if (mean_frames <= 1) return 1;
   const double length =
@@ -34,7 +34,7 @@ std::size_t random_length(Random& random, double mean_frames, std::size_t longes
   return length < static_cast<double>(longest) ? static_cast<std::size_t>(length) : longest;
 }
 
-// At each frame whose predecessor is not in a span, one begins with the given probability.
+// Begins a span with the given probability at each frame whose predecessor is not in a span.
 std::vector<Span> random_spans(Random random, std::size_t first_frame, std::size_t frames,
                                double start_probability, double mean_frames) {
   std::vector<Span> spans;
@@ -42,7 +42,7 @@ std::vector<Span> random_spans(Random random, std::size_t first_frame, std::size
     if (!random.chance(start_probability)) continue;
     const std::size_t length = std::min(random_length(random, mean_frames, frames), frames - f);
     spans.push_back({f, f + length});
-    f += length;  // the frame after a span is not in a span
+    f += length;  // keeps the frame after a span outside of spans
   }
   return spans;
 }
@@ -78,7 +78,7 @@ void lose_channel(Take& clip, std::size_t joint, std::size_t channel,
   }
 }
 
-// The last sample before a span; zero where there is none.
+// Returns the last sample before a span; zero if there is none.
 Vec3 last_seen(const VectorMotion& motion, std::size_t track, std::size_t first) {
   for (std::size_t f = first; f-- > 0;) {
     if (is_observed(motion, f, track)) return vector_at(motion, f, track);
@@ -121,7 +121,7 @@ void lose(Take& clip, const Unit& unit, const std::vector<Span>& spans, Filling 
   }
 }
 
-// A generator for each unit that does not depend on which other joints are asked for.
+// Returns a generator for each unit, independent of which other joints are selected.
 Random unit_random(const Random& random, const Unit& unit) {
   return random.fork(unit.joints.front())
       .fork(static_cast<std::uint64_t>(std::int64_t{unit.channel} + 1));
@@ -167,8 +167,8 @@ struct Frozen {
   template <class Motion>
   static void damage(Motion& motion, const Random& random, const Options& options, Notes& notes) {
     const double mean_frames = std::max(1.0, options.mean_length_s * motion.frame_rate_hz);
-    // A span and the frame it repeats last mean_frames + 1; the wait for the next start is 1/p - 1
-    // more.
+    // A span and the frame it repeats last mean_frames + 1; the wait for the next start adds 1/p -
+    // 1.
     double start = options.share / std::max(mean_frames * (1 - options.share), 1e-9);
     if (start > 1) {
       start = 1;

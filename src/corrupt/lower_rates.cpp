@@ -1,5 +1,5 @@
-// Damages that show a take as if it had been captured at a lower rate: samples are held, or joined
-// by straight lines.
+// Damages that show a take as if captured at a lower rate: samples are held, or joined by straight
+// lines.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,13 +12,13 @@ namespace kinemend::corrupt {
 
 namespace {
 
-// A time between frames: frame + share, share in [0, 1).
+// A time between frames: frame + share, with share in [0, 1).
 struct Moment {
   std::size_t frame = 0;
   double share = 0;
 };
 
-// Times within this share of a frame are that frame. Rounding.
+// Times within this share of a frame are that frame, because of rounding.
 constexpr double same_frame = 1e-6;
 
 Moment moment_of(double frame, std::size_t frames) {
@@ -29,14 +29,14 @@ Moment moment_of(double frame, std::size_t frames) {
   return {static_cast<std::size_t>(whole), share > same_frame ? share : 0};
 }
 
-// What a frame is made of: the take as it was at two moments.
+// A frame as a mixture of the take at two moments.
 struct Recipe {
   Moment from, to;
   double share = 0;  // of `to`
 };
 
-// Of each frame. `interpolates`: on the line from the last sample of the lower rate to the next,
-// where there is one, else the last.
+// Returns the mixture of each frame. `interpolates`: on the line from the last sample of the lower
+// rate to the next one, if there is one; otherwise the last sample.
 std::vector<Recipe> recipes(std::size_t frames, double samples_per_frame, bool interpolates) {
   std::vector<Recipe> list;
   for (std::size_t f = 0; f < frames; ++f) {
@@ -55,7 +55,7 @@ std::vector<Recipe> recipes(std::size_t frames, double samples_per_frame, bool i
   return list;
 }
 
-// A moment of a track, of values that `mix(a, b, share)` interpolates.
+// Returns the value of a track at a moment, interpolated by `mix(a, b, share)`.
 template <class At, class Mix>
 auto value_at(Moment moment, const At& at, const Mix& mix) {
   const auto value = at(moment.frame);
@@ -68,14 +68,14 @@ auto value_of(const Recipe& recipe, const At& at, const Mix& mix) {
   return recipe.share > 0 ? mix(value, value_at(recipe.to, at, mix), recipe.share) : value;
 }
 
-// Whether all that a frame is made of was seen.
+// Whether all samples that a frame is mixed from were seen.
 template <class Seen>
 bool is_seen(const Recipe& recipe, const Seen& seen) {
   const auto at = [&](Moment m) { return seen(m.frame) && (m.share == 0 || seen(m.frame + 1)); };
   return at(recipe.from) && (recipe.share == 0 || at(recipe.to));
 }
 
-// Whether a frame is one of the take's, to the bit.
+// Whether a frame is exactly one of the take's.
 bool is_a_frame(const Recipe& recipe) { return recipe.from.share == 0 && recipe.share == 0; }
 
 Vec3 mix_vectors(Vec3 a, Vec3 b, double share) { return a + share * (b - a); }

@@ -10,7 +10,7 @@ namespace kinemend::corrupt {
 
 namespace {
 
-// Starts from `longest_s` before frame 0 on; `duration` draws from the same generator.
+// Draws starts from `longest_s` before frame 0; `duration` draws from the same generator.
 template <class Duration>
 std::vector<NoiseEvent> poisson(double per_minute, double longest_s, double seconds, Random random,
                                 const Duration& duration) {

@@ -6,7 +6,7 @@
 
 namespace kinemend::corrupt {
 
-/// Three independent standard normal numbers: x, then y, then z.
+/// Returns three independent standard normal numbers: x, then y, then z.
 inline Vec3 normal_vector(Random& random) {
   const double x = random.normal(), y = random.normal(), z = random.normal();
   return {x, y, z};

@@ -1,5 +1,5 @@
-// Damages that throw single samples off: random jumps, jumps of one size, and values multiplied by
-// a factor.
+// Damages that displace single samples: random jumps, jumps of one size, and values multiplied by a
+// factor.
 #include "corrupt/damage_kind.hpp"
 #include "corrupt/normal_vector.hpp"
 #include "corrupt/position_targets.hpp"
@@ -10,7 +10,7 @@ namespace kinemend::corrupt {
 
 namespace {
 
-// `hit(f, j, own)` for a share of the samples of every track.
+// Calls `hit(f, j, own)` for a share of the samples of every track.
 template <class Motion, class Hit>
 void hit_share(const Motion& motion, const Random& random, const TargetOptions& options,
                double share, const Hit& hit) {
@@ -121,7 +121,7 @@ struct OutlierScale {
     }
     refit_to(clip, targets, options);
   }
-  // Coordinates about the mean of the frame's positions; whole rotation vectors.
+  // Scales coordinates about the mean of the frame's positions, and whole rotation vectors.
   static void damage(VectorMotion& motion, const Random& random, const Options& options, Notes&) {
     std::vector<Vec3> means(frame_count(motion));
     for (std::size_t f = 0; f < means.size(); ++f) means[f] = mean_position(motion, f);

@@ -16,8 +16,8 @@ namespace kinemend::corrupt {
 
 namespace {
 
-// Adds Gaussian noise with the given deviation at each joint; the noise of a joint does not depend
-// on the other joints.
+// Adds Gaussian noise with the given deviation to each joint. A joint's noise does not depend on
+// other joints.
 void add_noise(std::vector<Vec3>& positions, std::size_t joint_count,
                const std::vector<double>& deviations, const Random& random) {
   for (std::size_t j = 0; j < joint_count; ++j) {
@@ -79,7 +79,7 @@ struct PositionNoise {
     add_noise(targets, clip.joint_count(), deviations, random);
     refit_to(clip, targets, options);
   }
-  // Of positions only.
+  // Damages positions only.
   static void damage(VectorMotion& motion, const Random& random, const Options& options,
                      Notes& notes) {
     const double per_cm = options.cm_per_unit > 0 ? 1 / options.cm_per_unit : motion.per_cm;
@@ -103,7 +103,7 @@ struct PositionNoise {
   }
 };
 
-// Mean square of a coordinate of the listed joints, relative to joint 0.
+// Returns the mean square of a coordinate of the listed joints, relative to joint 0.
 double signal_power(const std::vector<Vec3>& positions, std::size_t joint_count,
                     const std::vector<std::size_t>& joints) {
   double sum = 0;
@@ -171,7 +171,7 @@ struct Snr {
         realised_snr_db(power, clean, targets, clip.joint_count(), joints),
         realised_snr_db(power, clean, joint_positions(clip), clip.joint_count(), joints)));
   }
-  // Of positions only, about the mean of their frame.
+  // Damages positions only; their power is measured about the mean of their frame.
   static void damage(VectorMotion& motion, const Random& random, const Options& options,
                      Notes& notes) {
     const auto tracks = target_tracks(motion, options);

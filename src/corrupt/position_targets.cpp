@@ -9,7 +9,7 @@
 namespace kinemend::corrupt {
 
 std::vector<std::size_t> position_joints(const Skeleton& skeleton, const TargetOptions& options) {
-  // Every joint has a position, with or without channels.
+  // Every joint has a position, even without channels.
   Skeleton bare = skeleton;
   for (auto& channels : bare.channels) channels.clear();
   return target_joints(bare, options);

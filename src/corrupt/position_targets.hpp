@@ -1,4 +1,4 @@
-// The joints that damage of positions reaches, and the way back from positions to a pose.
+// The joints that damage of positions affects, and the refit of the pose to the positions.
 #pragma once
 
 #include <span>
@@ -9,15 +9,15 @@
 
 namespace kinemend::corrupt {
 
-/// Joints whose positions are damaged: those asked for, joint 0 only with `root`. Their rotation
-/// channels do not matter, as the joints above them turn.
+/// Returns the joints whose positions are damaged: the selected ones, joint 0 only with `root`.
+/// Their rotation channels do not matter, because the joints above them turn.
 std::vector<std::size_t> position_joints(const Skeleton& skeleton, const TargetOptions& options);
 
-/// Refits the clip to damaged positions; roots turn and move with `root` only.
+/// Refits the clip to damaged positions; roots turn and move only with `root`.
 void refit_to(Take& clip, std::span<const Vec3> targets, const TargetOptions& options);
 
-/// Length of a file unit where nobody says: the usual unit that makes the skeleton a person, else
-/// such that it is 170 cm tall; with a note of it.
+/// Returns the length of a file unit if none is given: the usual unit in which the skeleton has
+/// human size, otherwise the one that makes it 170 cm tall. Adds a note of it.
 double usual_cm_per_unit(const Skeleton& skeleton, Notes& notes);
 
 }  // namespace kinemend::corrupt

@@ -1,5 +1,5 @@
-// Solves Wahba's problem for joints with several children, takes the smallest turn for one, and
-// goes from the roots down.
+// Solves Wahba's problem for joints with several children and takes the smallest turn for one, from
+// the roots down.
 #include "corrupt/refit.hpp"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ Quat smallest_turn(Vec3 from, Vec3 to) {
   return normalized({1 + cosine, axis.x, axis.y, axis.z});
 }
 
-// Davenport's matrix: q^T K q = sum_i to_i . R(q) from_i.
+// Returns Davenport's matrix K: q^T K q = sum_i to_i . R(q) from_i.
 rotation::Matrix4 davenport_matrix(std::span<const Vec3> from, std::span<const Vec3> to) {
   rotation::Matrix4 k{};
   for (std::size_t i = 0; i < from.size(); ++i) {
@@ -48,7 +48,7 @@ rotation::Matrix4 davenport_matrix(std::span<const Vec3> from, std::span<const V
   return k;
 }
 
-// Shifts the eigenvalues above zero, so that the largest is also the largest in size.
+// Shifts the eigenvalues above zero, so that the largest also has the largest magnitude.
 void make_positive(rotation::Matrix4& k) {
   double square = 0;
   for (const auto& row : k) {
@@ -72,7 +72,7 @@ Quat wahba(Quat clean, std::span<const Vec3> from, std::span<const Vec3> to) {
 
 struct Bones {
   std::vector<std::vector<std::size_t>> children;
-  std::vector<std::int32_t> translated;  // among translated_joints, or -1
+  std::vector<std::int32_t> translated;  // index in translated_joints, or -1
 };
 
 Bones bones_of(const Take& clip) {
@@ -97,7 +97,7 @@ Vec3 offset_of(const Take& clip, const Bones& bones, std::size_t frame, std::siz
 
 void refit_frame(Take& clip, const Bones& bones, std::size_t frame, std::span<const Vec3> targets,
                  std::span<const std::uint8_t> may_turn, bool move_root) {
-  // Radians, or a share of a length: rounding.
+  // Radians, or a share of a length; smaller differences are rounding.
   constexpr double right_enough = 1e-9;
   const Pose clean = forward_kinematics(clip, frame);
   Pose fitted = clean;
@@ -136,7 +136,7 @@ void refit_frame(Take& clip, const Bones& bones, std::size_t frame, std::span<co
 }  // namespace
 
 Quat fit_rotation(Quat clean, std::span<const Vec3> from, std::span<const Vec3> to) {
-  // File units; a bone that is shorter has no direction: rounding.
+  // File units; a shorter bone has no direction because of rounding.
   constexpr double no_length = 1e-9;
   std::vector<Vec3> bones, aims;
   for (std::size_t i = 0; i < from.size(); ++i) {

@@ -1,4 +1,4 @@
-// Damages that add noise to rotations: white, correlated over time, or in proportion to the motion
+// Damages that add noise to rotations: white, correlated over time, or proportional to the motion
 // of each channel.
 #include <algorithm>
 #include <cmath>
@@ -13,11 +13,11 @@ namespace kinemend::corrupt {
 
 namespace {
 
-// Channels that turn by less over a take are still, but for rounding.
+// Channels that turn less over a take are constant except for rounding.
 constexpr double moving_range = 0.001 * radians_per_degree;
 
-// q <- q Exp(n(f)) for every frame of every joint; `noise` draws from the joint's own generator,
-// frame after frame.
+// Sets q <- q Exp(n(f)) for every frame of every joint; `noise` draws from the joint's own
+// generator, frame after frame.
 template <class Motion>
 void turn_each(Motion& motion, const Random& random, const TargetOptions& options,
                const std::function<Vec3(Random&)>& noise) {
@@ -118,7 +118,8 @@ struct GaussianLog {
   }
 };
 
-// Standard deviation over frames of each channel; 0 for one that moves by less than `moving`.
+// Returns the standard deviation over frames of each channel; 0 for one that moves less than
+// `moving`.
 std::array<double, 3> channel_deviations(const std::vector<std::array<double, 3>>& track,
                                          std::size_t channels, double moving = moving_range) {
   std::array<double, 3> deviations{};
@@ -163,7 +164,7 @@ struct GaussianChannels {
     }
     if (!any) notes.emplace_back("no channel moves: nothing to scale the noise by");
   }
-  // Of rotation vectors and positions the three numbers.
+  // Damages the three numbers of rotation vectors and positions.
   static void damage(VectorMotion& motion, const Random& random, const Options& options,
                      Notes& notes) {
     bool any = false;

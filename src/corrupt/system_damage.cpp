@@ -19,17 +19,17 @@ namespace kinemend::corrupt {
 
 namespace {
 
-// Beyond the numbers of all tracks; any such number would do, by definition.
+// This stream lies beyond the numbers of all tracks; any such number would do. By definition.
 constexpr std::uint64_t drift_stream = std::uint64_t{1} << 42;
 
 // Joints turn by an arc of this radius, a quarter of a body height of 1.7 m: 5 mm are 0.67 degrees.
 // By definition (docs/noise.md).
 constexpr double lever_mm = 425;
 
-// Where the drift is given by its heading, the place drifts along, as in the family `inertial`.
+// If a heading drift is given, the place drifts in the ratio of the family `inertial`.
 constexpr double root_mm_per_heading_deg = 300 / 8.0;
 
-// A number below zero is that of the kind.
+// A negative number means the default of the kind.
 struct SystemOptions : TargetOptions {
   std::string kind = "video";
   double strength = 1;
@@ -39,12 +39,13 @@ struct SystemOptions : TargetOptions {
   std::string depth_axis = "auto";
 };
 
-// How far from a frame the speed of a track is measured to either side: a sixtieth of a second.
+// Returns the reach to either side over which a track's speed is measured: a sixtieth of a second.
 std::size_t speed_frames(double rate_hz) {
   return static_cast<std::size_t>(std::max(1.0, std::round(rate_hz / 60)));
 }
 
-// m/s of each frame from `distance(a, b)` mm between two frames; 0 where it is below zero.
+// Returns the speed of each frame in m/s, where `distance(a, b)` is in mm between two frames; 0 if
+// it is negative.
 template <class Distance>
 std::vector<double> speeds(std::size_t frames, double rate_hz, const Distance& distance) {
   std::vector<double> speed(frames);
@@ -58,7 +59,7 @@ std::vector<double> speeds(std::size_t frames, double rate_hz, const Distance& d
   return speed;
 }
 
-// From their mean over the frames that count.
+// Subtracts the mean over the frames for which `counts(f)` is true.
 template <class Counts>
 void take_mean_off(std::vector<Vec3>& displacements, const Counts& counts) {
   Vec3 sum;
@@ -70,8 +71,8 @@ void take_mean_off(std::vector<Vec3>& displacements, const Counts& counts) {
     displacements[f] = counts(f) ? displacements[f] - (1 / count) * sum : Vec3{};
 }
 
-// The axis along which a body is thinnest: a camera mostly looks at its broad side. `extents` are
-// sums over frames.
+// Returns the axis along which a body is thinnest: a camera mostly looks at its broad side.
+// `extents` are sums over frames.
 int thinnest_axis(Vec3 extents) {
   if (extents.x < extents.y && extents.x < extents.z) return 0;
   return extents.y < extents.z ? 1 : 2;
@@ -115,12 +116,13 @@ int depth_axis_of(const Motion& motion, const SystemOptions& options) {
   return options.depth_axis[0] - 'x';
 }
 
-// The axis of a joint's own frame that is depth: any, as joints look everywhere.
+// Returns the depth axis in a joint's own frame. It is random, because joints point in all
+// directions.
 int joint_depth_axis(const Random& random, std::size_t joint) {
   return static_cast<int>(random.fork(joint).fork(4).below(3));
 }
 
-// What both kinds of motion damage by.
+// The parameters of a damage of either kind of motion.
 struct Plan {
   SystemNoise noise;
   int depth_axis = 0;
@@ -170,7 +172,7 @@ class ClipDamage {
   }
 
  private:
-  // Whether the position of joint 0 is of channels, or of a clip made in memory.
+  // Whether the position of joint 0 has channels, or the clip was made in memory.
   bool moves(std::size_t joint) const {
     bool any = false, of_joint = false;
     for (std::size_t j = 0; j < clip_.joint_count(); ++j) {
@@ -200,7 +202,7 @@ class ClipDamage {
     }
   }
 
-  // Of a joint's rotation from its mean, as an arc.
+  // Returns the arcs of a joint's rotations from their mean.
   std::vector<Vec3> swing(std::size_t joint) const {
     std::vector<Quat> rotations(clip_.frame_count());
     for (std::size_t f = 0; f < rotations.size(); ++f) rotations[f] = truth_.rotation(f, joint);
@@ -211,7 +213,7 @@ class ClipDamage {
     return arcs;
   }
 
-  // `place(f)` is the position that moves.
+  // `place(f)`: reference to the moving position.
   template <class Place>
   void move(std::size_t number, std::size_t joint, const Place& place) {
     std::vector<Vec3> before(clip_.frame_count());
@@ -282,7 +284,7 @@ class VectorDamage {
     return lever_mm * angle_between(exp(scale * from), exp(scale * to));
   }
 
-  // Of a rotation from its mean, as an arc.
+  // Returns the arcs of a rotation from its mean.
   std::vector<Vec3> swing(std::size_t track) const {
     std::vector<Quat> rotations(motion_.values.frames);
     for (std::size_t f = 0; f < rotations.size(); ++f)
@@ -294,7 +296,7 @@ class VectorDamage {
     return arcs;
   }
 
-  // Of a position from where it mostly is about the body's centre, mm.
+  // Returns a position's displacement from its mean relative to the body's centre, in mm.
   std::vector<Vec3> displacement(std::size_t track) const {
     std::vector<Vec3> displacements(motion_.values.frames);
     for (std::size_t f = 0; f < displacements.size(); ++f)
@@ -335,7 +337,7 @@ class VectorDamage {
           set_vector(motion_, f, n, path.places[f] + rotate(path.headings[f], v - centres_[f]));
           continue;
         }
-        // A turn in the world, as one in the root's own frame.
+        // Converts a turn in the world to one in the root's own frame.
         const Quat q = exp((1 / motion_.per_radian) * v);
         turn(motion_, f, n, log(conjugate(q) * path.headings[f] * q));
       }

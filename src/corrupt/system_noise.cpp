@@ -1,4 +1,4 @@
-// What capture systems add to motion, family by family, as numbers.
+// The numbers of the error that capture systems add to motion, family by family.
 #include "corrupt/system_noise.hpp"
 
 #include <array>
@@ -6,10 +6,11 @@
 namespace kinemend::corrupt {
 
 std::span<const SystemFamily> system_families() {
-  // Tuned until bench/papers/system_noise.cpp measures at generated errors what it measures at real
-  // ones (pairs of one motion, by a system and by optical markers); docs/noise.md shows both.
+  // The numbers are tuned until bench/papers/system_noise.cpp measures the same at generated errors
+  // as at real ones (pairs of one motion, by a system and by optical markers); docs/noise.md shows
+  // both.
   static constexpr std::array<SystemFamily, 5> families{{
-      // Tuned to pairs at 60 Hz and at 30 Hz at once.
+      // Tuned to pairs at 60 Hz and at 30 Hz simultaneously.
       {"video",
        "a person tracked in the image of one camera, 30 to 60 Hz",
        {.std_mm = 5,
@@ -100,8 +101,8 @@ std::span<const SystemFamily> system_families() {
         .limb_error_mm = 75,
         .heading_deg = 0,
         .root_mm = 0}},
-      // Tuned to the angles of an inertial suit; the drift is a guess, as suit and markers start at
-      // different headings.
+      // Tuned to the angles of an inertial suit; the drift is a guess, because suit and markers
+      // start at different headings.
       {"inertial",
        "an inertial suit, angles of joints",
        {.std_mm = 35,
@@ -131,7 +132,7 @@ std::span<const SystemFamily> system_families() {
         .limb_error_mm = 0,
         .heading_deg = 8,
         .root_mm = 300}},
-      // No pair: what well calibrated systems are said to reach.
+      // There is no pair; the numbers are those that well calibrated systems are reported to reach.
       {"optical",
        "reflective markers, well calibrated, before any filter",
        {.std_mm = 0.2,

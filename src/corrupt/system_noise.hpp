@@ -6,57 +6,59 @@
 
 namespace kinemend::corrupt {
 
-/// The error that a kind of capture system makes, as numbers. Millimetres at markers and positions;
-/// joints turn by as many as an arc. Along an axis that is depth to a camera some are multiplied.
+/// The numbers of the error of a kind of capture system, in millimetres at markers and positions;
+/// joints turn by arcs of that length. Depth factors apply along the axis that is depth to a
+/// camera.
 struct SystemNoise {
-  // Slow: stationary, PSD (1 + (f / fc)^2)^(-slope / 2).
+  // Slow noise: stationary, PSD (1 + (f / fc)^2)^(-slope / 2).
   double std_mm = 0;        ///< standard deviation along each axis
-  double arm_factor = 1;    ///< times that at arms and hands
-  double depth_factor = 1;  ///< times that in depth
+  double arm_factor = 1;    ///< multiplies it at arms and hands
+  double depth_factor = 1;  ///< multiplies it in depth
   double fc_hz = 1;         ///< above 0
   double slope = 2;         ///< above 1
-  // Floor: the same at rest and in motion; its density falls with the fourth power above its
-  // corner.
+  // Floor: equal at rest and in motion; its density falls with the fourth power above its corner.
   double floor_mm = 0;  ///< standard deviation along each axis
   double floor_depth_factor = 1;
   double floor_hz = 100;  ///< above 0
-  // Of slow noise and floor the share of variance that the whole body, and each limb besides, have
-  // in common: 0 to 1 together.
+  // Shares of the variance of slow noise and floor that are common to the whole body, and to each
+  // limb; together 0 to 1.
   double correlation = 0;
   double limb_correlation = 0;
   double depth_correlation = 0;
   double depth_limb_correlation = 0;
-  // Fast noise in proportion to a track's speed, coloured as the floor.
+  // Motion noise: fast, proportional to a track's speed, coloured as the floor.
   double motion_mm = 0;  ///< standard deviation at 1 m/s
   double motion_depth_factor = 1;
   double motion_hz = 100;  ///< above 0
-  // Displacements along one axis that show along the others, by a fixed share of each pair of axes.
+  // Leaks: displacements along one axis that appear along the others, by a fixed share for each
+  // pair of axes.
   double leak = 0;  ///< standard deviation of the share
   double leak_depth_factor = 1;
-  // Bursts of single tracks.
-  double bursts_per_min = 0;  ///< of each track
+  // Bursts: errors of single tracks.
+  double bursts_per_min = 0;  ///< for each track
   double burst_min_s = 0.05;
   double burst_max_s = 0.2;
-  double burst_min_height = 2;  ///< standard deviations of floor and motion at the moment
+  double burst_min_height = 2;  ///< standard deviations of the current floor and motion noise
   double burst_max_height = 4;
-  // Limbs that are wrong as a whole for a while.
-  double limb_errors_per_min = 0;  ///< of each limb
+  // Limb errors: whole limbs that are displaced for a while.
+  double limb_errors_per_min = 0;  ///< for each limb
   double limb_error_s = 0.3;       ///< mean duration
-  double limb_error_mm = 0;        ///< standard deviation; times `depth_factor` in depth
-  // Paths of heading and place, standard deviation after a minute.
+  double limb_error_mm = 0;        ///< standard deviation; multiplied by `depth_factor` in depth
+  // Drift: paths of heading and place, standard deviation after a minute.
   double heading_deg = 0;
   double root_mm = 0;
 };
 
 struct SystemFamily {
   std::string_view name;
-  std::string_view about;  ///< which systems
+  std::string_view about;  ///< the systems that it describes
   SystemNoise noise;
 };
-/// Five families; docs/noise.md has their numbers as a table, and their figures beside real ones.
+/// Returns five families; docs/noise.md has their numbers as a table, and compares their figures
+/// with real ones.
 std::span<const SystemFamily> system_families();
 
-/// All that is a size multiplied by `strength`.
+/// Returns the noise with all sizes multiplied by `strength`.
 SystemNoise scaled(SystemNoise noise, double strength);
 
 }  // namespace kinemend::corrupt

@@ -55,7 +55,8 @@ DamageReport measured(std::string kind, Take& clip, const std::function<void(Not
 
 namespace {
 
-// Radians of a sample's change: of a rotation the angle between, of a position an arc.
+// Returns a sample's change in radians: the angle between rotations, or a position's distance as an
+// arc.
 double turn_between(const VectorMotion& motion, std::size_t track, Vec3 old, Vec3 now) {
   if (motion.is_rotation[track] == 0) return norm(now - old) / motion.per_radian;
   return angle_between(exp((1 / motion.per_radian) * old), exp((1 / motion.per_radian) * now));
@@ -135,7 +136,7 @@ DamageReport damage_joints(Take& clip, std::string_view name, const OptionValues
   return report;
 }
 
-// The markers that are positions.
+// Returns the markers that are positions.
 std::vector<std::size_t> position_markers(const Take& clip) {
   std::vector<std::size_t> markers;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {

@@ -23,7 +23,7 @@ std::vector<std::string> split(std::string_view list) {
   return names;
 }
 
-// Empty where the list holds only commas.
+// Returns 1 for the names that the list matches. A list of only commas matches none.
 std::vector<std::uint8_t> named_tracks(const std::vector<std::string>& names, std::string_view list,
                                        std::string_view noun) {
   const std::vector<std::string> patterns = split(list);
@@ -39,9 +39,9 @@ std::vector<std::size_t> child_counts(const Skeleton& skeleton) {
   return counts;
 }
 
-// The first joint of each joint's limb, before short limbs are joined to others.
+// Returns the first joint of each joint's limb, before short limbs are joined to others.
 std::vector<std::size_t> limb_heads(const Skeleton& skeleton) {
-  // As the header says: hips and chest, by definition.
+  // The branchings at hips and chest, as the header says. By definition.
   constexpr int dividing_branchings = 2;
   const auto children = child_counts(skeleton);
   std::vector<std::size_t> heads(skeleton.joint_count());
@@ -60,7 +60,7 @@ std::vector<std::size_t> limb_heads(const Skeleton& skeleton) {
 }
 
 void join_short_limbs(const Skeleton& skeleton, std::vector<std::size_t>& heads) {
-  // Joints, as the header says, by definition.
+  // The least number of joints, as the header says. By definition.
   constexpr std::size_t shortest = 3;
   for (std::size_t head = skeleton.joint_count(); head-- > 0;) {
     if (heads[head] != head || skeleton.parents[head] < 0) continue;
@@ -182,7 +182,8 @@ void turn(Take& clip, std::size_t frame, std::size_t joint, Vec3 n) {
 
 namespace {
 
-// The rotation vector nearest to another among those of one rotation, which differ by full turns.
+// Returns the rotation vector nearest to `other` that has the rotation of `v`; these differ by full
+// turns.
 Vec3 nearest_vector(Vec3 v, Vec3 other) {
   const double angle = norm(v);
   if (angle < 1e-12) return v;

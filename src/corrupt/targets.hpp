@@ -12,14 +12,14 @@
 
 namespace kinemend::corrupt {
 
-/// Of a person, where a take does not tell its unit. A round number, chosen by hand.
+/// The height of a person if a take has no unit. A round number, chosen by hand.
 inline constexpr double usual_height_cm = 170;
 
-/// Which joints a damage may touch. Every damage has these options.
+/// The joints that a damage may touch. Every damage has these options.
 struct TargetOptions {
-  TargetOptions() {}   // g++ 12 takes an implicit one for a use of uninitialised memory
+  TargetOptions() {}   // g++ 12 reports an implicit one as a use of uninitialised memory
   std::string joints;  ///< names or shell patterns (`Left*`), separated by commas; empty: all
-  bool root = true;    ///< roots too
+  bool root = true;    ///< also roots
 };
 
 template <class Options>
@@ -30,9 +30,9 @@ OptionTable<Options>& add_target_options(OptionTable<Options>& table) {
       .flag(&Options::root, "root", "damage the root too");
 }
 
-/// Joints that can be damaged, ascending: those asked for that have rotation channels (all of them
-/// where no joint of the skeleton has any, as in a clip made in memory). Errors: `ErrorKind::usage`
-/// for a pattern that no joint matches.
+/// Returns the joints that can be damaged, ascending: the selected ones that have rotation channels
+/// (or all, if no joint of the skeleton has any, as in a clip made in memory). Throws
+/// `ErrorKind::usage` for a pattern that no joint matches.
 std::vector<std::size_t> target_joints(const Skeleton& skeleton, const TargetOptions& options);
 
 std::vector<std::size_t> target_tracks(const Take& clip, const TargetOptions& options);
@@ -41,12 +41,12 @@ std::vector<std::size_t> target_tracks(const VectorMotion& motion, const TargetO
 inline std::size_t frame_count(const Take& clip) { return clip.frame_count(); }
 inline std::size_t frame_count(const VectorMotion& motion) { return motion.values.frames; }
 
-/// The limb of each joint, as consecutive numbers: roots alone, then the chains between branchings.
-/// Only the first two branchings of a path divide it (hips and chest, not fingers), and a chain of
-/// fewer than three joints belongs to its parent's.
+/// Returns the limb of each joint, as consecutive numbers: roots alone, then the chains between
+/// branchings. Only the first two branchings of a path divide it (hips and chest, not fingers), and
+/// a chain of fewer than three joints is joined to its parent's.
 std::vector<std::size_t> limbs(const Skeleton& skeleton);
 
-/// Unit of damage: rotation channel `channel` of one joint, or (-1) whole joints.
+/// A unit of damage: rotation channel `channel` of one joint, or (-1) whole joints.
 struct Unit {
   std::vector<std::size_t> joints;
   int channel = -1;
@@ -59,10 +59,10 @@ std::vector<Unit> units(const Take& clip, const TargetOptions& options, std::str
 std::vector<Unit> units(const VectorMotion& motion, const TargetOptions& options,
                         std::string_view scope);
 
-/// Sets the rotation of a sample, to the nearest that the joint's channels can express.
+/// Sets the rotation of a sample to the nearest one that the joint's channels can express.
 void set_rotation(Take& clip, std::size_t frame, std::size_t joint, Quat rotation);
 
-/// q Exp(n), or p + n as an arc; missing vectors are not changed.
+/// Sets q to q Exp(n), or p to p + n as an arc; missing vectors are not changed.
 void turn(Take& clip, std::size_t frame, std::size_t joint, Vec3 n);
 void turn(VectorMotion& motion, std::size_t frame, std::size_t track, Vec3 n);
 
@@ -70,10 +70,11 @@ void turn(VectorMotion& motion, std::size_t frame, std::size_t track, Vec3 n);
 Vec3 vector_at(const VectorMotion& motion, std::size_t frame, std::size_t track);
 void set_vector(VectorMotion& motion, std::size_t frame, std::size_t track, Vec3 value);
 bool is_observed(const VectorMotion& motion, std::size_t frame, std::size_t track);
-/// Mean of the positions seen in a frame; zero where none is.
+/// Returns the mean of the positions seen in a frame; zero if there are none.
 Vec3 mean_position(const VectorMotion& motion, std::size_t frame);
 
-/// Euler angles (radians) of a joint over the whole clip, continued from frame to frame.
+/// Returns the Euler angles (radians) of a joint over the whole clip, continued from frame to
+/// frame.
 std::vector<std::array<double, 3>> euler_track(const Take& clip, std::size_t joint);
 
 }  // namespace kinemend::corrupt

@@ -1,4 +1,4 @@
-// Draws the errors of a track from its own noise and from what it shares with its limb and body.
+// Draws the errors of a track from its own noise and the noise shared with its limb and body.
 #include "corrupt/track_errors.hpp"
 
 #include <algorithm>
@@ -13,10 +13,11 @@ namespace kinemend::corrupt {
 
 namespace {
 
-// Of floor and motion noise. Steep, so that there is a corner; chosen by hand, not swept.
+// The slope of floor and motion noise. It is steep, so that there is a corner; chosen by hand, not
+// swept.
 constexpr double fast_slope = 4;
 
-// Generators of what tracks have in common, beyond the numbers of any track. Any such would do, by
+// The generators of shared noise, beyond the numbers of any track. Any such numbers would do. By
 // definition.
 constexpr std::uint64_t body_stream = std::uint64_t{1} << 40;
 constexpr std::uint64_t limb_stream = std::uint64_t{1} << 41;
@@ -58,9 +59,9 @@ const TrackErrors::Limb& TrackErrors::limb(std::size_t number) {
   return limbs_.emplace(number, std::move(made)).first->second;
 }
 
-// Of unit depth factor: a track multiplies its depth.
+// The depth factor is not applied here: each track applies its own.
 std::vector<Vec3> TrackErrors::limb_errors(const Random& random) const {
-  // A tracker that loses a limb and finds it again does so within two frames of 30 Hz. Chosen by
+  // A tracker that loses a limb or finds it again does so within two frames of 30 Hz. Chosen by
   // hand, not swept.
   constexpr double edge_s = 2 / 30.0;
   std::vector<Vec3> errors;
@@ -85,7 +86,7 @@ void TrackErrors::add_leaks(std::vector<Vec3>& errors, const NoisyTrack& track,
   if (sizes == Vec3{}) return;
   for (double Vec3::*const to : axes) {
     for (double Vec3::*const from : axes) {
-      // What a displacement shows along its own axis is a gain and no error of this kind.
+      // A displacement that leaks into its own axis is a gain, not an error of this kind.
       const double share = from == to ? 0 : sizes.*to * random.normal();
       for (std::size_t f = 0; f < track.displacement.size(); ++f)
         errors[f].*to += share * track.displacement[f].*from;

@@ -9,7 +9,7 @@ namespace kinemend::feet {
 BandedLeastSquares::BandedLeastSquares(std::size_t size, std::size_t band)
     : size_(size), band_(band), normal_(size * (band + 1)), right_(size) {}
 
-// L D L^T without pivots: the normal matrix is positive definite.
+// Factorises as L D L^T without pivots, because the normal matrix is positive definite.
 std::vector<double> BandedLeastSquares::solve() {
   for (std::size_t p = 0; p < size_; ++p) {
     double* const pivot = column(p);

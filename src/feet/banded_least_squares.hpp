@@ -1,4 +1,4 @@
-// Solves least-squares problems whose squares each hold neighbouring unknowns only.
+// Solves least-squares problems in which each square holds only neighbouring unknowns.
 #pragma once
 
 #include <array>
@@ -7,8 +7,9 @@
 
 namespace kinemend::feet {
 
-/// The unknowns x that minimise a sum of squares, each of which holds neighbouring unknowns only:
-/// sum_i weight_i (value_i + sum_j factor_ij x_j)^2. Time and memory grow with size times band.
+/// Finds the unknowns x that minimise a sum of squares, each of which holds only neighbouring
+/// unknowns: sum_i weight_i (value_i + sum_j factor_ij x_j)^2. Time and memory grow with size times
+/// band.
 class BandedLeastSquares {
  public:
   struct Term {
@@ -16,10 +17,10 @@ class BandedLeastSquares {
     double factor = 0;
   };
 
-  /// Unknowns of one square are at most `band` apart.
+  /// The unknowns of one square are at most `band` apart.
   BandedLeastSquares(std::size_t size, std::size_t band);
 
-  /// Unknowns in ascending order; those of factor 0 are ignored.
+  /// `terms`: unknowns in ascending order; those of factor 0 are ignored.
   template <std::size_t count>
   void add(const std::array<Term, count>& terms, double value, double weight) {
     for (std::size_t a = 0; a < count; ++a) {
@@ -34,7 +35,8 @@ class BandedLeastSquares {
     }
   }
 
-  /// To be called once. The result is not finite unless the squares determine every unknown.
+  /// Returns the solution; must be called only once. The result is not finite unless the squares
+  /// determine every unknown.
   std::vector<double> solve();
 
  private:

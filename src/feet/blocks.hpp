@@ -7,7 +7,8 @@
 
 namespace kinemend::feet {
 
-/// work(first, end) for blocks that together are [first, end), in any order and in several threads.
+/// Calls work(first, end) for blocks that together are [first, end), in any order and in several
+/// threads.
 template <class Work>
 void for_blocks(std::size_t first, std::size_t end, const Work& work) {
   // For speed, not swept.

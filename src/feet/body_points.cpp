@@ -1,4 +1,4 @@
-// Finds the axis along which a body stands above its feet.
+// Finds the axis along which a body is above its feet.
 #include "feet/body_points.hpp"
 
 #include <algorithm>
@@ -18,8 +18,8 @@ Vec3 level_part(Vec3 v, Up up) {
 }
 
 std::optional<Up> find_up(const BodyPoints& body) {
-  // Distance from feet to the body's middle along one axis over that along any other. Chosen by
-  // hand, not swept.
+  // The least ratio of the distance from feet to the body's middle along one axis to that along any
+  // other. Chosen by hand, not swept.
   constexpr double clear_ratio = 2;
   Vec3 sum;
   for (std::size_t f = 0; f < body.frames; ++f) {

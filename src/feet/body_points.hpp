@@ -1,4 +1,4 @@
-// The points of a body that touch the floor, and which way is up.
+// The points of a body that touch the floor, and its up direction.
 #pragma once
 
 #include <cstddef>
@@ -37,10 +37,10 @@ struct BodyPoints {
   }
 };
 
-/// Joints with end sites, in metres. Feet are found by names and by their descendants.
+/// Returns joints with end sites, in metres. Feet are found by names and by their descendants.
 BodyPoints body_points(const Take& clip, double metres_per_unit, const KnownNames& names = {});
-/// Markers, in metres. Feet are found by the names of the marker sets in use (LTOE, RHEE, L_MT5,
-/// ...).
+/// Returns markers, in metres. Feet are found by the names of the marker sets in use (LTOE, RHEE,
+/// L_MT5, ...).
 BodyPoints body_points(const Take& clip, const std::vector<std::size_t>& markers,
                        double metres_per_unit, const KnownNames& names = {});
 
@@ -53,11 +53,11 @@ struct Up {
     return {axis == Axis::x ? sign : 0, axis == Axis::y ? sign : 0, axis == Axis::z ? sign : 0};
   }
 };
-/// The axis along which the body is above its feet; none where that is ambiguous.
+/// Returns the axis along which the body is above its feet; none if that is ambiguous.
 std::optional<Up> find_up(const BodyPoints& body);
 
 double along(Vec3 v, Up up);
-/// The horizontal component of `v`.
+/// Returns the horizontal component of `v`.
 Vec3 level_part(Vec3 v, Up up);
 
 }  // namespace kinemend::feet

@@ -1,4 +1,4 @@
-// The steps that stop feet from sliding, in the order of Kovar 2002, and `clean_feet` around them.
+// The steps that stop foot slide, in the order of Kovar 2002, and `clean_feet` around them.
 #include "feet/clean_legs.hpp"
 
 #include <fmt/format.h>
@@ -23,12 +23,12 @@ namespace feet {
 
 namespace {
 
-// In body heights: smaller changes are rounding; larger remaining slides are reported. What is
-// noticeable is chosen by hand, not swept.
+// Body heights: smaller changes are rounding; larger remaining slides are reported. The noticeable
+// size is chosen by hand, not swept.
 constexpr double least_shift = 1e-9, noticeable_rest = 0.002;
 constexpr double least_turn_rad = 1e-11;  // rounding
-// Body heights that the root's place is off for a radian that joints are. Chosen by hand, not
-// swept.
+// The error of the root's place, in body heights, for a radian of error of the joints. Chosen by
+// hand, not swept.
 constexpr double root_share = 0.05;
 
 void check_settings(const FeetSettings& settings) {
@@ -48,7 +48,7 @@ bool may_turn(const LegModel& model, const FeetLimits& limits) {
           limits.joints[model.ankle.index] != 0);
 }
 
-// Cleans one motion; the steps in the order of the paper.
+// Cleans one motion by the steps in the order of the paper.
 class FeetCleaning {
  public:
   FeetCleaning(Take& motion, const FeetSettings& settings, const FeetLimits& limits)
@@ -130,7 +130,7 @@ class FeetCleaning {
     }
   }
 
-  // Parts stand at their places.
+  // Puts parts in contact at their places.
   void hold(const Soles& soles) {
     std::vector<FootTarget> targets = find_targets(soles);
     move(targets);
@@ -138,7 +138,7 @@ class FeetCleaning {
     warn_of_rest(targets);
   }
 
-  // Feet that stand are measurements of the whole body.
+  // Uses standing feet as measurements of the whole body.
   void believe(const Soles& soles) {
     const std::vector<PartCorrection> parts =
         place_contacts(soles, legs_, report_.contacts, report_.held, settings_.blend_s);
@@ -208,7 +208,7 @@ class FeetCleaning {
     return targets;
   }
 
-  // What carries the legs moves all feet, which only legs that may turn can undo.
+  // The joint that carries the legs moves all feet, which only legs that may turn can undo.
   bool may_move_carrier() const {
     const Carrier& carrier = legs_.carrier;
     return carrier.found && (limits_.joints.empty() || limits_.joints[carrier.joint] != 0) &&
@@ -272,7 +272,7 @@ class FeetCleaning {
     set(model.ankle, turned.ankle);
   }
 
-  // Feet that do not reach their targets.
+  // Warns of feet that do not reach their targets.
   void warn_of_rest(const std::vector<FootTarget>& targets) {
     double farthest = 0;
     std::size_t frames = 0;
@@ -303,7 +303,7 @@ class FeetCleaning {
   std::vector<Leg> found_;
   LegMotion legs_;
   Up up_;
-  bool is_noisy_ = false;  // and not asked to hold whatever stands
+  bool is_noisy_ = false;  // and not asked to hold every contact
   FeetReport report_;
 };
 

@@ -28,7 +28,7 @@ std::string line_of(std::string side, const FootContact& contact, std::int64_t f
   const auto number = [&](std::size_t frame) {
     return static_cast<std::int64_t>(frame) + first_frame;
   };
-  // A name with a space would be read as two fields.
+  // The spaces are replaced, because a name with a space would be read as two fields.
   std::replace_if(
       side.begin(), side.end(), [](char c) { return c == ' ' || c == '\t' || c == '#'; }, '_');
   return fmt::format("{} {} {} {}", side, to_string(contact.part), number(contact.first_frame),

@@ -1,4 +1,4 @@
-// Finds the contacts of feet with the floor and checks contacts that are given.
+// Finds the contacts of feet with the floor and checks given contacts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ Spans spans_of(const std::vector<std::uint8_t>& flags) {
   return spans;
 }
 
-// The height of a foot's lower part.
+// Returns the height of a foot's lower part.
 std::vector<double> lowest_of(const Soles& soles, std::size_t leg) {
   std::vector<double> lowest = soles.points[2 * leg].heights;
   if (soles.has[2 * leg + 1] == 0) return lowest;
@@ -67,7 +67,7 @@ class ContactFinder {
       is_slow = sole.seen[f] != 0 && speeds[f] < limit * height;
       slow[f] = is_slow;
     }
-    // A heel and a toe of one foot may have different levels.
+    // Heel and toe of one foot may have different levels.
     const double above = sole.level - floors_[leg];
     const double offset = above < settings_.begin_height * height ? above : 0;
     std::vector<double> levels(slow.size(), sole.level);
@@ -88,7 +88,7 @@ class ContactFinder {
     return kinemend::frames_in(seconds, soles_.body.frame_rate_hz, 0);
   }
 
-  // The height of the floor under a foot that is slow in these frames.
+  // Returns the height of the floor under a foot that is slow in these frames.
   double level_of(std::size_t leg, std::size_t first, std::size_t last) const {
     const auto begin = lowest_[leg].begin() + static_cast<std::ptrdiff_t>(first);
     const auto end = lowest_[leg].begin() + static_cast<std::ptrdiff_t>(last + 1);
@@ -99,10 +99,10 @@ class ContactFinder {
     return is_step(leg, first, last) ? low : floors_[leg];
   }
 
-  // A foot is at rest and carries the body: it stands on a step.
+  // Whether a foot is at rest and carries the body, and therefore stands on a step.
   bool is_step(std::size_t leg, std::size_t first, std::size_t last) const {
-    // Time of a stand, and of its part in which it is the lowest foot (docs/feet-details.md,
-    // "Level"); way in body heights. Chosen by hand, not swept.
+    // The least time of a stand, and of the part of it in which the foot is the lowest
+    // (docs/feet-details.md, "Level"); the distance is in body heights. Chosen by hand, not swept.
     constexpr double least_s = 0.15, least_lowest_s = 0.1, most_travel = 0.02;
     if (last - first + 1 < std::max<std::size_t>(frames_in(least_s), 2)) return false;
     std::vector<double> heights;
@@ -126,11 +126,11 @@ class ContactFinder {
                        });
   }
 
-  // Without the ends during which the part lands or leaves: faster than its median, or at another
-  // height.
+  // Removes the ends during which the part lands or leaves, because it is faster than its median or
+  // at another height.
   std::pair<std::size_t, std::size_t> trimmed(const SolePoint& sole,
                                               std::pair<std::size_t, std::size_t> span) const {
-    // See docs/feet-details.md, "Ends"; body heights a second, and body heights: 1 cm. Chosen by
+    // See docs/feet-details.md, "Ends": body heights a second, and body heights (1 cm). Chosen by
     // hand, not swept.
     constexpr double times_median = 2.5, sure_speed = 0.05, sure_height = 0.006;
     std::size_t first = span.first, last = span.second;
@@ -168,8 +168,8 @@ class ContactFinder {
 
   const Soles& soles_;
   const ContactSettings& settings_;
-  std::vector<std::vector<double>> lowest_;  // by leg
-  std::vector<double> floors_;               // by leg: its usual level
+  std::vector<std::vector<double>> lowest_;  // for each leg
+  std::vector<double> floors_;               // for each leg, its usual level
 };
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::usage, message); }

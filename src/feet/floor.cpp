@@ -12,14 +12,14 @@ namespace kinemend::feet {
 
 namespace {
 
-// The two coordinates that are not height.
+// Returns the two coordinates other than height.
 std::pair<double, double> across(Vec3 v, Up up) {
   if (up.axis == Axis::x) return {v.y, v.z};
   if (up.axis == Axis::y) return {v.x, v.z};
   return {v.x, v.y};
 }
 
-// Height of the plane a + b u + c v by least squares through the places with weight.
+// The height of the plane a + b u + c v, by weighted least squares through the places.
 struct Plane {
   Eigen::Vector3d coefficients = Eigen::Vector3d::Zero();
 
@@ -31,7 +31,7 @@ struct Plane {
 
 Plane fit(const std::vector<Vec3>& places, const std::vector<double>& weights, Up up,
           double metre) {
-  // Regularises towards level ground; negligible once the places cover a metre.
+  // Regularises towards level ground, which is negligible once the places cover a metre.
   Eigen::Matrix3d normal =
       Eigen::Vector3d(0, 0.1 * metre * metre, 0.1 * metre * metre).asDiagonal();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
@@ -58,8 +58,8 @@ Plane fit(const std::vector<Vec3>& places, const std::vector<double>& weights, U
 
 std::vector<double> depths_below_floor(const std::vector<Vec3>& places, Up up, double close_to,
                                        double metre) {
-  // Share of the places that must be close to a floor, and rounds of reweighting. Chosen by hand,
-  // not swept.
+  // The share of the places that must be close to a floor, and the rounds of reweighting. Chosen by
+  // hand, not swept.
   constexpr double most_share = 2.0 / 3;
   constexpr int rounds = 20;
   std::vector<double> depths(places.size()), weights(places.size(), 1);

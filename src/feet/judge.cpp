@@ -14,19 +14,18 @@ namespace {
 
 // In body heights, and body heights a second. The verdicts of docs/feet.md, chosen by hand, not
 // swept.
-constexpr double least_travel =
-    0.018;  // 3 cm: rolling of the foot and movement of the skin during a stand
-constexpr double least_jitter = 0.13;  // length of the path to and fro a second: 22 cm/s
-constexpr double small_travel = 0.03;  // 5 cm: shorter slides are not intended
-constexpr double most_travel = 0.25;   // longer slides are no error
-constexpr double glide_speed = 0.06;   // of a foot that glides with the body
+constexpr double least_travel = 0.018;  // 3 cm: rolling foot and moving skin
+constexpr double least_jitter = 0.13;   // length of the path to and fro a second: 22 cm/s
+constexpr double small_travel = 0.03;   // 5 cm: shorter slides are not intended
+constexpr double most_travel = 0.25;    // longer slides are not an error
+constexpr double glide_speed = 0.06;    // speed of a foot that glides with the body
 
 struct Judge {
   const Soles& soles;
   const LegMotion& motion;
   const std::vector<FootContact>& contacts;
   double unit_cm;
-  bool jitters = false;  // of the whole take
+  bool jitters = false;  // for the whole take
 
   std::string length_text(double length) const {
     if (unit_cm > 0) return fmt::format("{:.1f} cm", length * unit_cm);
@@ -38,7 +37,7 @@ struct Judge {
     return level_part(path[last] - path[first], soles.up);
   }
 
-  // Farthest from where it began.
+  // Returns the largest distance from the beginning of the contact.
   double travel(const FootContact& c) const {
     double farthest = 0;
     for (std::size_t f = c.first_frame; f <= c.last_frame; ++f)
@@ -46,7 +45,7 @@ struct Judge {
     return farthest;
   }
 
-  // Length of the path as measured.
+  // Returns the measured path length.
   double path(const FootContact& c) const {
     const std::size_t p = Soles::point_of(c);
     double sum = 0;
@@ -61,10 +60,10 @@ struct Judge {
     return path(c) > least_jitter * soles.height * seconds;
   }
 
-  // During most stands the length of the path far exceeds the displacement.
+  // Whether the path length far exceeds the displacement during most stands.
   bool take_jitters() const {
-    // Length of the path over the displacement. A verdict of docs/feet.md, chosen by hand, not
-    // swept.
+    // The least ratio of path length to displacement. A verdict of docs/feet.md, chosen by hand,
+    // not swept.
     constexpr double least_ratio = 1.5;
     std::size_t frames = 0, jittery = 0;
     for (const FootContact& c : contacts) {
@@ -79,10 +78,10 @@ struct Judge {
     return travel(c) < least_travel * soles.height && !(jitters && is_fast(c));
   }
 
-  // Most of the displacement occurs while another foot stands nearly still.
+  // Whether most of the displacement occurs while another foot is nearly still.
   bool slides_beside_standing_foot(const FootContact& c, double way) const {
-    // Share of the displacement, and the other foot's displacement over it. A verdict of
-    // docs/feet.md, chosen by hand, not swept.
+    // The share of the displacement, and the ratio of the other foot's displacement to it. A
+    // verdict of docs/feet.md, chosen by hand, not swept.
     constexpr double least_share = 0.5, most_other = 0.25;
     for (const FootContact& other : contacts) {
       if (other.leg == c.leg) continue;
@@ -96,9 +95,10 @@ struct Judge {
     return false;
   }
 
-  // The body moves along with the foot, and not slowly.
+  // Whether the body moves along with the foot, and not slowly.
   bool glides(const FootContact& c) const {
-    // Foot's displacement over the body's, and the cosine between them. Chosen by hand, not swept.
+    // The ratio of the foot's displacement to the body's, and the cosine between them. Chosen by
+    // hand, not swept.
     constexpr double least_share = 0.5, least_cosine = 0.8;
     const Vec3 own = moved(Soles::point_of(c), c.first_frame, c.last_frame);
     const auto hips = [&](std::size_t frame) {
@@ -114,7 +114,7 @@ struct Judge {
            norm(own) > least_share * norm(body);
   }
 
-  // Why the slide of a contact is not an error; empty where it is one.
+  // Returns why the slide of a contact is not an error; empty if it is one.
   std::string excuse(const FootContact& c) const {
     const double way = travel(c);
     if (way < small_travel * soles.height) return {};
@@ -127,7 +127,7 @@ struct Judge {
     return {};
   }
 
-  // Why the slide of a stand is not an error; empty where it is one.
+  // Returns why the slide of a stand is not an error; empty if it is one.
   std::string excuse(const std::vector<std::size_t>& stand) const {
     for (const std::size_t i : stand) {
       if (std::string found = excuse(contacts[i]); !found.empty()) return found;

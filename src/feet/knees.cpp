@@ -13,15 +13,15 @@ namespace kinemend::feet {
 
 namespace {
 
-// Changes of equal weight to a knee angle that oscillates by a radian at `knee_hz`; the weight of
-// the knee's changes grows with the fourth power of their rate. All of these are chosen by hand,
-// not swept.
+// The changes that cost as much as a knee angle oscillating by a radian at `knee_hz`; the cost of
+// knee changes grows with the fourth power of their rate. All of these are chosen by hand, not
+// swept.
 constexpr double knee_hz = 4;
 constexpr double root_room = 0.02;          // body heights, up or down
 constexpr double turn_room = 1;             // radians of the foot about its point of contact
 constexpr double bend_room = 2;             // radians of the knee of a leg without contact
 constexpr double root_hz = 12, leg_hz = 6;  // the rate at which their curvature has the same weight
-constexpr double least_room = 1e-6;         // less counts as none
+constexpr double least_room = 1e-6;         // less is ignored
 
 // The leg as a triangle of thigh, shank and the line from hip to ankle.
 struct Triangle {
@@ -35,23 +35,23 @@ struct Triangle {
   }
 };
 
-// Distance of a leg's hip from its target for the ankle.
+// The distance of a leg's hip from its target for the ankle.
 struct Stretch {
   Vec3 way;                     // from the hip
   double far = 0, reached = 0;  // its length, and the length that the leg reaches
   double cosine = 1;            // of the bend of the knee
 };
 
-// Derivatives of the bend of a knee, radians, by the free variables.
+// The derivatives of a knee's bend, in radians, by the free variables.
 struct LegState {
   double bend = 0;
   double by_distance = 0;  // for a unit of length from hip to ankle ...
-  double by_root = 0;      // ... and that the root rises
-  Vec3 axis;               // about which a turn of the foot brings the ankle away from the hip ...
-  double lever = 0;        // ... by this a radian
+  double by_root = 0;      // ... and for a unit that the root rises
+  Vec3 axis;               // about which a turn of the foot moves the ankle away from the hip ...
+  double lever = 0;        // ... by this distance a radian
 };
 
-// How far a leg's angle may change without the root.
+// The possible change of a leg's angle without moving the root.
 struct LegRoom {
   double by_turn = 0, in_all = 0;  // radians of the knee
 
@@ -93,11 +93,11 @@ class KneeEasing {
                                             [](const FootTarget& t) { return t.hold > 0; });
   }
 
-  // Frames from `first` until `end`. After the first step only those near a remaining pop of a
-  // knee.
+  // Eases frames from `first` until `end`. After the first step it eases only those near a
+  // remaining pop of a knee.
   void ease_thoroughly(std::size_t first, std::size_t end) {
-    // Up to twice more, around what still pops (docs/feet-details.md, "Knees that do not pop"). Not
-    // swept.
+    // Up to two more rounds around remaining pops (docs/feet-details.md, "Knees that do not pop").
+    // Not swept.
     constexpr int more_rounds = 2;
     constexpr double around_s = 0.1;
     const auto around = static_cast<std::size_t>(std::ceil(around_s * motion_.frame_rate_hz));
@@ -120,9 +120,9 @@ class KneeEasing {
     }
   }
 
-  // The change of a knee's angle has a kink.
+  // Whether the change of a knee's angle has a kink.
   bool pops(std::size_t frame, std::size_t first, std::size_t end) const {
-    // Second difference of the change. Chosen by hand, not swept.
+    // The largest second difference of the change. Chosen by hand, not swept.
     constexpr double most_rad = 0.3 * radians_per_degree;
     const auto change = [&](std::size_t f, std::size_t l) {
       return f < first || f >= end ? 0 : changes_[f * legs_ + l];
@@ -187,13 +187,13 @@ class KneeEasing {
     return room;
   }
 
-  // Unknowns of frames counted from the first that is eased: a root and its legs.
+  // The unknowns of frames, counted from the first eased one: a root and its legs.
   std::size_t root_unknown(std::size_t frame) const { return frame * (legs_ + 1); }
   std::size_t leg_unknown(std::size_t frame, std::size_t leg) const {
     return frame * (legs_ + 1) + 1 + leg;
   }
 
-  // One Gauss-Newton step.
+  // Takes one Gauss-Newton step.
   void ease(std::size_t first, std::size_t end) {
     for_blocks(first * legs_, end * legs_, [&](std::size_t from, std::size_t until) {
       for (std::size_t i = from; i < until; ++i) {
@@ -230,8 +230,8 @@ class KneeEasing {
       add(leg_unknown(frame, l), rooms_[(first + frame) * legs_ + l].in_all);
   }
 
-  // Second differences over three frames, of which `last` is the last, counted from the first that
-  // is eased; those that are not eased stay as they are.
+  // Adds second differences over three frames, of which `last` is the last, counted from the first
+  // eased one; other frames stay unchanged.
   void add_curvatures(std::size_t first, std::size_t count, std::size_t last,
                       BandedLeastSquares& squares) const {
     using Term = BandedLeastSquares::Term;
@@ -266,7 +266,7 @@ class KneeEasing {
     return period * period * period * period / (room * room);
   }
 
-  // The foot turns for its share of the change; its distance from the hip provides the rest.
+  // The foot turns by its share of the change; its distance from the hip provides the rest.
   void apply(std::size_t i, double bend, double by_root) const {
     // Chosen by hand, not swept.
     constexpr double most_turn = 0.35;  // radians in one step of Gauss and Newton
@@ -282,7 +282,7 @@ class KneeEasing {
     if (foot.hold >= 1) return;
     const Stretch now = stretch(i);
     double wanted = portable::acos(now.cosine) + (1 - share) * bend;
-    // The error of the linearisation is corrected where the foot is free.
+    // The error of the linearisation is corrected if the foot is free.
     wanted += (1 - foot.hold) * (before.bend + by_root + bend - wanted);
     const double distance = triangles_[i].distance_of(std::max(wanted, 0.0));
     if (now.far > 0) foot.place += ((distance - now.reached) / now.far) * now.way;
@@ -295,9 +295,9 @@ class KneeEasing {
   std::vector<FootTarget>& targets_;
   std::vector<double>& drops_;
   std::size_t legs_;
-  // F x L
+  // All of these are F x L.
   std::vector<Triangle> triangles_;
-  std::vector<double> bends_, changes_;  // radians: in the take, and of that
+  std::vector<double> bends_, changes_;  // radians: in the take, and the change from it
   std::vector<LegState> states_;
   std::vector<LegRoom> rooms_;
 };

@@ -17,8 +17,8 @@ namespace {
 
 constexpr auto heel = static_cast<std::size_t>(FootPart::heel);
 constexpr auto toe = static_cast<std::size_t>(FootPart::toe);
-// Share of the way from ankle to toe that the heel lies behind the ankle (docs/feet-details.md).
-// Chosen by hand, not swept.
+// The heel's distance behind the ankle, as a share of that from ankle to toe
+// (docs/feet-details.md). Chosen by hand, not swept.
 constexpr double heel_behind = 0.25;
 
 std::size_t index_of(std::int32_t joint) { return static_cast<std::size_t>(joint); }
@@ -28,7 +28,7 @@ LegJoint leg_joint(const Skeleton& skeleton, std::int32_t joint) {
           skeleton.rotation_order(index_of(joint))};
 }
 
-// -1 where the joint has a fixed offset.
+// Returns each joint's translation track; -1 if it has a fixed offset.
 std::vector<std::int32_t> translation_tracks(const Take& clip) {
   std::vector<std::int32_t> tracks(clip.joint_count(), -1);
   for (std::size_t k = 0; k < clip.translated_joints.size(); ++k)
@@ -42,7 +42,7 @@ Vec3 mean_translation(const Take& clip, std::size_t track) {
   return (1.0 / static_cast<double>(std::max<std::size_t>(clip.frame_count(), 1))) * sum;
 }
 
-// A joint's place in its parent's frame, in all frames alike.
+// Returns a joint's place in its parent's frame, averaged over all frames.
 Vec3 offset_of(const Take& clip, std::size_t joint) {
   const std::int32_t track = translation_tracks(clip)[joint];
   return track < 0 ? clip.skeleton.offsets[joint] : mean_translation(clip, index_of(track));
@@ -100,8 +100,8 @@ Carrier find_carrier(const Take& clip, const std::vector<Leg>& legs) {
   return carrier;
 }
 
-// The axis about which the knee bends, in its parent's frame: the mean over the clip, or, where it
-// never bends, the one that swings the shank away from the toes.
+// Returns the axis about which the knee bends, in its parent's frame: the mean over the clip, or,
+// if it never bends, the one that swings the shank away from the toes.
 Vec3 usual_hinge(const LegMotion& motion, std::size_t leg) {
   Vec3 sum, ahead;
   for (std::size_t f = 0; f < motion.frames; ++f) {
@@ -118,7 +118,8 @@ Vec3 usual_hinge(const LegMotion& motion, std::size_t leg) {
   return (1 / norm(sum)) * sum;
 }
 
-// The joints that determine a joint's position: itself and its ancestors, parents first.
+// Returns the joints that determine the legs' positions: the ankles and their ancestors, parents
+// first.
 std::vector<std::size_t> needed_joints(const Skeleton& skeleton, const std::vector<Leg>& legs) {
   std::vector<std::size_t> joints;
   for (const Leg& leg : legs) {
@@ -130,10 +131,11 @@ std::vector<std::size_t> needed_joints(const Skeleton& skeleton, const std::vect
   return joints;
 }
 
-// Mean height of a foot's toe below the ankle and way from ankle to toe, in the ankle's frame, over
-// the frames in which both are at their usual level.
+// Returns the heel in the ankle's frame from the mean height of the toe below the ankle and the
+// mean vector from ankle to toe, over the frames in which both are at their usual level.
 std::optional<Vec3> heel_of_flat_foot(const LegMotion& motion, std::size_t leg, Up up) {
-  // Of the mean on either side; time that a foot must stand flat. Chosen by hand, not swept.
+  // The reach of the mean on either side, and the least time with a flat foot. Chosen by hand, not
+  // swept.
   constexpr double reach_s = 0.02, least_s = 0.1;
   BodyPoints body;
   body.frames = motion.frames;
@@ -164,9 +166,9 @@ std::optional<Vec3> heel_of_flat_foot(const LegMotion& motion, std::size_t leg, 
   return (1 / count) * sum;
 }
 
-// The same of the rest pose, if the toes point ahead in it; else the ankle itself.
+// Returns the heel from the rest pose, if its toes point ahead; else the ankle itself.
 Vec3 heel_at_rest(const Take& clip, const LegModel& model, Up up) {
-  // The level share of the way from ankle to toe of a foot that points ahead. Chosen by
+  // The horizontal share of the vector from ankle to toe in a foot that points ahead. Chosen by
   // hand, not swept.
   constexpr double least_ahead = 0.5;
   Take rest;

@@ -1,4 +1,4 @@
-// The legs of a clip, frame by frame, as the steps of cleaning see them.
+// The legs of a clip, frame by frame, as the cleaning steps use them.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace kinemend::feet {
 
-/// A joint of a leg as the file's channels turn it.
+/// A joint of a leg with the file's channels.
 struct LegJoint {
   std::size_t index = 0;
   Quat rest;
@@ -41,8 +41,8 @@ struct Carrier {
   bool found = false;
   std::size_t joint = 0;
   std::size_t track = 0;        ///< 0: the root position, k + 1: translated joint k
-  std::vector<Quat> frames_of;  ///< F: the frame that its position is in
-  std::vector<Vec3> at;         ///< F: where it is in the world
+  std::vector<Quat> frames_of;  ///< F: the frame of reference of its position
+  std::vector<Vec3> at;         ///< F: its position in the world
 };
 
 /// The legs of a clip: F frames of L legs.
@@ -61,17 +61,18 @@ struct LegMotion {
   }
 };
 
-/// All but the heels of feet that have none in the skeleton, which need `set_heels`.
+/// Returns the legs without the heels of feet that have none in the skeleton; these need
+/// `set_heels`.
 LegMotion leg_motion(const Take& clip, const std::vector<Leg>& legs);
-/// Poses anew, with the models as they are.
+/// Updates the poses with the given models.
 void update_poses(const Take& clip, const std::vector<Leg>& legs, LegMotion& motion);
 
-/// The axis along which the body is above its feet; `wanted` if given.
+/// Returns the axis along which the body is above its feet; `wanted` if given.
 std::optional<Up> up_of(const LegMotion& motion, std::optional<Axis> wanted);
-/// Puts a heel where the skeleton has none, from the frames in which the foot stands flat.
+/// Adds a heel if the skeleton has none, from the frames in which the foot is flat.
 void set_heels(const Take& clip, Up up, LegMotion& motion);
 
-/// Heel and toe of each leg, points 2 l and 2 l + 1; a missing toe is represented by the heel.
+/// Returns heel and toe of each leg as points 2 l and 2 l + 1; the heel represents a missing toe.
 BodyPoints sole_points(const LegMotion& motion);
 
 }  // namespace kinemend::feet

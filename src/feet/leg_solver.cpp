@@ -1,4 +1,4 @@
-// Bends the knee, turns the hip and the ankle, and keeps joints to their channels.
+// Bends the knee, turns the hip and the ankle, and limits joints to their channels.
 #include "feet/leg_solver.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace kinemend::feet {
 
 namespace {
 
-// By cosine and sine of the angle.
+// Returns the rotation from cosine and sine of its angle.
 Quat turn_about(Vec3 axis, double cosine, double sine) {
   double w = 0, share = 0;
   if (cosine >= 0) {
@@ -28,7 +28,7 @@ Quat turn_about(Vec3 axis, double cosine, double sine) {
 struct KneeCircle {
   Vec3 hinge;  // world, unit; bending is positive
   double constant = 0, swing = 0;
-  // Angle of the shank at which the ankle is farthest.
+  // The angle of the shank at which the ankle is farthest.
   double straight_cosine = 1, straight_sine = 0;
 
   double most() const { return std::sqrt(std::max(constant + 2 * swing, 0.0)); }
@@ -55,11 +55,11 @@ KneeTurn knee_turn(const LegPose& pose, const LegModel& model) {
              : KneeTurn::last_axis;
 }
 
-// A knee with one channel for it turns about that; a free one in the plane of the leg, which is
-// that of the usual hinge where the leg is straight.
+// A knee with a suitable channel turns about its axis. A free one turns in the plane of the leg, or
+// of the usual hinge if the leg is straight.
 Vec3 hinge_of(const LegPose& pose, const LegModel& model, KneeTurn turn) {
-  // Sine of the bend from which the leg's own plane counts more than the usual hinge. Chosen by
-  // hand, not swept.
+  // From this sine of the bend on the leg's own plane outweighs the usual hinge. Chosen by hand,
+  // not swept.
   constexpr double clear_bend = 0.1;
   const Vec3 usual = rotate(pose.knee_parent, model.hinge);
   Vec3 hinge = usual;
@@ -102,8 +102,8 @@ Reach reach_of(const LegPose& pose, const KneeCircle& circle, KneeTurn turn, dou
   return reach;
 }
 
-// The turn of the shank that puts the ankle at this distance from the hip, on the side to which the
-// knee is bent.
+// Returns the turn of the shank that puts the ankle at this distance from the hip, on the side to
+// which the knee is bent.
 Quat turn_for(const KneeCircle& circle, double distance) {
   if (!(circle.swing > 0)) return {};
   const double cosine =
@@ -158,7 +158,7 @@ class Leg {
     rotations_.ankle =
         within_channels(normalized(conjugate(ankle_frame) * target_.rotation), model_.ankle);
     foot_ = ankle_frame * rotations_.ankle;
-    // The hip turns about the line of the leg by what the ankle cannot.
+    // The hip supplies the turn about the line of the leg that the ankle cannot make.
     if (model_.ankle.order.count < 3 && far > 0)
       twist_ += dot(log(target_.rotation * conjugate(foot_)), way) / far;
   }
@@ -195,7 +195,7 @@ Vec3 turn_between(Vec3 from, Vec3 to) {
 }
 
 Quat least_turn(Vec3 from, Vec3 to) {
-  // Share of the product of lengths: what is less is rounding.
+  // The share of the product of lengths below which a sum is rounding.
   constexpr double nearly_opposite = 1e-6;
   const double lengths = std::sqrt(dot(from, from) * dot(to, to));
   const double w = lengths + dot(from, to);

@@ -20,7 +20,7 @@ bool has(std::string_view text, std::string_view part) {
   return text.find(part) != std::string_view::npos;
 }
 
-// "left", "right", or nothing.
+// Returns "left", "right", or nothing.
 std::string_view side_of(const std::string& joint) {
   const std::string name = lower_case(joint.substr(joint.rfind(':') + 1));
   if (has(name, "left")) return "left";
@@ -37,7 +37,7 @@ std::string_view side_of(const std::string& joint) {
   };
   if (marked('l')) return "left";
   if (marked('r')) return "right";
-  // lfoot, LeftFoot's short forms, rAnkle.
+  // The short forms of LeftFoot and RightAnkle are lfoot and rAnkle.
   if (name.size() > 1 && (has(name, "foot") || has(name, "ankle"))) {
     if (name.front() == 'l') return "left";
     if (name.front() == 'r') return "right";
@@ -45,7 +45,7 @@ std::string_view side_of(const std::string& joint) {
   return "";
 }
 
-// The joint at the other end of the bone above `joint`; -1 where there is none.
+// Returns the joint at the other end of the bone above `joint`; -1 if there is none.
 std::int32_t upper_end(const Skeleton& skeleton, std::int32_t joint, double shortest) {
   double length = 0;
   std::int32_t at = joint;
@@ -59,7 +59,7 @@ std::int32_t upper_end(const Skeleton& skeleton, std::int32_t joint, double shor
   return -1;
 }
 
-// The child of the ankle that is named after a toe, else the one farthest away.
+// Returns the child of the ankle that is named after a toe, else the farthest one.
 std::int32_t toe_of(const Skeleton& skeleton, std::int32_t ankle, double shortest) {
   std::int32_t found = -1;
   double farthest = shortest;
@@ -110,7 +110,7 @@ std::vector<std::size_t> ankles_of(const Skeleton& skeleton) {
 }  // namespace feet
 
 std::vector<Leg> find_legs(const Skeleton& skeleton) {
-  // What is shorter is a twist, or no foot. Chosen by hand, not swept.
+  // A shorter bone is a twist joint, and a shorter foot is rejected. Chosen by hand, not swept.
   constexpr double shortest_bone = 0.08, shortest_foot = 0.02;  // body heights
   const double height = body_height(skeleton);
   std::vector<Leg> legs;

@@ -8,7 +8,7 @@
 
 namespace kinemend::feet {
 
-/// The upper ones of the joints that are named after parts of a foot (`foot_joints`): one a foot.
+/// Returns the uppermost joint of each foot, of those named after parts of a foot (`foot_joints`).
 std::vector<std::size_t> ankles_of(const Skeleton& skeleton);
 
 }  // namespace kinemend::feet

@@ -12,21 +12,21 @@ namespace kinemend::feet {
 
 namespace {
 
-// Travel over this time tells how fast a point is: noise counts less than over one frame.
+// The speed of a point is measured over this time, which reduces noise compared with one frame.
 constexpr double speed_s = 0.07;
-// The floor is the lowest place of this time.
+// The floor is the lowest level within this time.
 constexpr double floor_s = 2;
-// A correction that is farther than this share of the body's height is no slide.
+// A larger correction, relative to the body's height, is not a slide.
 constexpr double most_offset = 0.06;
-// In which a correction fades to a third once the foot lifts. The swing hides it; a knee that
-// catches up sooner pops.
+// The time in which a correction fades to a third once the foot lifts. The swing hides it; a faster
+// fade makes the knee pop.
 constexpr double fade_s = 0.15;
 
 std::size_t live_frames(const LegMotion& motion, double seconds) {
   return static_cast<std::size_t>(std::max(1.0, std::round(seconds * motion.frame_rate_hz)));
 }
 
-// Mean of `count` places from `first` on.
+// Returns the mean of `count` places from `first` on.
 Vec3 mean_place(const std::deque<Vec3>& path, std::size_t first, std::size_t count) {
   Vec3 sum;
   for (std::size_t i = first; i < first + count; ++i) sum += path[i];
@@ -81,7 +81,7 @@ void LiveFeet::track(Part& part, Vec3 place, double height) const {
   part.heights.push_back(height);
   if (part.heights.size() > live_frames(motion_, floor_s)) part.heights.pop_front();
   part.level = *std::min_element(part.heights.begin(), part.heights.end());
-  // Thirds at both ends, so that the noise of single frames counts less.
+  // The travel is measured between thirds at both ends, so that single frames add less noise.
   const std::size_t third = std::max<std::size_t>(1, part.path.size() / 3);
   const double apart = static_cast<double>(part.path.size() - third) / motion_.frame_rate_hz;
   const Vec3 travel =
@@ -90,7 +90,7 @@ void LiveFeet::track(Part& part, Vec3 place, double height) const {
       apart > 0 && part.path.size() > reach ? norm(travel) / (apart * motion_.height) : HUGE_VAL;
 }
 
-// The part that stands: the slower one, with a margin for the one that is held already.
+// Returns the standing part: the slower one, with a margin in favour of the held one.
 int LiveFeet::anchor_of(const Foot& foot) const {
   const ContactSettings settings;
   int best = -1;

@@ -1,4 +1,4 @@
-// Holds feet that stand, frame by frame: with nothing of the frames to come, and no delay of its
+// Holds standing feet frame by frame, without knowledge of later frames and without a delay of its
 // own.
 #pragma once
 
@@ -13,33 +13,33 @@
 
 namespace kinemend::feet {
 
-/// Frames of one stream of joints. A foot that is low and slow is held where it is; when it lifts,
-/// its correction fades. Only legs change, and only horizontally. Does nothing for a skeleton
-/// without legs.
+/// Holds the feet of one stream of joints. A low and slow foot is held in place; when it lifts, its
+/// correction fades. Only legs change, and only horizontally. Does nothing for a skeleton without
+/// legs.
 class LiveFeet {
  public:
-  /// `like`: a take of joints, whose frames do not matter.
+  /// `like`: a take of joints; its frames are not used.
   explicit LiveFeet(const Take& like);
 
-  /// The rotations (J) and positions of a frame, as a take has them.
+  /// Corrects the rotations (J) of a frame; `positions` are as in a take.
   void hold(std::vector<Quat>& rotations, const std::vector<Vec3>& positions);
   std::size_t feet() const { return feet_.size(); }
   bool stands(std::size_t foot) const { return feet_[foot].anchor >= 0; }
 
  private:
-  static constexpr std::size_t parts = 2;  ///< the ankle, in place of the heel; the toe
-  /// A point of a foot over the last frames, as it came.
+  static constexpr std::size_t parts = 2;  ///< the ankle, instead of the heel, and the toe
+  /// A point of a foot over the last input frames.
   struct Part {
     std::deque<Vec3> path;
     std::deque<double> heights;
-    double level = 0;  ///< its height where it stands
+    double level = 0;  ///< its height in ground contact
     double speed = 0;  ///< body heights a second
   };
   struct Foot {
     std::array<Part, parts> at;
     int anchor = -1;  ///< the part that is held; -1: none
-    Vec3 target;      ///< of the anchor
-    Vec3 offset;      ///< of the foot from where it came
+    Vec3 target;      ///< place at which the anchor is held
+    Vec3 offset;      ///< displacement of the foot from the input
   };
 
   void track(Part& part, Vec3 place, double height) const;

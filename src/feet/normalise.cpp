@@ -35,7 +35,7 @@ std::vector<std::size_t> position_markers(const Take& take) {
   return markers;
 }
 
-// In file units.
+// Returns the points of the body in file units.
 feet::BodyPoints points_of(const Take& take, const KnownNames& names) {
   if (take.has_joints()) return feet::body_points(take, 1, names);
   feet::BodyPoints body = feet::body_points(take, position_markers(take), 1, names);
@@ -49,7 +49,7 @@ feet::Up up_of_take(const Take& take, const feet::BodyPoints& body, std::optiona
   refuse_to_move(take, "it is not clear which axis points up; set it with --up");
 }
 
-// From the right hip to the left.
+// Returns the vector from the right hip to the left.
 Vec3 across_joints(const Take& take, std::size_t frame, const KnownNames& names) {
   Skeleton known = take.skeleton;
   known.names = known_names(take.skeleton.names, names);
@@ -63,7 +63,7 @@ Vec3 across_joints(const Take& take, std::size_t frame, const KnownNames& names)
   return across;
 }
 
-// Whether `left` is named as `right` but for the letter of its side: LASI and RASI.
+// Whether `left` and `right` differ only in the letter of their side: LASI and RASI.
 bool are_a_pair(std::string_view left, std::string_view right) {
   const std::string_view subject = left.substr(0, left.size() - without_subject(left).size());
   if (!right.starts_with(subject) || right.size() != left.size()) return false;
@@ -102,8 +102,8 @@ std::vector<MarkerPair> pairs_of(const Take& take, const std::vector<std::size_t
   return pairs;
 }
 
-// From right to left of the person with the most markers: the pairs whose distance hardly changes
-// are on pelvis and shoulders, not on feet and hands.
+// Returns the direction from right to left of the person with the most markers. Pairs with a steady
+// distance are on pelvis and shoulders, not on feet and hands.
 Vec3 across_markers(const Take& take, std::size_t frame) {
   constexpr double steady = 0.03, times_steadiest = 2;
   const std::vector<Subject> subjects = subjects_of(take);
@@ -122,7 +122,7 @@ Vec3 across_markers(const Take& take, std::size_t frame) {
   return across;
 }
 
-// The angle about `up`, radians, that turns the body of the frame to face forward.
+// Returns the angle about `up`, in radians, that turns the body of the frame to face forward.
 double turn_to_forward(const Take& take, std::size_t frame, feet::Up up, const KnownNames& names) {
   const Vec3 across = feet::level_part(
       take.has_joints() ? across_joints(take, frame, names) : across_markers(take, frame), up);
@@ -153,7 +153,7 @@ void turn_root(Take& take, Quat turn) {
     take.rotation(f, 0) = normalized(local * take.rotation(f, 0));
 }
 
-// p becomes turn p + shift.
+// Maps each point p to turn p + shift.
 void move(Take& take, Quat turn, Vec3 shift) {
   const bool turns = !(turn == Quat{});
   if (take.has_joints()) {

@@ -1,4 +1,4 @@
-// Gives each contact a place, fades the corrections beside it, and makes targets of the feet.
+// Gives each contact a place, fades the corrections beside it, and computes targets of the feet.
 #include "feet/placement.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace kinemend::feet {
 namespace {
 
 // In body heights. Chosen by hand, not swept.
-constexpr double most_sink = 0.006;  // 1 cm: deeper is lifted
+constexpr double most_sink = 0.006;  // 1 cm: deeper contacts are lifted
 
 class Placement {
  public:
@@ -41,7 +41,7 @@ class Placement {
     return (1.0 / static_cast<double>(c.last_frame - c.first_frame + 1)) * sum;
   }
 
-  // How far each contact is lifted so that it does not sink.
+  // Returns how far each contact is lifted so that it does not sink.
   std::vector<double> lifts() const {
     std::vector<Vec3> places;
     for (std::size_t i = 0; i < contacts_.size(); ++i)
@@ -55,7 +55,7 @@ class Placement {
     return depths;
   }
 
-  // A joint's height above the floor is that of its kind.
+  // Returns the place without the part's usual height above the lower part of its foot.
   Vec3 above_level(std::size_t contact, Vec3 place) const {
     const std::size_t leg = contacts_[contact].leg;
     const double own = soles_.points[point(contact)].level;
@@ -66,7 +66,7 @@ class Placement {
     return place + (lower - own) * soles_.up.direction();
   }
 
-  // The longest contact is placed at its mean; overlapping ones are adapted to it.
+  // Places the longest contact at its mean and adapts overlapping ones to it.
   void place_stand(std::vector<std::size_t> stand) {
     std::stable_sort(stand.begin(), stand.end(),
                      [&](std::size_t a, std::size_t b) { return length(a) > length(b); });
@@ -92,7 +92,7 @@ class Placement {
     return last < first ? 0 : last - first + 1;
   }
 
-  // Puts `moved` as far from `fixed` as the foot is long, on its own height where it can.
+  // Puts `moved` a foot's length from `fixed`, at its own height if possible.
   void reconcile(std::size_t fixed, std::size_t moved) {
     const LegModel& model = motion_.models[contacts_[moved].leg];
     const double foot = norm(model.sole[1] - model.sole[0]);
@@ -118,17 +118,17 @@ class Placement {
 
 double smooth_step(double x) { return x * x * (3 - 2 * x); }
 
-// The end of a contact, and the motion beside it.
+// The end of a contact, and its motion there.
 struct Edge {
   std::size_t frame = 0;
   Vec3 shift;
-  Vec3 slope;  // a frame, forwards in time
+  Vec3 slope;  // per frame, forwards in time
 };
 
-// The shift and, by a parabola through three frames inside the contact, its slope.
+// Returns the shift and, by a parabola through three frames inside the contact, its slope.
 Edge edge_at(const BodyPoints& body, const PartCorrection& part, std::size_t frame,
              const FootContact& contact) {
-  // A frame at 120 Hz, over which the slope is taken. Chosen by hand, not swept.
+  // One frame at 120 Hz, over which the slope is taken. Chosen by hand, not swept.
   constexpr double step_s = 0.008, most_speed = 0.5;  // body heights a second: faster is jitter
   const auto wanted =
       static_cast<std::size_t>(std::max(1L, std::lround(step_s * body.frame_rate_hz)));
@@ -228,8 +228,8 @@ FootTarget foot_target(const LegPose& pose, const LegModel& model, const PartCor
   target.rotation = pose.ankle;
   const Vec3 heel_shift = heel.shift[frame], toe_shift = toe.shift[frame];
   target.moves = norm(heel_shift) > least_shift || norm(toe_shift) > least_shift;
-  // A part in contact is the pivot; between contacts the pivot moves from one to the other. Against
-  // division by zero; far below rounding.
+  // A part in contact is the pivot; between contacts the pivot moves from one to the other. The
+  // constant avoids division by zero and is far below rounding.
   constexpr double tiny = 1e-12;
   const double share = (1 - h + tiny) / ((1 - h) + (1 - t) + 2 * tiny);
   target.pivot = (1 - share) * model.sole[0] + share * model.sole[1];

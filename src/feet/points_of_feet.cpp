@@ -31,8 +31,8 @@ std::vector<std::size_t> points_below(const Skeleton& skeleton, std::size_t join
   return points;
 }
 
-// The pelvis: some roots stay at the origin, and a joint below them carries the body. The first
-// joint that has several children.
+// Returns the pelvis: the first joint with several children. Some roots stay at the origin, and a
+// joint below them carries the body.
 std::size_t carrier_of(const Skeleton& skeleton) {
   std::vector<std::size_t> children(skeleton.joint_count());
   for (const std::int32_t parent : skeleton.parents) {
@@ -43,7 +43,7 @@ std::size_t carrier_of(const Skeleton& skeleton) {
   return found == children.end() ? 0 : static_cast<std::size_t>(found - children.begin());
 }
 
-// Ankles with their descendants: the ankle itself rolls over the foot.
+// Returns ankles with their descendants, without the ankle itself, which rolls over the foot.
 std::vector<Foot> feet_of(const Skeleton& skeleton, const KnownNames& names) {
   std::vector<Foot> feet;
   Skeleton known = skeleton;

@@ -11,15 +11,15 @@ namespace kinemend::feet {
 
 namespace {
 
-// Deviations of a part from its place, in body heights: of feet that stand, which roll and whose
-// skin moves, and what is added as the correction fades. Chosen on walks, runs and dances that no
-// table uses (docs/feet-details.md).
+// Standard deviations of a part from its place, in body heights: of standing feet, which roll and
+// whose skin moves, and the addition while the correction fades. Chosen on walks, runs and dances
+// that no table uses (docs/feet-details.md).
 constexpr double contact_deviation = 0.003, fading_deviation = 0.03;
-// Square radians of a joint for a square body height of a part: mean squares of the levers, and
-// that half of the error is in the place itself. Chosen on the same takes.
+// Square radians of a joint for a square body height of a part: from the mean squares of the
+// levers, with half of the error in the place itself. Chosen on the same takes.
 constexpr double squares_per_part = 5;
-// Rounds of Gauss and Newton (docs/feet-details.md); turn and shift of a root; turns of hip, knee
-// and ankle.
+// Rounds of Gauss and Newton (docs/feet-details.md), turn and shift of a root, and turns of hip,
+// knee and ankle.
 constexpr int rounds = 3;
 constexpr Eigen::Index root_unknowns = 6, leg_unknowns = 9;
 
@@ -28,14 +28,14 @@ Vec3 vector_of(const Eigen::VectorXd& values, Eigen::Index first) {
   return {values[first], values[first + 1], values[first + 2]};
 }
 
-// d (turn x arm) / d turn.
+// Returns d (turn x arm) / d turn.
 Eigen::Matrix3d by_turn(Vec3 arm) {
   Eigen::Matrix3d matrix;
   matrix << 0, arm.z, -arm.y, -arm.z, 0, arm.x, arm.y, -arm.x, 0;
   return matrix;
 }
 
-// The projection on the axes that a joint's channels turn about.
+// Returns the projection on the axes about which a joint's channels turn.
 Eigen::Matrix3d free_axes(const LegJoint& joint, Quat parent, Quat own) {
   if (joint.order.count >= 3) return Eigen::Matrix3d::Identity();
   if (joint.order.count == 0) return Eigen::Matrix3d::Zero();
@@ -49,7 +49,7 @@ Eigen::Matrix3d free_axes(const LegJoint& joint, Quat parent, Quat own) {
   return projection;
 }
 
-// A part that stands.
+// A part in ground contact.
 struct Standing {
   std::size_t leg = 0;
   Vec3 at, target;
@@ -145,7 +145,7 @@ class Update {
     slopes.middleCols<3>(first + 6) = by_turn(part.at - own.ankle_at);
   }
 
-  // Where the part is after the turns x.
+  // Returns the position of the part after the turns x.
   Vec3 moved(const Standing& part, const Eigen::VectorXd& x) const {
     const LegPose& own = pose(part.leg);
     const Eigen::Index first = unknowns_of(part.leg);

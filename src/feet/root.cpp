@@ -1,4 +1,4 @@
-// Finds the least way down in each frame and smooths it over time.
+// Finds the least lowering in each frame and smooths it over time.
 #include "base/portable.hpp"
 #include "feet/steps.hpp"
 
@@ -10,10 +10,10 @@ namespace kinemend::feet {
 
 namespace {
 
-// The least way down after which the ankle is within reach; 0 where lowering does not help.
+// Returns the least lowering that brings the ankle within reach; 0 if lowering does not help.
 double drop_for(const LegPose& pose, const Reach& reach, const FootTarget& target, Up up) {
-  // Share of the leg's length that a root goes down at most, and how upright the leg must be.
-  // Chosen by hand, not swept.
+  // The largest lowering as a share of the leg's length, and how upright the leg must be. Chosen by
+  // hand, not swept.
   constexpr double most_share = 0.1, least_cosine = 0.5;
   const Vec3 ankle_at = target.place - rotate(target.rotation, target.pivot);
   const Vec3 way = ankle_at - pose.hip_at;
@@ -40,7 +40,7 @@ std::vector<double> running_maximum(const std::vector<double>& values, std::size
   return result;
 }
 
-// A mean with the weights of a raised cosine, ends repeated.
+// Returns a mean with the weights of a raised cosine; the ends are repeated.
 std::vector<double> smoothed(const std::vector<double>& values, std::size_t reach) {
   std::vector<double> weights(reach + 1);
   double sum = 0;

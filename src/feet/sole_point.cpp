@@ -10,12 +10,12 @@ namespace kinemend::feet {
 
 namespace {
 
-// Mean over the frames about a frame in which the point is seen.
+// Returns the mean over the frames around each frame in which the point is seen.
 std::vector<Vec3> smoothed(const BodyPoints& body, std::size_t point, double reach_s) {
   const auto reach = static_cast<std::size_t>(std::lround(reach_s * body.frame_rate_hz));
   std::vector<Vec3> result(body.frames);
   for (std::size_t f = 0; f < body.frames; ++f) {
-    // Symmetric, so that a straight path stays one.
+    // The window is symmetric, so that a straight path is unchanged.
     const std::size_t around = std::min({reach, f, body.frames - 1 - f});
     double count = 0;
     for (std::size_t k = f - around; k <= f + around; ++k) {
@@ -29,8 +29,8 @@ std::vector<Vec3> smoothed(const BodyPoints& body, std::size_t point, double rea
 }
 
 double standing_level(const SolePoint& point, double body_height, double slow) {
-  // Quantile of heights that stands for the lowest, and body heights above it where a part may
-  // stand. Chosen by hand, not swept.
+  // The quantile of heights that represents the lowest, and the body heights above it within which
+  // a part may stand. Chosen by hand, not swept.
   constexpr double low = 0.02, near_low = 0.06;
   std::vector<double> heights;
   for (std::size_t f = 0; f < point.heights.size(); ++f) {

@@ -1,4 +1,4 @@
-// One point of a foot over time, and when it is low and slow.
+// One point of a foot over time, and the frames in which it is low and slow.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,13 @@ namespace kinemend::feet {
 struct SolePoint {
   std::vector<Vec3> path;
   std::vector<double> heights;
-  std::vector<Vec3> velocities;  ///< horizontal, a second; of the step that ends in the frame
-  std::vector<double> speeds;    ///< in all directions, a second
+  std::vector<Vec3> velocities;  ///< horizontal, per second, of the step that ends in the frame
+  std::vector<double> speeds;    ///< in all directions, per second
   std::vector<std::uint8_t> seen;
-  double level = 0;  ///< its usual height when standing
+  double level = 0;  ///< its usual height in ground contact
 };
 
-/// Thresholds of low (body heights above a level) and slow (body heights a second): those to begin
+/// Thresholds of low (body heights above a level) and slow (body heights a second). Those to begin
 /// a contact are tighter than those to continue it (hysteresis). Chosen by hand (docs/feet.md), not
 /// swept.
 struct ContactThresholds {
@@ -27,15 +27,15 @@ struct ContactThresholds {
   double begin_speed = 0.15, keep_speed = 0.25;
 };
 
-/// Averages over `reach_s` on either side.
+/// Smooths the point by means over `reach_s` on either side.
 SolePoint sole_point(const BodyPoints& body, std::size_t index, Up up,
                      const ContactThresholds& thresholds, double reach_s);
 
-/// F, 1 where the point is low above `levels` (F; one for all frames where it has one entry) and
-/// slow.
+/// Returns F values, 1 where the point is slow and low above `levels` (F; a single entry is used
+/// for all frames).
 std::vector<std::uint8_t> touches(const SolePoint& point, const std::vector<double>& levels,
                                   double body_height, const ContactThresholds& thresholds);
-/// The same with other speeds than its own.
+/// Does the same with the given speeds.
 std::vector<std::uint8_t> touches(const SolePoint& point, const std::vector<double>& levels,
                                   const std::vector<double>& speeds, double body_height,
                                   const ContactThresholds& thresholds);

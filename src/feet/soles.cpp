@@ -1,4 +1,4 @@
-// Smooths heels and toes as much as their noise asks.
+// Smooths heels and toes as much as their noise requires.
 #include "feet/soles.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ ContactThresholds thresholds_of(const ContactSettings& s) {
 // hand, not swept.
 constexpr double least_mean_s = 0.02, most_mean_s = 0.1;
 
-// Noise of a coordinate of one frame, from third differences, in which motion is small.
+// Returns the noise of a coordinate in one frame, from third differences, in which motion is small.
 double noise_of(const BodyPoints& body, std::size_t point) {
   constexpr double of_third_differences = 4.4721359549995796;  // the root of 1 + 9 + 9 + 1
   std::vector<double> differences;
@@ -34,9 +34,9 @@ double noise_of(const BodyPoints& body, std::size_t point) {
   return deviations_per_median * median_of(differences) / of_third_differences;
 }
 
-// The reach at which the noise of speeds is well below the threshold of slow.
+// Returns the reach at which the noise of speeds is well below the threshold of slow.
 double least_reach_s(const BodyPoints& body, std::size_t point, double slow) {
-  // Share of the threshold that the noise of speeds may have. Chosen by hand, not swept.
+  // The share of the threshold that the noise of speeds may have. Chosen by hand, not swept.
   constexpr double share = 0.3;
   const double allowed = share * slow * body.height;
   if (!(allowed > 0)) return least_mean_s;
@@ -44,7 +44,7 @@ double least_reach_s(const BodyPoints& body, std::size_t point, double slow) {
   return std::clamp(needed_s, least_mean_s, most_mean_s);
 }
 
-// Speed of the slower frames in which the point is at its standing level.
+// Returns the speed of the slower frames in which the point is at its standing level.
 double standing_speed(const SolePoint& point, double low) {
   // Chosen by hand, not swept.
   constexpr double slower_share = 0.2;  // quantile
@@ -56,12 +56,13 @@ double standing_speed(const SolePoint& point, double low) {
   return quantile_of(speeds, slower_share);
 }
 
-// Jitter left by a filter is not white; it appears as feet that never stand. Smoothing is increased
-// while it slows them; where stands are short, as in running, more would mix them with the swing.
+// The jitter left by a filter is not white; it shows as feet that are never at rest. Smoothing is
+// increased while it slows them. In short stands, as in running, more smoothing would mix them with
+// the swing.
 SolePoint quiet_sole_point(const BodyPoints& body, std::size_t point, Up up,
                            const ContactSettings& settings) {
-  // Share of the threshold at which a foot stands well; growth of the window; share by which a
-  // wider one must slow standing feet. Chosen by hand, not swept.
+  // The share of the threshold at which a foot is well at rest; the growth of the window; and the
+  // share by which a wider one must slow standing feet. Chosen by hand, not swept.
   constexpr double quiet = 0.35, times = 1.6, least_gain = 0.15;
   const double low = settings.begin_height * body.height;
   double reach_s = least_reach_s(body, point, settings.begin_speed);
@@ -78,7 +79,7 @@ SolePoint quiet_sole_point(const BodyPoints& body, std::size_t point, Up up,
   return best;
 }
 
-// A faster body rolls its feet faster, and their stands are so short that smoothing mixes them with
+// A faster body rolls its feet faster, and its stands are so short that smoothing mixes them with
 // the swing.
 std::vector<double> paces_of(const LegMotion& motion, Up up) {
   // Chosen by hand, not swept.

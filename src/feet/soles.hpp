@@ -29,12 +29,12 @@ struct Soles {
 
 Soles find_soles(const LegMotion& motion, Up up, const ContactSettings& settings);
 
-/// By leg, part, then frame.
+/// Returns the contacts by leg, part, then frame.
 std::vector<FootContact> find_contacts(const Soles& soles, const ContactSettings& settings);
 
-/// Errors: `ErrorKind::usage` for settings out of range.
+/// Throws `ErrorKind::usage` for settings out of range.
 void check_settings(const ContactSettings& settings);
-/// Errors: `ErrorKind::usage` for contacts of legs, parts or frames that there are not.
+/// Throws `ErrorKind::usage` for contacts of legs, parts or frames that do not exist.
 void check_contacts(const std::vector<FootContact>& contacts, const LegMotion& motion,
                     std::size_t first_frame);
 void sort_contacts(std::vector<FootContact>& contacts);

@@ -12,10 +12,10 @@ namespace kinemend::fill {
 namespace {
 
 // These and the memories were chosen on the takes that docs/methods/fill.md names.
-// The slow part of the errors: its share of their variance, and its memory against the fast one's.
+// The slow part's share of the errors' variance, and its memory relative to the fast part's.
 constexpr double slow_share = 0.4;
 constexpr double slow_memory = 6;
-// A sample next to the gap is met to this share of the errors' variance.
+// The noise variance of a sample next to the gap, as a share of the errors' variance.
 constexpr double end_noise = 1e-5;
 
 double covariance(double lag, double memory) {

@@ -17,9 +17,10 @@ namespace {
 
 // Not swept. A quintic spline forgets a sample at 2e-18 of its value over this support.
 constexpr std::size_t least_support = 48;
-// Below these a spline interpolates, and a line has no outliers. Not swept.
+// With fewer samples a spline interpolates, and a line is fitted without outlier rejection. Not
+// swept.
 constexpr std::size_t least_to_smooth = 12, least_robust = 5;
-// Huber's usual constant, of standard deviations; the rounds are not swept.
+// Huber's usual constant, in standard deviations; the rounds are not swept.
 constexpr double huber = 1.5 * deviations_per_median;
 constexpr int huber_rounds = 4;
 
@@ -32,7 +33,7 @@ Vec3 by_component(const Function& function) {
   return {function(&Vec3::x), function(&Vec3::y), function(&Vec3::z)};
 }
 
-// How far a frame of the span is from the last one before it.
+// Returns the distance of a frame from the last one before the span, in frames.
 double from_start(FrameSpan span, std::size_t frame) {
   return static_cast<double>(frame - span.first + 1);
 }
@@ -54,7 +55,7 @@ std::vector<std::size_t> observed_on(const Track& track, Side side, std::size_t 
   return found;
 }
 
-// Slope of the line with the least weighted squares; what it leaves in `residuals`.
+// Returns the slope of the weighted least-squares line and writes what remains to `residuals`.
 double fitted_slope(std::span<const double> u, std::span<const double> y, std::span<const double> w,
                     std::span<double> residuals) {
   double weight = 0, mean_u = 0, mean_y = 0;
@@ -75,7 +76,7 @@ double fitted_slope(std::span<const double> u, std::span<const double> y, std::s
   return slope;
 }
 
-// Huber's weights, by iterated least squares about the median deviation.
+// Returns a slope with Huber's weights, by iterated least squares scaled by the median deviation.
 double robust_slope(std::span<const double> u, std::span<const double> y) {
   if (u.size() < 2) return 0;
   std::vector<double> weights(u.size(), 1.0), residuals(u.size()), sizes(u.size());
@@ -93,7 +94,7 @@ double robust_slope(std::span<const double> u, std::span<const double> y) {
   return slope;
 }
 
-// From observed frames no farther from the end than two windows.
+// The state uses observed frames no farther from the end than two windows.
 EndState state_on(const Track& track, Side side, FrameSpan span, const CurveSettings& settings) {
   const bool before = side == Side::before;
   if (before ? span.first == 0 : span.last + 1 == track.frames()) return {};
@@ -114,7 +115,7 @@ EndState state_on(const Track& track, Side side, FrameSpan span, const CurveSett
   return {true, track.values[end], velocity};
 }
 
-// u frames beyond an end whose velocity decays.
+// Returns the value `u` frames beyond an end whose velocity decays.
 Vec3 coast(Vec3 value, Vec3 velocity, double u, double decay_frames) {
   const double reached = 1 - portable::exp(-u / decay_frames);
   return value + reached * (decay_frames * velocity);
@@ -136,13 +137,14 @@ void fill_one_sided(Track& track, FrameSpan span, bool keep_velocity,
   }
 }
 
-// A velocity of 1 at the end u frames away, which has faded after `reach` frames. On a gap of that
-// length the line between its ends and both fading velocities make the cubic Hermite.
+// Returns the displacement that a velocity of 1 at the end causes `u` frames away; it is 0 from
+// `reach` frames on. On a gap of length `reach` the line between its ends and both fading
+// velocities form the cubic Hermite.
 double fading(double u, double reach) {
   return u < reach ? u * (1 - u / reach) * (1 - u / reach) : 0.0;
 }
 
-// The straight line between two ends, left and reached with their velocities.
+// The straight line between two ends, corrected to meet the velocity at either end.
 struct Crossing {
   double length = 0, reach = 0;
   Vec3 value(const EndState& before, const EndState& behind, double u) const {
@@ -167,14 +169,16 @@ void fill_between_velocities(Track& track, FrameSpan span, const CurveSettings& 
   }
 }
 
-// PCHIP's slope at a knot between two intervals: 0 at an extremum, else the weighted harmonic mean.
+// PCHIP's slope at a knot between two intervals: 0 at an extremum, otherwise the weighted harmonic
+// mean.
 double inner_slope(double h0, double slope0, double h1, double slope1) {
   if (slope0 * slope1 <= 0) return 0;
   const double w0 = 2 * h1 + h0, w1 = h1 + 2 * h0;
   return (w0 + w1) / (w0 / slope0 + w1 / slope1);
 }
 
-// Its slope at the outermost knot: three points, limited so that the curve keeps its shape.
+// PCHIP's slope at the outermost knot: from three points, limited so that the curve keeps its
+// shape.
 double outer_slope(double h0, double slope0, double h1, double slope1) {
   const double slope = ((2 * h0 + h1) * slope0 - h0 * slope1) / (h0 + h1);
   if (slope * slope0 <= 0) return 0;
@@ -182,7 +186,7 @@ double outer_slope(double h0, double slope0, double h1, double slope1) {
   return slope;
 }
 
-// Cubic Hermite: slopes per frame.
+// A cubic Hermite curve; slopes are per frame.
 double hermite(double y0, double slope0, double y1, double slope1, double length, double u) {
   const double t = u / length, s = 1 - t;
   return y0 * s * s * (1 + 2 * t) + y1 * t * t * (1 + 2 * s) +
@@ -229,8 +233,8 @@ void fill_linear(Track& track, FrameSpan span) {
   }
 }
 
-// Smoothing leaves the end samples a little beside the curve; the difference goes over from one end
-// to the other with no slope at the ends, which keeps the velocities.
+// Smoothing leaves the end samples slightly off the curve. The offset is blended from one end to
+// the other with zero slope at the ends, which keeps the velocities.
 void meet_end_values(Track& track, FrameSpan span, Vec3 miss_before, Vec3 miss_behind) {
   for (std::size_t f = span.first; f <= span.last; ++f) {
     const double t = from_start(span, f) / steps_across(span);
@@ -261,7 +265,7 @@ void fill_spline(Track& track, FrameSpan span, bool quintic, const CurveSettings
   }
   NaturalSpline spline(half_order, std::move(knots), values, 3);
   if (quintic && frames.size() >= least_to_smooth) {
-    // A spline smoothed by s passes half of a wave of w radians a frame where s w^6 = 1.
+    // A spline smoothed by s halves the amplitude of a wave of w radians a frame where s w^6 = 1.
     const auto smoothing_of = [&](double cutoff_hz) {
       return portable::pow(2 * pi * cutoff_hz / settings.frame_rate_hz, -6);
     };
@@ -322,7 +326,7 @@ bool fill_with_curve(Track& track, FrameSpan span, Curve curve, const CurveSetti
 }
 
 void place_guess(Track& track, FrameSpan span, const Guess& guess, const CurveSettings& settings) {
-  // The difference between samples and guess is a track of its own, seen where the guess is.
+  // The difference between samples and guess is a track of its own, observed where the guess is.
   const std::size_t from = guess.first_frame, count = guess.values.size();
   Track misses{std::vector<Vec3>(count), std::vector<std::uint8_t>(count)};
   for (std::size_t i = 0; i < count; ++i) {

@@ -9,19 +9,19 @@ namespace kinemend::fill {
 
 namespace {
 
-// Of the surroundings that are compared: a share of the span's length within bounds, and frames at
-// least. Not swept.
+// The compared surroundings on either side: a share of the span's length, its bounds in seconds,
+// and a minimum of frames. Not swept.
 constexpr double compared_share = 0.5, least_compared_s = 0.15, most_compared_s = 0.5;
 constexpr std::size_t least_reach = 4, least_compared = 6;
-// The first search compares so few frames, a lag in every so many seconds, and accepts so many
-// times the largest mismatch (squared); for speed, not swept.
+// The first search compares at most this many frames, tries this many lags a second, and accepts
+// this multiple of the largest squared mismatch; for speed, not swept.
 constexpr std::size_t compared_at_first = 24;
 constexpr double lags_hz = 40, accepted_at_first = 2;
-// A cycle is of use up to so many times the mismatch of the best. Not swept.
+// A cycle is used if its mismatch is at most this multiple of the best one's. Not swept.
 constexpr double worst_of_best = 1.5;
-constexpr double least_square = 1e-6;  // of a mismatch that weighs
+constexpr double least_square = 1e-6;  // floor of the squared mismatch in a cycle's weight
 
-// The span with the frames around it that are compared.
+// The span and the compared frames around it.
 struct Scene {
   std::size_t first = 0, last = 0;    // inclusive
   std::vector<std::size_t> compared;  // observed frames, ascending
@@ -49,7 +49,8 @@ std::vector<std::size_t> thinned(const std::vector<std::size_t>& frames, std::si
   return chosen;
 }
 
-// Sum over the components of the squared distances of `value(frame)` from its best line.
+// Returns the sum over the components of the squared distances of `value(frame)` from its best
+// line.
 template <class Value>
 double squares_about_line(const std::vector<std::size_t>& frames, Value value) {
   double mean_frame = 0, spread = 0;
@@ -106,10 +107,10 @@ class Matcher {
  private:
   const Track& track_;
   const Scene& scene_;
-  std::vector<std::size_t> missing_;  // how many before each frame
+  std::vector<std::size_t> missing_;  // number of missing frames before each frame
 };
 
-// The minimum of squares among the lags within `step` of `lag`.
+// Returns the lag within `step` of `lag` that has the least squares.
 Cycle refined(const Matcher& matcher, std::ptrdiff_t lag, std::ptrdiff_t step,
               const std::vector<std::size_t>& frames) {
   Cycle best{lag, std::numeric_limits<double>::infinity()};

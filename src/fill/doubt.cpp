@@ -13,7 +13,8 @@ constexpr double compared_s = 0.5;
 constexpr std::size_t compared_more = 8, least_seen = 8;
 constexpr std::size_t most_doubted = 2;
 
-// Size of the second difference over the frames f - 1 to f + 1; negative where one is not observed.
+// Returns the size of the second difference over frames f - 1 to f + 1, negative if one is not
+// observed.
 double leap(const Track& track, std::size_t f) {
   if (!track.observed[f - 1] || !track.observed[f] || !track.observed[f + 1]) return -1;
   return size_of(track, track.values[f - 1] - 2 * track.values[f] + track.values[f + 1]);
@@ -31,7 +32,7 @@ Doubt doubt_beside(const Track& track, FrameSpan gap, double frame_rate_hz, doub
   const auto is_near = [](std::size_t a, std::size_t b) {
     return (a > b ? a - b : b - a) <= most_doubted;
   };
-  // The middle of the second differences that the samples next to the gap end.
+  // The middle frames of the second differences that end at the samples next to the gap.
   const std::size_t before = gap.first >= 2 ? gap.first - 2 : frames;
   const std::size_t behind = gap.last + 2 < frames ? gap.last + 2 : frames;
   double usual = least / clearly;

@@ -16,11 +16,11 @@ namespace kinemend::fill {
 
 namespace {
 
-// A doubted sample is a spike where it is farther from the filling than so many expected errors.
-// Not swept.
+// A doubted sample is a spike if it is farther from the filling than this many expected errors. Not
+// swept.
 constexpr double spike_errors = 4;
 
-// Those of the doubted samples that are far from a filling without them.
+// Returns the doubted samples that are far from a filling made without them.
 Doubt spikes_among(Doubt doubt, const Track& around, FrameSpan gap, const Filling& filling,
                    double spike_size) {
   const double far = std::max(spike_size, spike_errors * filling.expected_error);
@@ -32,7 +32,7 @@ Doubt spikes_among(Doubt doubt, const Track& around, FrameSpan gap, const Fillin
           doubt.behind > 0 && is_far(gap.last + 1) ? doubt.behind : 0};
 }
 
-// Without the samples beside the gap that are spikes.
+// Fills a gap without the samples beside it that are spikes.
 Filling fill_gap(const GappedTake& take, const OpenGap& gap) {
   if (gap.request->refusal) return *gap.request->refusal;
   const FrameSpan span = gap.span();
@@ -59,8 +59,8 @@ Filling fill_gap(const GappedTake& take, const OpenGap& gap) {
   return take.fill(gap, span);
 }
 
-// What the limit of the request leaves of a filling. What it refuses is tried again in a later
-// round, in which others are filled.
+// Refuses a filling whose expected error is above the request's limit. Such a gap is tried again in
+// a later round, when other gaps are filled.
 Filling within_limit(const GappedTake& take, const OpenGap& gap, Filling filling) {
   const std::string unit = take.unit_of(gap);
   const double limit = unit == "deg" ? gap.request->max_error_deg : gap.request->max_error;
@@ -85,7 +85,7 @@ class Rounds {
   Rounds(GappedTake& take, const std::vector<OpenGap>& gaps, const Check& check)
       : take_(take), gaps_(gaps), check_(check), fillings_(gaps.size()) {}
 
-  // Until a round fills nothing.
+  // Runs rounds until one fills nothing.
   void run() {
     std::vector<std::size_t> open(gaps_.size());
     std::iota(open.begin(), open.end(), std::size_t{0});
@@ -135,9 +135,10 @@ class Rounds {
     });
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       Filling& before = fillings_[chosen[i]];
-      // A second look never takes back what the first has found.
+      // A refill never replaces a filling by a refusal.
       if (!found[i].made() && before.made()) continue;
-      // Trials know the true places of companions that were filled, and expect too little then.
+      // Trials know the true positions of filled companions, so their expected error is too small
+      // here.
       if (before.made()) found[i].expected_error = before.expected_error;
       before = std::move(found[i]);
       take_.learn(gaps_[chosen[i]], before);
@@ -162,7 +163,7 @@ std::vector<FilledGap> fill_take(GappedTake& take, const std::vector<OpenGap>& g
 
 namespace {
 
-// One line for each reason why gaps that a model was asked to fill were left to `auto`.
+// Returns one line for each reason why gaps requested from a model were left to `auto`.
 std::vector<std::string> left_to_auto(const std::vector<FilledGap>& gaps,
                                       const std::vector<std::string>& names) {
   // Chosen by hand.

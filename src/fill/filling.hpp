@@ -1,4 +1,4 @@
-// What a method makes of a span of a track.
+// The result of filling a span of a track by one method.
 #pragma once
 
 #include <cstddef>
@@ -10,20 +10,21 @@
 
 namespace kinemend::fill {
 
-/// What a method makes of a span of a track.
+/// The result of filling a span of a track by one method.
 struct Filling {
-  std::vector<Vec3> values = {};  ///< of the span's frames, as the track has them; empty: refused
-  std::string method = {};        ///< that made them, or was tried last
-  std::string reason = {};        ///< why it was refused
-  /// Root mean square distance to the truth, file units or degrees; 0: unknown.
+  std::vector<Vec3> values = {};  ///< of the span's frames, in the track's vectors; empty: refused
+  std::string method = {};        ///< the method that made them, or was tried last
+  std::string reason = {};        ///< the reason for the refusal
+  /// Root mean square distance to the ground truth, file units or degrees; 0: unknown.
   double expected_error = 0;
-  /// Refused for what other tracks lack now; a later round may see more.
+  /// Refused because other tracks are missing now; a later round may succeed.
   bool may_wait = false;
-  /// Made from what other tracks show, so that it tells others something in turn; a curve does not.
+  /// Made from other tracks, so that it is evidence for them in turn; a curve is not.
   bool is_evidence = true;
   /// Markers whose movement it was made from; empty for a curve, and for joints.
   std::vector<std::size_t> markers_used = {};
-  /// Why the model that was asked for has left the gap to `auto`; empty: it was not, or did not.
+  /// The reason why the requested model left the gap to `auto`; empty: no model was requested, or
+  /// it filled the gap.
   std::string left_to_auto = {};
 
   bool made() const { return !values.empty(); }

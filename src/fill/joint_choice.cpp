@@ -14,15 +14,16 @@ namespace {
 
 using Methods = std::vector<const Method*>;
 
-// Trials that what is usual counts as; chosen on the takes that docs/methods/fill.md names.
+// The usual errors weigh as much as this many trials; chosen on the takes that docs/methods/fill.md
+// names.
 constexpr double usual_trials = 4;
-// A length below which differences mean nothing, of the skeleton's height and in degrees; not
+// Differences below these sizes are ignored: a share of the skeleton's height, and degrees; not
 // swept.
 constexpr double grain_of_height = 1e-4, grain_deg = 0.01;
-// Of a trial as far as another cycle may be, and what is compared around it.
+// A trial includes this much of the take on either side: the farthest cycle and its surroundings.
 constexpr double reach_s = 17;
 
-// With the straight line and the spline, by which the others are judged.
+// Adds the straight line and the spline, by which the other methods are judged.
 Methods with_references(std::span<const Method* const> methods) {
   Methods all(methods.begin(), methods.end());
   for (const char* name : {"slerp", "spline"}) {
@@ -48,7 +49,7 @@ std::vector<Sample> samples_at(const Track& track, const std::vector<std::size_t
   return result;
 }
 
-// The methods' errors over an observed span.
+// Returns the methods' errors over an observed span.
 Proposals try_on(const Track& track, FrameSpan span, TakeEnds ends, std::vector<std::size_t> frames,
                  const Methods& methods, const JointContext& context) {
   const auto reach = static_cast<std::size_t>(std::lround(reach_s * context.frame_rate_hz));
@@ -69,8 +70,8 @@ Proposals try_on(const Track& track, FrameSpan span, TakeEnds ends, std::vector<
   return errors;
 }
 
-// The logarithm of a method's usual square error beside slerp's, between the lengths that are
-// known.
+// Returns the logarithm of a method's usual square error relative to slerp's, interpolated between
+// the lengths in the table.
 double usual_log_square(const Method& method, double length_s) {
   const auto& lengths = usual_lengths_s;
   const double clamped = std::clamp(length_s, lengths.front(), lengths.back());

@@ -8,23 +8,23 @@
 
 namespace kinemend::fill {
 
-/// What one method makes of a gap of a track.
+/// One method's proposal for a gap of a track.
 struct JointProposal {
   const Method* method = nullptr;
-  std::vector<Vec3> values = {};  ///< of the span's frames; empty: it cannot fill it
+  std::vector<Vec3> values = {};  ///< of the span's frames; empty: the method cannot fill it
   double score = 0;               ///< least is best
-  /// Root mean square distance to the truth, file units or degrees; 0 where the take has no room to
-  /// try.
+  /// Root mean square distance to the ground truth, file units or degrees; 0 if the take has no
+  /// observed span for a trial.
   double expected_error = 0;
 };
 
-/// Fills the gap with each of the methods, and spans of the track that are observed
-/// (`trial_places`), as if these were gaps of it: at an end of the take where the gap is. A method
-/// that cannot fill one of those counts with slerp there.
+/// Fills the gap with each of the methods, and fills observed spans of the track (`trial_places`)
+/// as if they were gaps, at an end of the take if the gap is at one. In a trial that a method
+/// cannot fill, slerp's result is used.
 ///
-/// Best first. The score is the logarithm of the mean square error to be expected (`Judgement`), in
-/// short gaps with favour for the spline. The trials are few, and tell less where there was room
-/// for shorter ones only: they count beside four more that went as those methods usually do
+/// Returns the best first. The score is the logarithm of the expected mean square error
+/// (`Judgement`), with a bonus for the spline in short gaps. There are few trials, and shorter ones
+/// say less: they are averaged with four more that have the methods' usual errors
 /// (`JointRules::usual_errors`).
 std::vector<JointProposal> propose(const Track& track, FrameSpan gap,
                                    std::span<const Method* const> methods,

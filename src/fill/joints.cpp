@@ -1,4 +1,4 @@
-// Fills gaps of joints: rotations, and the positions that joints have.
+// Fills gaps of joints: their rotations and positions.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,16 +18,16 @@ namespace kinemend::fill {
 
 namespace {
 
-// `auto` refuses what it expects to be farther from the truth than this: as far as an eighth of the
+// `auto` refuses a filling with a larger expected error; the limit corresponds to an eighth of the
 // radius of a marker's body.
 constexpr double largest_error_deg = 12.5, largest_error_of_height = 0.0625;
-// What is nearer to a filling than so many of these is no spike. Not swept.
+// A sample within this many largest errors of the filling is not a spike. Not swept.
 constexpr double joint_spike_errors = 1.6;
-// What a model sees on either side of a gap with doubted samples beside it: more than the networks
-// of the paper were trained to look ahead.
+// With doubted samples beside a gap, a model reads this much on either side: more than the
+// look-ahead that the paper's networks were trained for.
 constexpr double around_model_s = 4;
 
-// A track of the take with gaps: joint 0's position is 0, that of translated joint k is k + 1.
+// A track of the take with gaps. Joint 0 has position 0; translated joint k has position k + 1.
 struct Source {
   std::size_t index = 0;  // joint or position
   bool is_position = false;
@@ -38,7 +38,7 @@ struct JointGaps {
   std::vector<OpenGap> gaps;
 };
 
-// `first`: the frame of the take that the clip begins with.
+// `first`: the take's frame at which the clip begins.
 JointGaps gaps_of(const Take& clip, const RequestOf& request_of, std::size_t first) {
   JointGaps found;
   const auto append = [&](const std::vector<Gap>& gaps, bool is_position) {
@@ -64,7 +64,7 @@ JointGaps gaps_of(const Take& clip, const RequestOf& request_of, std::size_t fir
   return found;
 }
 
-// What each model that is to fill some of the gaps makes of the whole take.
+// The result on the whole take of each model that is to fill some of its gaps.
 using LearnedFillings = std::map<const LearnedFill*, LearnedFilling>;
 
 LearnedFillings fillings_of(const Take& clip, const std::vector<OpenGap>& gaps) {
@@ -78,7 +78,7 @@ LearnedFillings fillings_of(const Take& clip, const std::vector<OpenGap>& gaps) 
   return found;
 }
 
-// Each gap is filled by itself, from what was observed.
+// Each gap is filled on its own, from observed samples only.
 class JointTake : public GappedTake {
  public:
   JointTake(Take& clip, const std::vector<Source>& sources, LearnedFillings learned)
@@ -135,7 +135,8 @@ class JointTake : public GappedTake {
   }
 
  private:
-  // Why the model that is asked for has no say in the gap; empty where it does, or none is.
+  // Returns why the requested model cannot fill the gap; empty if it can, or if no model is
+  // requested.
   std::string left_to_auto(const OpenGap& gap) const {
     if (!gap.request->method->about.learned) return "";
     if (gap.is_position) return "the model fills no positions";
@@ -153,7 +154,7 @@ class JointTake : public GappedTake {
     return filling;
   }
 
-  // Vectors of a track as another has them.
+  // Converts the values from the vectors of `other` to those of `own`.
   static void say_in(const Track& own, const Track& other, FrameSpan span,
                      std::vector<Vec3>& values) {
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -162,8 +163,8 @@ class JointTake : public GappedTake {
     }
   }
 
-  // Samples beside the gap that are doubted are missing to the model, too: it then sees the take
-  // around the gap only, which is quicker.
+  // Doubted samples beside the gap are hidden from the model too. It then reads only the take
+  // around the gap, which is faster.
   Filling by_model(FrameSpan span, const OpenGap& gap) const {
     Filling filling{{}, std::string(gap.request->method->about.name)};
     filling.reason = gap.request->fill_all ? "" : too_long(*gap.request->method, gap);
@@ -187,7 +188,7 @@ class JointTake : public GappedTake {
     return filling;
   }
 
-  // What a model has made of the joint; `first`: the frame of the take that it begins with.
+  // Returns a model's result for the joint. `first`: the take's frame at which the result begins.
   std::vector<Vec3> said_of(Track track, FrameSpan span, const LearnedFilling& learned,
                             std::size_t first) const {
     const auto value_at = [&](std::size_t f) {
@@ -207,7 +208,7 @@ class JointTake : public GappedTake {
     return values_in(track, span);
   }
 
-  // The best that fills the span and may. Where none does, the reason of the best tells most.
+  // Returns the best proposal that fills the span and is allowed, else the refusal of the best one.
   Filling chosen_of(const Track& track, FrameSpan span, const OpenGap& gap) const {
     const GapRequest& request = *gap.request;
     const std::string_view method = request.method->about.name;
@@ -232,7 +233,7 @@ class JointTake : public GappedTake {
     return refused;
   }
 
-  // Why the rules do not let the method fill the gap; empty where they do.
+  // Returns why the rules forbid the method to fill the gap; empty if they allow it.
   std::string refusal(const JointProposal& proposal, const OpenGap& gap) const {
     if (std::string reason = too_long(*proposal.method, gap); !reason.empty()) return reason;
     const double largest = largest_error(gap.is_position);
@@ -327,7 +328,7 @@ std::vector<FilledGap> fill_asked_joints(Take& clip, const RequestOf& request_of
       filled.outcome.gap.first_frame += calibration;
       filled.outcome.gap.last_frame += calibration;
     }
-    // Gaps of the calibration pose, which is no part of the motion.
+    // The calibration pose is not part of the motion; its gaps are listed as refused.
     for (const OpenGap& open : gaps_of(slice(clip, 0, calibration), request_of, 0).gaps) {
       found.push_back({{open.gap, std::string(open.request->method->about.name), false,
                         "is part of the calibration pose", 0, open.is_position}});

@@ -1,5 +1,5 @@
-// Scales the errors of trials by how much the candidates differ in the gap, and averages candidates
-// by these.
+// Scales the errors of trials by how much the candidates differ in the gap, and weights the
+// candidates by them.
 #include "fill/judgement.hpp"
 
 #include <algorithm>
@@ -13,16 +13,17 @@ namespace kinemend::fill {
 
 namespace {
 
-// Exponents of the ratios of mean square differences, for the choice and for the expected error: of
-// candidates from each other, and from the straight line. They and `caution` are regressed from
-// gaps made in the takes that docs/methods/fill.md names; the bounds of the ratio are not swept.
+// Exponents of the ratios of mean square differences, for the choice and for the expected error:
+// differences of candidates from each other, and from the straight line. They and `caution` are
+// regressed from artificial gaps in the takes that docs/methods/fill.md names; the bounds of the
+// ratio are not swept.
 constexpr double choice_exponent = 0.5;
 constexpr double error_exponent = 0.5, line_exponent = 0.3;
-// Few trials do not show the worst: the error is stated above their root mean square.
+// Few trials miss the worst case, so the expected error is raised above their root mean square.
 constexpr double caution = 1.45, caution_at_end = 2;
 constexpr double least_ratio = 1.0 / 16, most_ratio = 1e4;
-// Shares of the square of the grain that are added to a spline's square, and to differences that
-// tell of the error. Not swept.
+// Shares of the squared grain, added to the spline's square error and to the differences that scale
+// the expected error. Not swept.
 constexpr double spline_floor = 0.01, error_floor = 0.25;
 
 using Matrix = Eigen::MatrixXd;
@@ -41,7 +42,7 @@ Indices lines_among(std::span<const CandidateKind> kinds) {
   return indices_of(kinds, [](CandidateKind kind) { return kind == CandidateKind::line; });
 }
 
-// Mean square distance of the candidates from the average of them with these weights.
+// Returns the mean square distance of the candidates from their average with these weights.
 double spread_about(const Matrix& products, const Indices& candidates,
                     const Eigen::VectorXd& weights) {
   const Eigen::VectorXd with_average = products * weights;
@@ -61,7 +62,7 @@ double mean_over(const std::vector<Matrix>& trials, const auto& value) {
   return sum / static_cast<double>(trials.size());
 }
 
-// How much `difference(products)` is greater in the gap than in the trials.
+// Returns the ratio of `difference(products)` in the gap to its mean in the trials.
 double ratio_of(const Matrix& gap, const std::vector<Matrix>& trials, double floor,
                 const auto& difference) {
   const double usual = mean_over(trials, difference) + floor;
@@ -153,7 +154,7 @@ std::vector<double> Judgement::weights(double favour) const {
 double Judgement::expected_error(std::span<const double> weights) const {
   const Eigen::Map<const Eigen::VectorXd> w(weights.data(),
                                             static_cast<Eigen::Index>(weights.size()));
-  // A candidate alone is compared with the line.
+  // A single candidate is compared with the line.
   Indices others =
       indices_of(kinds_, [](CandidateKind kind) { return kind != CandidateKind::line; });
   if (others.size() < 2) others = lines_among(kinds_);
@@ -164,8 +165,8 @@ double Judgement::expected_error(std::span<const double> weights) const {
                  [&](const Matrix& products) { return spread_about(products, others, w); });
     harder = portable::pow(ratio, error_exponent);
   }
-  // A gap in which the track turns farther than in the trials is harder; one that is straighter may
-  // look so because what fills it has missed the turn.
+  // A gap in which the track turns farther than in the trials is harder. A straighter one may only
+  // look so because its filling misses the turn.
   if (const Indices lines = lines_among(kinds_); !lines.empty()) {
     const double ratio =
         ratio_of(gap_, trials_.products, error_floor * floor_,

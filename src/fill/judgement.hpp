@@ -1,5 +1,5 @@
-// How much trust each of several ways to fill a gap deserves, and what error is to be expected:
-// from trials on spans that were measured, and from what the gap itself shows.
+// Judges several ways to fill a gap and their expected error, from trials on observed spans and
+// from the gap itself.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,50 +12,51 @@
 namespace kinemend::fill {
 
 enum class CandidateKind : std::uint8_t {
-  model,   ///< made of what other markers or joints show
-  spline,  ///< the natural cubic, by which all are judged in a gap of a few frames
+  model,   ///< made from other markers or joints
+  spline,  ///< the natural cubic, the reference in a gap of a few frames
   curve,   ///< another curve through the track's own samples
-  line     ///< never used: the distance of the others from it tells how much the track moves
+  line     ///< never used: the others' distance from it measures the motion
 };
 
-/// In gaps of up to this length a spline is hard to beat: another candidate's mean square error has
-/// to be so much less to count as much. Chosen on the takes that docs/methods/fill.md names.
+/// A spline is hard to beat in gaps of up to this length: another candidate is preferred only if
+/// its mean square error is smaller by this factor. Chosen on the takes that docs/methods/fill.md
+/// names.
 inline constexpr double short_gap_s = 0.1;
 inline constexpr double clearly_better = 4;
 
-/// What the candidates propose for some frames of a span, as offsets: from the truth in a trial, in
-/// the gap from any one of them. C x frames.
+/// The candidates' proposals for some frames of a span, C x frames. Each is an offset: from the
+/// ground truth in a trial, from any one of them in the gap.
 using Proposals = std::vector<std::vector<Vec3>>;
 
-/// Their mean scalar products: C x C.
+/// Returns the mean scalar products of the offsets: C x C.
 Eigen::MatrixXd products_of(const Proposals& offsets);
 
 /// Spans of the take that were filled to see how the candidates do.
 struct Trials {
-  std::vector<Eigen::MatrixXd> products;  ///< of the candidates' errors; empty: no room
-  double longer = 1;                      ///< the gap is, than these; its errors grow with it
-  bool at_end = false;                    ///< of the take: one side of the gap tells nothing
-  double weight = 0;  ///< trials that share no frame, fewer where they are shorter than the gap
+  std::vector<Eigen::MatrixXd> products;  ///< of the candidates' errors; empty: no trials
+  double longer = 1;    ///< the gap's length relative to theirs; its errors grow with it
+  bool at_end = false;  ///< at an end of the take, where one side of the gap has no samples
+  double weight = 0;    ///< number of disjoint trials, reduced if they are shorter than the gap
 };
 
-/// What trials (one at least) tell about the candidates for one gap. The gap may be harder than the
-/// trials were, and candidates that differ more in it than in the trials say so: mean square errors
-/// of the trials are multiplied by (D / D')^g, with D the mean square by which candidates differ in
-/// the gap and D' that in the trials.
+/// Judges the candidates for one gap by trials (one at least). The gap may be harder than the
+/// trials, and then candidates differ more in it than in the trials. Mean square errors of the
+/// trials are therefore multiplied by (D / D')^g, where D is the mean square difference of the
+/// candidates in the gap and D' that in the trials.
 class Judgement {
  public:
-  /// `gap`: products of what the candidates propose for it. `grain`: lengths below it mean nothing.
+  /// `gap`: products of the candidates' proposals for it. `grain`: smaller lengths are ignored.
   Judgement(std::vector<CandidateKind> kinds, Eigen::MatrixXd gap, Trials trials, double grain);
 
-  /// The mean square error to be expected of each candidate, by how much the models differ from
-  /// each other, and a curve from the line; infinite for the line. The spline's is its typical one:
-  /// a single trial in which it went astray says nothing against it.
+  /// The expected mean square error of each candidate, scaled by how much the models differ from
+  /// each other, and a curve from the line; infinite for the line. The spline has its typical
+  /// error: a single trial with a large error does not count against it.
   const std::vector<double>& squares() const { return squares_; }
   /// Weights of the candidates in their average, as 1 / square^2; their sum is 1. The spline's
   /// square is divided by `favour` first.
   std::vector<double> weights(double favour) const;
-  /// Root mean square distance to the truth of the average with these weights, by how much all
-  /// differ from it and by how far it is from the straight line.
+  /// Returns the root mean square distance to the ground truth of the average with these weights,
+  /// scaled by how much all candidates differ from it and by its distance from the straight line.
   double expected_error(std::span<const double> weights) const;
 
  private:

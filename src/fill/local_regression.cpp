@@ -1,4 +1,4 @@
-// Learns the regression from frames outside of the gap and predicts the frames in it.
+// Learns the regression from frames outside the gap and predicts the frames in it.
 #include "fill/local_regression.hpp"
 
 #include <algorithm>
@@ -8,10 +8,10 @@ namespace kinemend::fill {
 namespace {
 
 constexpr std::size_t most_training_frames = 192, most_shape_frames = 64;  // for speed
-// A distance cannot be known better than to a share of the spread that others have. Not swept.
+// A floor of a distance's spread, as a share of the other companions' spread. Not swept.
 constexpr double least_share = 0.003;
 
-// The steadiest companions. They place the group the more, the less their distances vary.
+// Takes the steadiest companions. Their weight grows as the variation of their distance shrinks.
 MarkerGroup make_group(std::span<const Companion> companions, std::size_t most) {
   const std::size_t count = std::min(most, companions.size());
   if (count == 0) return {{}, {}};

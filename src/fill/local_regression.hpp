@@ -13,50 +13,49 @@
 
 namespace kinemend::fill {
 
-/// Where a marker is among the markers that keep their distance to it, its companions. In the frame
-/// of reference that moves with them the marker's coordinates are predicted from theirs by
-/// `ridge_regression` over the frames of the take in which all are seen; rows are of three
-/// coordinates, or of all companions'. With infinite stiffness the companions and the marker are
-/// one rigid body.
+/// Predicts a marker from its companions: the markers that keep their distance to it. In the frame
+/// of reference that moves with the companions, `ridge_regression` predicts the marker's
+/// coordinates from theirs, over the frames of the take in which all are seen. Rows hold three
+/// coordinates, or those of all companions. With infinite stiffness the companions and the marker
+/// are one rigid body.
 class LocalRegression {
  public:
-  /// Learns from at most 192 frames outside the gap, with the first `most_companions` of those
-  /// given (`companions_of`).
+  /// Learns from at most 192 frames outside the gap, with the first `most_companions` of the given
+  /// ones (`companions_of`).
   LocalRegression(const Samples& samples, const MarkerGap& gap,
                   std::span<const Companion> companions, std::size_t most_companions);
 
-  /// Whether there are companions, and frames to learn from.
+  /// Whether there are companions and enough frames to learn from.
   bool usable() const { return training_.frames.size() >= least_training_frames; }
   const MarkerGroup& group() const { return group_; }
 
-  /// A span of the take to be predicted: what is seen of the companions in its frames, and of the
-  /// marker beside it.
+  /// A span of the take to predict: its companions' samples, and the marker's samples beside it.
   struct Scene {
     FrameSpan span = {};
     std::vector<std::size_t> beside;  ///< observed frames near the span, ascending
     std::vector<std::size_t> wanted;  ///< frames of the span
-    std::vector<Placement> placed;    ///< in the frames beside, then in those wanted
-    Rows inputs;                      ///< likewise: the companions' coordinates about their shape
-    Rows seen;                        ///< the marker's own coordinates in the frames beside
+    std::vector<Placement> placed;    ///< placements of the frames beside, then of the wanted ones
+    Rows inputs;  ///< in the same order: the companions' coordinates about their shape
+    Rows seen;    ///< the marker's own coordinates in the frames beside
   };
   /// `gap`: of the same marker.
   Scene scene_of(const MarkerGap& gap, std::span<const std::size_t> wanted) const;
 
-  /// The marker's coordinates in all frames of the scene, by the regression on the frames outside
-  /// its span, for each stiffness (file units; infinity: rigid).
+  /// Returns the marker's coordinates in all frames of the scene for each stiffness (file units;
+  /// infinity: rigid), by regression on the frames outside its span.
   std::vector<Rows> predict(const Scene& scene, std::span<const double> stiffness) const;
-  /// What carries errors beside the scene's span into it.
+  /// Returns the bridge that carries errors beside the scene's span into it.
   Bridge bridge_of(const Scene& scene, const Bridge::Settings& settings = {}) const;
-  /// Positions in the frames wanted, of such coordinates moved so that they meet the ends.
+  /// Returns positions in the wanted frames: the coordinates, moved so that they meet the ends.
   static std::vector<Vec3> meet_ends(const Scene& scene, const Bridge& bridge,
                                      const Rows& coordinates);
 
-  /// The companions' coordinates about their shape, and the marker's, in the frames learned from.
+  /// The companions' coordinates about their shape, and the marker's, in the training frames.
   Rows training_inputs() const;
   Rows training_outputs() const;
 
   // Not swept.
-  static constexpr std::size_t least_training_frames = 8;  // fewer say nothing of a model
+  static constexpr std::size_t least_training_frames = 8;  // fewer cannot test a model
 
  private:
   Placement put_inputs(std::size_t frame, double* row) const;
@@ -69,8 +68,8 @@ class LocalRegression {
   TrainingRows training_;  // columns: 1, inputs, outputs
 };
 
-/// How stiff the body is taken to be, from shares of its radius; the last is rigid. Chosen on the
-/// takes that docs/methods/fill.md names.
+/// Returns the stiffnesses as shares of the body's radius; the last is rigid. Chosen on the takes
+/// that docs/methods/fill.md names.
 inline std::array<double, 3> stiffnesses_of(double radius) {
   return {0.0015 * radius, 0.008 * radius, std::numeric_limits<double>::infinity()};
 }

@@ -1,4 +1,4 @@
-// The method `auto` for markers: averages several ways to fill a gap as trials tell.
+// The method `auto` for markers: averages several ways to fill a gap, weighted by trials.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,15 +17,15 @@ namespace {
 
 constexpr std::string_view name = "auto";
 
-// Chosen on the takes that docs/methods/fill.md names. Expected errors beyond this share of the
-// body's radius are refused; none is stated below the other.
+// Chosen on the takes that docs/methods/fill.md names. Both are shares of the body's radius: larger
+// expected errors are refused, and smaller ones are raised to the least.
 constexpr double largest_error = 0.125, least_error = 1e-4;
 constexpr std::array<std::size_t, 2> group_sizes = {6, 12};  // of companions
-constexpr std::array<double, 2> noises = {1e-4, 2e-2};       // clean samples, and trembling ones
-// A spline goes far astray in a longer gap; a curve whose end velocities fade does not. Not swept.
+constexpr std::array<double, 2> noises = {1e-4, 2e-2};       // clean samples, and jittery ones
+// Splines go far astray in longer gaps; a curve whose end velocities fade does not. Not swept.
 constexpr double longest_spline_s = 1;
 
-// All ways that a gap may be filled in, ready to be tried on other spans as well.
+// All ways to fill a gap, which can also be tried on other spans.
 class Candidates {
  public:
   Candidates(const Samples& samples, const MarkerGap& gap)
@@ -52,9 +52,9 @@ class Candidates {
   }
 
   bool any() const { return !kinds_.empty(); }
-  /// Whether the gap is so short that a spline may fill it untried.
+  /// Whether the gap is so short that a spline may fill it without a trial.
   bool is_short() const { return is_short_; }
-  /// Whether its segment alone vouches for the marker.
+  /// Whether the marker's own segment has enough companions to predict it without a trial.
   bool on_a_segment() const {
     return !regressions_.empty() &&
            companions_[least_companions - 1].spread <= segment_spread * samples_.radius;
@@ -68,7 +68,7 @@ class Candidates {
   std::string_view method(std::size_t candidate) const { return methods_[candidate]; }
   std::size_t spline() const { return kinds_.size() - 2; }
 
-  /// One for each candidate: positions in the frames that are asked for.
+  /// Returns the positions in the requested frames, for each candidate.
   Proposals proposals(const MarkerGap& gap, const std::vector<std::size_t>& wanted) const {
     Proposals all;
     for (const LocalRegression& regression : regressions_) {
@@ -125,7 +125,7 @@ Trials try_candidates(const Samples& samples, const MarkerGap& gap, const Candid
   });
 }
 
-// The proposals for a gap averaged as the trials tell.
+// Returns the average of the proposals for a gap, weighted by the trials.
 Filling average(const Samples& samples, const MarkerGap& gap, const Candidates& candidates,
                 const Proposals& proposals, const Trials& trials) {
   const Judgement judgement(candidates.kinds(),
@@ -182,7 +182,7 @@ Filling fill_by_auto(const Samples& samples, const MarkerGap& gap, const MarkerR
     return filling;
   }
   Filling filling = average(samples, gap, candidates, proposals, trials);
-  // Without other markers there is no size to judge by; a curve is short.
+  // Without other markers there is no size to judge the error by; a curve fills short gaps only.
   const double radius = samples.radius;
   if (request.lenient || radius == 0 || filling.expected_error <= largest_error * radius) {
     return filling;

@@ -12,16 +12,16 @@ namespace kinemend::fill {
 
 namespace {
 
-// Not swept. Points are taken to lie on one line where the sum of the principal 2 x 2 minors of
-// their scatter is below this share of its squared trace.
+// Not swept. Points lie on one line if the sum of the principal 2 x 2 minors of their scatter is
+// below this share of its squared trace.
 constexpr double least_plane = 0.0025;
-constexpr int shape_rounds = 2;                     // of a mean shape
+constexpr int shape_rounds = 2;                     // iterations of a mean shape
 constexpr std::size_t most_companion_frames = 192;  // for speed
-// Fewer common frames say nothing about a distance.
+// Fewer common frames give no reliable distance.
 constexpr double least_common = 3;
 
-// The unit quaternion q with the greatest sum of w (R(q) a) . b (Horn 1987), of sums s[i][j] = w
-// a_i b_j. `size` is no less than sum of w |a| |b|: it moves all eigenvalues above zero.
+// Returns the unit quaternion q that maximises the sum of w (R(q) a) . b (Horn 1987), from the sums
+// s[i][j] = w a_i b_j. `size` is at least the sum of w |a| |b|; it makes all eigenvalues positive.
 Quat best_rotation(const double (&s)[3][3], double size) {
   const rotation::Matrix4 matrix = {{
       {size + s[0][0] + s[1][1] + s[2][2], s[1][2] - s[2][1], s[2][0] - s[0][2], s[0][1] - s[1][0]},
@@ -50,7 +50,7 @@ Vec3 MarkerGroup::centre_of(const Samples& samples, std::size_t frame) const {
 
 Placement MarkerGroup::placement(const Samples& samples, std::size_t frame) const {
   if (!turns_) return {{}, centre_of(samples, frame)};
-  // The shape's weighted sum is zero, so that sums of products need no centre.
+  // The shape's weighted sum is zero, so the sums of products need no centring.
   Vec3 centre;
   double sums[3][3] = {}, own = 0, other = 0;
   for (std::size_t k = 0; k < markers_.size(); ++k) {
@@ -74,7 +74,7 @@ void MarkerGroup::fit_shape(const Samples& samples, std::span<const std::size_t>
       shape_[k] = samples.at(frame, markers_[k]) - centre;
     }
   };
-  // A limb that is straight in one frame is bent in another.
+  // A limb that is straight in one frame may be bent in another, so several frames are tried.
   turns_ = false;
   for (const std::size_t part : {4U, 2U, 6U, 1U, 7U}) {
     if (turns_) break;

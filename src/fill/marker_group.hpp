@@ -1,4 +1,5 @@
-// Markers that move nearly as a rigid body, and the frame of reference that moves with them.
+// A group of markers that move nearly as a rigid body, and the frame of reference that moves with
+// it.
 #pragma once
 
 #include <cstddef>
@@ -9,9 +10,9 @@
 
 namespace kinemend::fill {
 
-/// Where a group of markers is in one frame.
+/// The place of a group of markers in one frame.
 struct Placement {
-  Quat rotation;  ///< of the group's mean shape into the world
+  Quat rotation;  ///< from the group's mean shape to the world
   Vec3 centre;
 
   Vec3 to_local(Vec3 world) const { return rotate(conjugate(rotation), world - centre); }
@@ -19,19 +20,19 @@ struct Placement {
 };
 
 /// Markers that move nearly as a rigid body, and the frame of reference that moves with them: the
-/// rotation and shift that bring their mean shape nearest to them, in weighted least squares
-/// (Kabsch 1976; by quaternions, Horn 1987).
+/// rotation and shift that fit their mean shape to them by weighted least squares (Kabsch 1976; by
+/// quaternions, Horn 1987).
 class MarkerGroup {
  public:
   MarkerGroup(std::vector<std::size_t> markers, std::vector<double> weights);
 
-  /// Finds the mean shape over these frames, in which every marker of the group is seen.
+  /// Finds the mean shape over these frames. Every marker of the group must be seen in them.
   void fit_shape(const Samples& samples, std::span<const std::size_t> frames);
 
   std::span<const std::size_t> markers() const { return markers_; }
   std::span<const Vec3> shape() const { return shape_; }
-  /// False for fewer than three markers, or when they lie nearly on one line: the group's turning
-  /// is not known then, and placements only shift.
+  /// False for fewer than three markers, or if they lie nearly on one line: the group's rotation is
+  /// then unknown, and placements only shift.
   bool turns() const { return turns_; }
   Placement placement(const Samples& samples, std::size_t frame) const;
 
@@ -51,8 +52,8 @@ struct Companion {
   double spread = 0;  ///< standard deviation of the distance, file units
 };
 
-/// The helpers by the spread of their distance to the gap's marker, least first; those that are
-/// never seen together with it are left out. At most 192 frames are looked at.
+/// Returns the helpers by the spread of their distance to the gap's marker, least first, without
+/// those never seen together with it. Uses at most 192 frames.
 std::vector<Companion> companions_of(const Samples& samples, const MarkerGap& gap,
                                      std::span<const std::size_t> helpers);
 

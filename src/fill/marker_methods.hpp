@@ -13,11 +13,11 @@
 
 namespace kinemend::fill {
 
-/// What is asked of a method.
+/// The options of a request to one method.
 struct MarkerRequest {
-  std::size_t donor = no_marker;  ///< of `pattern`
-  double longest_gap_s = 0;       ///< 0: what the method's rules say
-  bool lenient = false;           ///< also what the rules refuse, as far as it is possible at all
+  std::size_t donor = no_marker;  ///< used by `pattern`
+  double longest_gap_s = 0;       ///< 0: the limit of the method's rules
+  bool lenient = false;           ///< also fills gaps that the rules refuse, if a method can
 
   static constexpr std::size_t no_marker = std::numeric_limits<std::size_t>::max();
 };
@@ -36,17 +36,17 @@ Filling fill_marker_by_cycles(const Samples& samples, const MarkerGap& gap,
 Filling fill_by_auto(const Samples& samples, const MarkerGap& gap, const MarkerRequest& request);
 /// The longest gap that a curve fills by its own rule, and in which `auto` tries one. Not swept.
 inline constexpr double longest_curve_s = 0.25;
-/// By a curve through the marker's own samples, of the method `name`.
+/// Fills by a curve through the marker's own samples; `name` is the method's.
 Filling fill_by_curve(const Samples& samples, const MarkerGap& gap, const MarkerRequest& request,
                       Curve curve, std::string_view name);
 
-/// The curve through the marker's own samples, at the span's frames; empty where it has none.
+/// Returns the curve through the marker's own samples at the span's frames; empty if it has none.
 std::vector<Vec3> curve_positions(const Samples& samples, const MarkerGap& gap, Curve curve);
 
 /// Markers of one segment keep their distance to within this share of the body's radius (standard
 /// deviation). Chosen on the takes that docs/methods/fill.md names.
 inline constexpr double segment_spread = 0.02;
-/// Other markers that a regression needs: they tell how the body turns.
+/// The number of other markers that a regression needs to know the body's rotation.
 inline constexpr std::size_t least_companions = 3;
 
 }  // namespace kinemend::fill

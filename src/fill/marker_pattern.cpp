@@ -7,7 +7,7 @@ namespace kinemend::fill {
 
 namespace {
 
-// Of the donor's movement beside the gap. Not swept.
+// The part of the donor's movement beside the gap that is used. Not swept.
 constexpr double pattern_beside_s = 0.3;
 constexpr std::size_t least_beside = 16;  // frames
 
@@ -18,7 +18,8 @@ Filling fill_by_pattern(const Samples& samples, const MarkerGap& gap,
   constexpr std::string_view name = "pattern";
   const std::size_t donor = request.donor;
   if (donor == gap.marker) return Filling::refused(name, "the marker is its own donor");
-  // The donor's frames without a break that hold the gap, and as many beside it as ends need.
+  // Finds the donor's contiguous frames that cover the gap and enough frames beside it to meet the
+  // ends.
   const std::size_t reach = samples.frames_in(pattern_beside_s, least_beside);
   std::size_t first = gap.span.first, last = gap.span.last;
   for (std::size_t f = first; f <= last; ++f) {

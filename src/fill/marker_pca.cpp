@@ -12,11 +12,11 @@ namespace kinemend::fill {
 
 namespace {
 
-// Not swept, but as Gloersen & Federolf 2016 have it: the width of the weights by distance, 200 mm
-// on a body whose radius is 450 mm.
+// Not swept; the value of Gloersen & Federolf 2016: the width of the weights by distance, 200 mm on
+// a body with a radius of 450 mm.
 constexpr double weight_radius = 0.45;
-constexpr double least_weight = 0.02;          // of a helper, however far
-constexpr std::size_t least_frames = 30;       // common to all helpers
+constexpr double least_weight = 0.02;          // of a helper at any distance
+constexpr std::size_t least_frames = 30;       // frames in which all helpers are seen
 constexpr std::size_t most_pca_frames = 1024;  // for speed
 // Components are kept until they hold this share of the weighted variance.
 constexpr double kept_variance = 0.9999;

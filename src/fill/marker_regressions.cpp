@@ -1,4 +1,4 @@
-// The methods that predict a marker from its companions: a rigid body, and a local regression.
+// The methods that predict a marker from its companions: a rigid body and a local regression.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,15 +14,16 @@ namespace kinemend::fill {
 
 namespace {
 
-// The stiffnesses are those of `auto`; the others are not swept.
+// The stiffnesses are those of `auto`; the values below are not swept.
 constexpr std::size_t most_companions = 8;
-// Width of the neighbours' weights, as a share of how far the inputs spread.
+// The width of the neighbours' weights, as a share of the inputs' spread.
 constexpr double width_share = 0.3;
-// Of the body's radius: distances that hardly vary would let one of them decide.
+// The least spread of a distance, as a share of the body's radius, so that a nearly constant
+// distance does not decide alone.
 constexpr double least_spread_share = 0.002;
-constexpr int distance_rounds = 4;  // over the companions
+constexpr int distance_rounds = 4;  // passes over the companions
 
-// What is known of the distance from the marker to one companion.
+// The statistics of the distance from the marker to one companion.
 struct Distance {
   double mean = 0, spread = 0;
   double least = std::numeric_limits<double>::infinity(), most = 0;
@@ -54,7 +55,7 @@ std::vector<Distance> distances_of(const LocalRegression& body) {
   return distances;
 }
 
-// Regression by the neighbours in the space of the inputs (a general regression neural network,
+// Regresses on the neighbours in the space of the inputs (a general regression neural network,
 // Specht 1991).
 Rows by_neighbours(const LocalRegression& body, const LocalRegression::Scene& scene) {
   const Rows inputs = body.training_inputs(), outputs = body.training_outputs();
@@ -73,7 +74,8 @@ Rows by_neighbours(const LocalRegression& body, const LocalRegression::Scene& sc
   return result;
 }
 
-// How likely the distances of a position to the companions are, by their mean squared z-scores.
+// Returns the likelihood of a position's distances to the companions, from their mean squared
+// z-scores.
 double likelihood(const LocalRegression& body, const LocalRegression::Scene& scene,
                   Eigen::Index row, const Eigen::RowVector3d& position,
                   const std::vector<Distance>& distances, double least_spread) {
@@ -86,7 +88,7 @@ double likelihood(const LocalRegression& body, const LocalRegression::Scene& sce
   return portable::exp(-sum / (2 * static_cast<double>(distances.size())));
 }
 
-// Moves a position until its distances to the companions are such as the take has shown.
+// Moves a position until its distances to the companions lie within the range seen in the take.
 void hold_distances(const LocalRegression& body, const LocalRegression::Scene& scene,
                     Eigen::Index row, const std::vector<Distance>& distances, Rows& coordinates) {
   for (int round = 0; round < distance_rounds; ++round) {

@@ -14,13 +14,13 @@ namespace kinemend::fill {
 
 namespace {
 
-// A sample beside a gap is a spike where it is farther from a filling without it than this share of
+// A sample beside a gap is a spike if it is farther from a filling without it than this share of
 // the body's radius. Not swept.
 constexpr double spike_share = 0.1;
-// A gap gains from a second look where one so steady was missing too. Not swept.
+// A gap is refilled if one of this many steadiest companions was missing in it. Not swept.
 constexpr std::size_t steadiest = 8;
 
-// `unlabelled`: such markers are evidence.
+// `unlabelled`: whether unlabelled markers are evidence.
 Samples samples_of(const Take& clip, const std::vector<std::uint8_t>& seen, bool unlabelled) {
   Samples samples;
   samples.frames = clip.frame_count();
@@ -39,7 +39,7 @@ Samples samples_of(const Take& clip, const std::vector<std::uint8_t>& seen, bool
   return samples;
 }
 
-// What one round fills is evidence for the next.
+// The fillings of one round are evidence for the next.
 class MarkerTake : public GappedTake {
  public:
   MarkerTake(Take& clip, const std::vector<OpenGap>& gaps)
@@ -60,7 +60,7 @@ class MarkerTake : public GappedTake {
 
   double spike_size(const OpenGap&) const override { return spike_share * samples_.radius; }
 
-  // By the method, or where all are to be filled and it cannot, by the best guess there is.
+  // Fills by the method; a lenient request falls back to the best guess if the method cannot.
   Filling fill(const OpenGap& gap, FrameSpan span) const override {
     const Method& method = *gap.request->method;
     const MarkerRequest request = gap.request->of_marker();
@@ -86,7 +86,8 @@ class MarkerTake : public GappedTake {
     }
   }
 
-  // Where a steady companion was missing too: what was filled of it is evidence now.
+  // A gap gains if a steady companion was missing in it, because the companion's filling is
+  // evidence now.
   bool gains(const OpenGap& gap) const override {
     const FrameSpan span = gap.span();
     const bool overlaps = std::any_of(gaps_.begin(), gaps_.end(), [&](const OpenGap& other) {

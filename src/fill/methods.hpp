@@ -1,4 +1,4 @@
-// The table of all ways to fill a gap, and how methods for joints are judged.
+// The table of all ways to fill a gap, and the rules by which methods for joints are judged.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace kinemend::fill {
 
-/// What the methods for joints know of the take.
+/// The data of the take that the methods for joints use.
 struct JointContext {
   double frame_rate_hz = 0;
   const PoseRegression& poses;
@@ -25,39 +25,40 @@ struct JointContext {
   CurveSettings curve() const { return {.frame_rate_hz = frame_rate_hz}; }
 };
 
-/// Lengths for which `JointRules::usual_errors` stand. By definition.
+/// The lengths to which the entries of `JointRules::usual_errors` belong. By definition.
 inline constexpr std::array usual_lengths_s = {0.05, 0.1, 0.25, 0.5, 1.0, 2.0};
 
-/// How a method is judged among those for joints. Limits are not swept.
+/// The rules by which a method for joints is judged. Limits are not swept.
 struct JointRules {
-  int place = 0;  ///< among them: the order in which they are listed and summed up
+  int place = 0;  ///< the order in which methods are listed and summed
   CandidateKind kind = CandidateKind::curve;
-  /// Its mean error as a share of slerp's, from gaps made in CMU takes 02_03, 05_02, 05_10, 06_03.
+  /// The method's mean error relative to slerp's, from artificial gaps in CMU takes 02_03, 05_02,
+  /// 05_10, 06_03.
   std::array<double, usual_lengths_s.size()> usual_errors{};
-  double longest_s = 0.25;        ///< of a gap between observed samples
-  double longest_at_end_s = 0.1;  ///< of one at the start or the end of the take
+  double longest_s = 0.25;        ///< for a gap between observed samples
+  double longest_at_end_s = 0.1;  ///< for a gap at the start or the end of the take
   bool positions = true;          ///< fills positions too
-  std::string_view cannot = "none of its samples is observed";  ///< why, when it could not
+  std::string_view cannot = "none of its samples is observed";  ///< if it cannot fill a gap
 };
 
 /// One method: a curve through the track's own samples, or a function for each kind of track. The
-/// one for joints writes the span's vectors into the track and says whether it could.
+/// function for joints writes the span's vectors into the track and returns whether it could.
 struct Method {
   FillMethod about;
   std::optional<Curve> curve = {};
   bool (*fill_joint)(Track& track, FrameSpan span, const JointContext& context) = nullptr;
   FillMarkerGap fill_marker = nullptr;
   JointRules joint_rules = {};
-  LearnedFill FillModels::*model = nullptr;  ///< of a learned method
+  LearnedFill FillModels::*model = nullptr;  ///< of a learned method, else null
 };
 
-/// All but `auto` that fill joints, by their place.
+/// Returns all methods that fill joints except `auto`, by their place.
 std::vector<const Method*> joint_methods();
-/// Errors: `ErrorKind::usage` for a name that is none of this kind of track.
+/// Throws `ErrorKind::usage` if no method for this kind of track has the name.
 const Method& find_method(std::string_view name, bool of_joints);
-/// Errors: `ErrorKind::usage` for a learned method without its model.
+/// Throws `ErrorKind::usage` for a learned method without its model.
 void check_model(const Method& method, const FillModels& models);
-/// The model of a learned method; null for any other.
+/// Returns the model of a learned method, or null for any other.
 const LearnedFill* model_of(const Method& method, const FillModels& models);
 
 bool fill_joint(const Method& method, Track& track, FrameSpan span, const JointContext& context);
@@ -66,7 +67,7 @@ Filling fill_marker(const Method& method, const Samples& samples, const MarkerGa
 
 bool fill_by_squad(Track& track, FrameSpan span, const JointContext& context);
 bool fill_joint_by_cycles(Track& track, FrameSpan span, const JointContext& context);
-/// By the rotations of the other joints.
+/// Fills by regression on the rotations of the other joints.
 bool fill_by_poses(Track& track, FrameSpan span, const JointContext& context);
 
 }  // namespace kinemend::fill

@@ -10,7 +10,7 @@ namespace kinemend::fill {
 
 namespace {
 
-// Gauss-Legendre on [-1, 1] with three points: exact to degree 5, all that a quintic needs.
+// Gauss-Legendre on [-1, 1] with three points is exact to degree 5, which suffices for a quintic.
 constexpr std::array<double, 3> gauss_nodes = {-0.77459666924148337704, 0.0,
                                                0.77459666924148337704};
 constexpr std::array<double, 3> gauss_weights = {5.0 / 9, 8.0 / 9, 5.0 / 9};
@@ -136,8 +136,8 @@ void NaturalSpline::fit(double smoothing) {
   }
 }
 
-// trace(I - H) = smoothing trace((R + smoothing Q^T Q)^-1 Q^T Q); of the inverse only the band is
-// needed, which follows from the factors backwards (Hutchinson & de Hoog 1985).
+// trace(I - H) = smoothing trace((R + smoothing Q^T Q)^-1 Q^T Q). Only the band of the inverse is
+// needed; it follows from the factors by backward recursion (Hutchinson & de Hoog 1985).
 double NaturalSpline::trace_of_residual() const {
   const std::size_t width = m_ + 1, unknowns = knots_.size() - m_;
   std::vector<double> inverse(unknowns * width, 0.0);
@@ -169,10 +169,10 @@ double NaturalSpline::cross_validation_score() const {
 }
 
 double NaturalSpline::fit_by_cross_validation(double least, double most) {
-  // Fine enough by the steps of the coarse grid; not swept.
+  // The resolution is fine enough given the coarse grid's steps; not swept.
   constexpr int fine = 6;  // halvings: to a 64th of the grid's step
   const double low = portable::log(least), width = portable::log(most) - low;
-  // The score has its minima no nearer to each other than a factor of about 16.
+  // The minima of the score are at least a factor of about 16 apart.
   const int coarse = 2 + static_cast<int>(width / portable::log(16.0));
   const double step = width / (coarse - 1);
   const auto score_at = [&](double log_smoothing) {
@@ -184,7 +184,8 @@ double NaturalSpline::fit_by_cross_validation(double least, double most) {
     const double score = score_at(low + i * step);
     if (score < best_score) best = low + i * step, best_score = score;
   }
-  // The score is smooth in log(smoothing): halve the step about the best of the grid.
+  // The score is smooth in log(smoothing), so halving the step about the grid's best finds the
+  // minimum.
   double reach = step / 2;
   for (int i = 0; i < fine; ++i, reach /= 2) {
     for (const double candidate : {best - reach, best + reach}) {
@@ -201,7 +202,8 @@ std::span<const double> NaturalSpline::knot_values(std::size_t k) const {
   return std::span(fitted_).subspan(k * channels_, channels_);
 }
 
-// result += integral over [from, to] of (at - s)^(m-1) / (m-1)! f^(m)(s) ds, inside one interval.
+// Adds to `result` the integral over [from, to] of (at - s)^(m-1) / (m-1)! f^(m)(s) ds, inside one
+// interval.
 void NaturalSpline::add_moment(std::size_t interval, double from, double to, double at,
                                std::span<double> result) const {
   const std::size_t unknowns = knots_.size() - m_;
@@ -221,8 +223,8 @@ void NaturalSpline::add_moment(std::size_t interval, double from, double to, dou
   }
 }
 
-// f is T, the m-fold integral of f^(m) from the knot left of x, and a polynomial of degree m - 1
-// that sets f right at the knots on both sides and, for m = 3, at a third one beside them.
+// f is T, the m-fold integral of f^(m) from the knot left of x, plus a polynomial of degree m - 1
+// that corrects f at the knots on both sides and, for m = 3, at a third one beside them.
 void NaturalSpline::evaluate(double x, std::span<double> result) const {
   const auto above = std::upper_bound(knots_.begin(), knots_.end(), x);
   const auto after = static_cast<std::size_t>(above - knots_.begin());

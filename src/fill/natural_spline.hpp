@@ -8,30 +8,31 @@
 namespace kinemend::fill {
 
 /// Natural smoothing splines through scattered knots, several channels at once: the curve f that
-/// minimises sum_i |y_i - f(x_i)|^2 + smoothing * integral |f^(m)|^2, a piecewise polynomial of
-/// degree 2m - 1 whose derivatives from the m-th on vanish beyond the outer knots. m = 2 is cubic,
-/// m = 3 quintic (Woltring 1986). `smoothing` 0 interpolates.
+/// minimises sum_i |y_i - f(x_i)|^2 + smoothing * integral |f^(m)|^2. It is a piecewise polynomial
+/// of degree 2m - 1 whose derivatives from the m-th on vanish beyond the outer knots. m = 2 is
+/// cubic, m = 3 quintic (Woltring 1986). `smoothing` 0 interpolates.
 ///
 /// With f^(m) = sum_j g_j N_j in B-splines of degree m - 1 at the knots, R the Gram matrix of the
 /// N_j and Q their scaled divided differences (Q^T f = R g): (R + smoothing Q^T Q) g = Q^T y and
 /// f(x) = y - smoothing Q g (Reinsch 1967, Green & Silverman 1994 for m = 2).
 class NaturalSpline {
  public:
-  /// `knots` ascend strictly, at least m + 1 of them; `values` are knots x channels.
+  /// `knots` ascend strictly and are at least m + 1; `values` are knots x channels.
   NaturalSpline(int half_order, std::vector<double> knots, std::span<const double> values,
                 std::size_t channels);
 
   /// Fits with the given smoothing.
   void fit(double smoothing);
-  /// Fits with the smoothing of least generalised cross-validation score over all channels (Craven
-  /// & Wahba 1979), sought between the two bounds, both positive. Returns it.
+  /// Fits with the smoothing that has the least generalised cross-validation score over all
+  /// channels (Craven & Wahba 1979), searched between two positive bounds. Returns the smoothing.
   double fit_by_cross_validation(double least, double most);
-  /// mean |y - f|^2 / (1 - trace(H) / n)^2 of the fit; `fit` with a positive smoothing first.
+  /// Returns mean |y - f|^2 / (1 - trace(H) / n)^2 of the fit. Requires a `fit` with positive
+  /// smoothing.
   double cross_validation_score() const;
 
-  /// The curve at knot `k`, channels values.
+  /// Returns the curve at knot `k`: one value a channel.
   std::span<const double> knot_values(std::size_t k) const;
-  /// The curve at `x` between the first and the last knot.
+  /// Evaluates the curve at `x` between the first and the last knot.
   void evaluate(double x, std::span<double> result) const;
 
  private:

@@ -11,10 +11,10 @@ namespace kinemend::fill {
 
 namespace {
 
-// Not swept.
+// Not swept. The number of other cycles that a method needs.
 constexpr std::size_t least_cycles_of_joints = 1, least_cycles_of_markers = 2;
 constexpr std::size_t most_cycle_companions = 12,
-                      most_cycle_shape_frames = 128;  // of the body of a cycle
+                      most_cycle_shape_frames = 128;  // of a mean shape
 
 }  // namespace
 
@@ -74,9 +74,9 @@ bool fill_joint_by_cycles(Track& track, FrameSpan span, const JointContext& cont
   return fill_by_cycles(track, span, context.curve(), least_cycles_of_joints);
 }
 
-// The marker's track is taken in the frame of reference of the rest of the body, so that a cycle
-// may be walked elsewhere and in another direction. The body is taken as a whole: by its shape it
-// is placed alike in every cycle, however the gap's marker moves.
+// The marker's track is expressed in the frame of reference of the rest of the body, so that a
+// cycle may happen elsewhere and in another direction. The whole body is used: its shape is placed
+// alike in every cycle, however the gap's marker moves.
 Filling fill_marker_by_cycles(const Samples& samples, const MarkerGap& gap, const MarkerRequest&) {
   constexpr std::string_view name = "cyclic";
   std::vector<std::size_t> markers;

@@ -1,4 +1,4 @@
-// What is asked for each gap of a take: by settings, or by the rows of a plan.
+// Fills the gaps of a take as settings or the rows of a plan request.
 #include <fmt/format.h>
 
 #include <map>
@@ -39,7 +39,8 @@ void check_limits(const FillSettings& settings) {
                 "fill: a limit of the expected error cannot be combined with filling all gaps");
 }
 
-// What became of each gap that is filled or refused, and how many were left alone.
+// The outcome of each gap that is filled or refused, and the number of gaps of unlabelled markers
+// that were skipped.
 struct FilledBySettings {
   std::vector<FilledGap> gaps;
   std::size_t unlabelled = 0;
@@ -74,7 +75,7 @@ FilledBySettings fill_by_settings(Take& clip, const FillSettings& settings,
   return filled;
 }
 
-// What a run found of the gap that the row asks for.
+// Writes the outcome of a gap into its row.
 void tell_found(const FilledGap& filled, const std::vector<std::string>& names, PlannedGap& row) {
   row.filled_by = filled.outcome.method;
   row.expected_error = filled.outcome.expected_error;

@@ -1,4 +1,4 @@
-// Finds the gap that a row means, and says what is wrong with a row.
+// Finds the gap that a row names, and reports what is wrong with a row.
 #include "fill/plan_rows.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace kinemend::fill {
 
 namespace {
 
-// What the tables of methods and markers say of a name, without the command before it.
+// Returns an error's message about a method or marker without the command at its beginning.
 std::string told(const Error& error) {
   constexpr std::string_view command = "fill: ";
   const std::string text = error.what();

@@ -1,4 +1,4 @@
-// The gaps of a take, and what rows of a plan ask for them.
+// Matches the rows of a plan with the gaps of a take.
 #pragma once
 
 #include <cstddef>
@@ -15,28 +15,28 @@
 
 namespace kinemend::fill {
 
-/// What tells a gap of a take from its others.
+/// Identifies a gap within its take.
 using GapKey = std::tuple<std::size_t, bool, std::size_t, std::size_t>;
 inline GapKey key_of(const Gap& gap, bool is_position) {
   return {gap.track, is_position, gap.first_frame, gap.last_frame};
 }
 
-/// The gaps of a take, and what rows of a plan ask for them.
+/// Matches the rows of a plan with the gaps of a take.
 class PlanRows {
  public:
-  /// `models`: of rows with a learned method; null: they are read, not run.
+  /// `models`: for rows with a learned method. With null, rows are read but cannot be run.
   explicit PlanRows(const Take& take, const FillModels* models = nullptr);
 
-  /// Takes a row up. Says what is wrong with it; empty: nothing.
+  /// Adds a row. Returns what is wrong with it; empty: nothing.
   std::string add(const PlannedGap& row);
-  /// The gap of a track of that name which no row has taken up yet, or the first of all; none
-  /// where there is no such gap.
+  /// Returns the gap of a track of that name that no row has claimed yet, else the first claimed
+  /// one, else nothing.
   std::optional<Gap> find(std::string_view name, bool is_position, std::size_t first_frame,
                           std::size_t last_frame) const;
   bool knows(std::string_view name) const;
-  /// "12-20, 31-40", as the file counts frames; the first five.
+  /// Returns the first five gaps, as the file counts frames: "12-20, 31-40".
   std::string gaps_of(std::string_view name, bool is_position) const;
-  /// Of the gaps that rows named.
+  /// Returns the requests of the gaps that rows named.
   RequestOf request_of() const;
   std::string frames_text(const Gap& gap) const;
 

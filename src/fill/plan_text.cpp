@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view schema = "kinemend.gap-plan/1";
 constexpr std::string_view preview_prefix = "preview_";
 
-// Markers' gaps are of positions, and are not marked as such.
+// Gaps of markers are always of positions, which `is_position` does not state.
 bool is_of_rotation(const Take& take, const PlannedGap& row) {
   return take.has_joints() && !row.is_position;
 }
@@ -83,7 +83,7 @@ Json json_of(const Take& clip, const PlannedGap& row) {
 
 // ---- reading
 
-/// A row as words, and where it stands.
+/// A row as words, and its position in the file.
 struct Row {
   std::string where;  ///< "plan.csv:3"
   std::map<std::string, std::string, std::less<>> cells;
@@ -197,7 +197,7 @@ double number_of(const Row& row, std::string_view column) {
   double value = 0;
   const char* const last = word.data() + word.size();
   const auto [end, error] = fast_float::from_chars(word.data(), last, value);
-  // As of a number that is too large, nothing is left of one that is too small.
+  // A nonzero number that underflows to zero is rejected, as an overflow is.
   const bool vanished =
       value == 0 &&
       word.substr(0, word.find_first_of("eE")).find_first_of("123456789") != word.npos;

@@ -1,5 +1,4 @@
-// The method `pca` for joints: learns the regression of a joint from frames in which all are
-// observed.
+// The method `pca` for joints: learns a joint's regression from frames in which all are observed.
 #include "fill/pose_regression.hpp"
 
 #include <algorithm>
@@ -11,14 +10,14 @@ namespace kinemend::fill {
 
 namespace {
 
-// Not swept. A rotation vector about the mean is smooth up to half a turn; a root's heading says
-// nothing of the pose, its lean does.
+// Not swept. A rotation vector about the mean is smooth up to half a turn. A root's heading is
+// independent of the pose; its lean is not.
 constexpr double farthest_from_mean = 150 * radians_per_degree;
 constexpr double farthest_of_a_root = 45 * radians_per_degree;
 constexpr std::size_t most_frames = 1500;             // for speed
-constexpr std::size_t least_joints = 4;               // observed beside the gap's, to predict from
-constexpr double least_learned_s = 0.5;               // of poses to learn from
-constexpr double stiffness = 1 * radians_per_degree;  // of the ridge
+constexpr std::size_t least_joints = 4;               // observed beside the gap's own
+constexpr double least_learned_s = 0.5;               // of training poses
+constexpr double stiffness = 1 * radians_per_degree;  // of the ridge regression
 
 Eigen::Index as_index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
@@ -112,7 +111,7 @@ std::vector<Quat> PoseRegression::predict(std::size_t joint, FrameSpan span, std
   return rotations;
 }
 
-// The pose's guess needs frames beside the gap, where it is compared with what was observed.
+// The pose's guess needs frames beside the gap, where it is compared with the observed samples.
 bool fill_by_poses(Track& track, FrameSpan span, const JointContext& context) {
   const CurveSettings settings = context.curve();
   const auto [first, last] = surroundings(span, {}, velocity_window(settings), track.frames());

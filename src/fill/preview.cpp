@@ -1,4 +1,4 @@
-// Shows what every method would make of the gaps of a plan.
+// Shows the result of every method on the gaps of a plan.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,8 +18,8 @@ namespace {
 
 fill::GapKey key_of(const PlannedGap& row) { return fill::key_of(row.gap, row.is_position); }
 
-// Which of the take's positions is that of the track: of joints 0 is joint 0, k + 1 translated
-// joint k.
+// Returns the index of the track's position in the take: 0 for joint 0, k + 1 for translated joint
+// k.
 std::size_t position_index(const Take& clip, std::size_t joint) {
   if (!clip.has_joints()) return joint;
   for (std::size_t k = 0; joint > 0 && k < clip.translated_joints.size(); ++k) {
@@ -45,7 +45,7 @@ double rms_distance(const Take& a, const Take& b, const PlannedGap& row) {
   return std::sqrt(sum / static_cast<double>(row.gap.length()));
 }
 
-// The gap by another method and its rules.
+// Returns the row with another method and its default limits.
 PlannedGap with_method(const PlannedGap& row, std::string_view method) {
   PlannedGap asked;
   asked.gap = row.gap;
@@ -70,7 +70,7 @@ std::vector<std::string> methods_of(const Take& clip, const FillModels& models) 
   return names;
 }
 
-// A take that was filled, and what became of each gap.
+// A filled take, and the outcome of each gap.
 struct Tried {
   Take clip;
   std::map<fill::GapKey, GapOutcome> outcomes = {};
@@ -83,7 +83,7 @@ struct Tried {
   }
 };
 
-// What `other` made of the row's gap, beside what the row's own method does.
+// Compares the result of `other` on the row's gap with that of the row's own method.
 GapPreview compared(std::string_view method, const Tried& own, const Tried& other,
                     const PlannedGap& row) {
   const GapOutcome& outcome = other.outcomes.at(key_of(row));
@@ -184,7 +184,7 @@ GapCurves preview_curves(const Take& clip, std::span<const PlannedGap> plan, std
     }
     asked[row].verdict = GapVerdict::force;
     const Tried forced(clip, asked, check, models);
-    // Where the method can make nothing at all, another would be forced in its place.
+    // If the method cannot fill the gap at all, `forced` holds the result of another one.
     const bool is_own = method == "auto" || forced.outcomes.at(key_of(plan[row])).method == method;
     add(is_own ? forced : other, std::move(preview));
   }

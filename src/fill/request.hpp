@@ -1,4 +1,4 @@
-// What is asked for one gap, by the settings of a run or by a row of a plan.
+// The request for one gap, from the settings of a run or a row of a plan.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,16 @@
 
 namespace kinemend::fill {
 
-/// What is asked for one gap, by the settings of a run or by a row of a plan.
+/// The request for one gap, from the settings of a run or a row of a plan.
 struct GapRequest {
   const Method* method = nullptr;
-  std::size_t donor = MarkerRequest::no_marker;  ///< of `pattern`
-  double longest_gap_s = 0;                      ///< 0: what the method's rules say
-  bool fill_all = false;                         ///< also what the rules refuse
+  std::size_t donor = MarkerRequest::no_marker;  ///< used by `pattern`
+  double longest_gap_s = 0;                      ///< 0: the limit of the method's rules
+  bool fill_all = false;                         ///< also fills gaps that the rules refuse
   double max_error = 0, max_error_deg = 0;       ///< as `FillSettings`; 0: no limit
-  bool unlabelled = false;                       ///< such markers are evidence
-  std::optional<Filling> refusal = {};           ///< where the gap is to stay, whatever fills it
-  const LearnedFill* learned = nullptr;          ///< of a learned method
+  bool unlabelled = false;                       ///< unlabelled markers are evidence
+  std::optional<Filling> refusal = {};   ///< set if the gap must stay open, whatever the method
+  const LearnedFill* learned = nullptr;  ///< for a learned method
 
   MarkerRequest of_marker() const { return {donor, longest_gap_s, fill_all}; }
 };

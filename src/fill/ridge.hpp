@@ -1,4 +1,4 @@
-// Ridge regression from which the frames of any span can be left out.
+// Ridge regression that can leave out the frames of any span.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,13 +13,13 @@ namespace kinemend::fill {
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The frames that a regression learns from, of which those of any span can be left out.
+/// The training frames of a regression, which can leave out those of any span.
 struct TrainingRows {
   std::vector<std::size_t> frames;  ///< ascending
   Rows rows;                        ///< frames x (1, further columns)
   Rows sums;                        ///< rows^T rows
 
-  /// Sums of products of these columns over the frames outside the span.
+  /// Returns the sums of products of these columns over the frames outside the span.
   template <class Columns>
   Rows sums_without(FrameSpan span, const Columns& columns) const {
     const auto first = std::lower_bound(frames.begin(), frames.end(), span.first);
@@ -36,8 +36,8 @@ struct TrainingRows {
 ///
 ///     B = argmin |Y - X B|^2 + n stiffness^2 |B|^2,      y = mean(Y) + (x - mean(X)) B.
 ///
-/// `sums`: of products of (1, x, y) over the frames learned from. Predicts y for each row of
-/// `inputs`, for each stiffness (in the unit of x; with infinity y is its mean).
+/// `sums`: of products of (1, x, y) over the training frames. Predicts y for each row of `inputs`
+/// and each stiffness (in the unit of x; with infinity y is its mean).
 std::vector<Rows> ridge_regression(const Rows& sums, const Rows& inputs,
                                    std::span<const double> stiffness);
 

@@ -10,7 +10,7 @@ namespace kinemend::fill {
 
 namespace {
 
-// The support of the splines, twice for other gaps in it, and at least its frames.
+// The support of the splines, doubled because it may contain other gaps, and a minimum of frames.
 constexpr double window_s = 0.5;
 constexpr std::size_t least_window = 64;
 // Chosen with the memories of `Bridge`, on the takes that docs/methods/fill.md names.

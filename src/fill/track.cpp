@@ -10,12 +10,13 @@ namespace kinemend::fill {
 
 namespace {
 
-// Not swept. Of a whole turn more in a gap: it has to agree so much better with the velocities,
-// taken over this window, than the shortest way does.
+// Not swept. A turn longer by a whole turn is chosen if its distance from the velocities, taken
+// over this window, is at most this share of the shortest turn's.
 constexpr double clearly_shorter = 0.5;
 constexpr double turn_window_s = 0.05;
 
-// Mean angular velocity (radians a frame) over the observed steps from `frame` in one direction.
+// Returns the mean angular velocity (radians a frame) over the observed steps from `frame` in one
+// direction.
 Vec3 mean_velocity(std::span<const Quat> rotations, std::span<const std::uint8_t> observed,
                    std::size_t frame, bool forward, std::size_t window) {
   Vec3 sum;
@@ -30,7 +31,7 @@ Vec3 mean_velocity(std::span<const Quat> rotations, std::span<const std::uint8_t
   return count > 0 ? (1 / count) * sum : Vec3{};
 }
 
-// The turn from `before` to `behind` that a gap holds.
+// Returns the rotation vector of the turn that a gap makes from `before` to `behind`.
 Vec3 turn_through(std::span<const Quat> rotations, std::span<const std::uint8_t> observed,
                   std::size_t before, std::size_t behind, double frame_rate_hz) {
   const auto window = std::max<std::size_t>(
@@ -52,7 +53,7 @@ Vec3 turn_through(std::span<const Quat> rotations, std::span<const std::uint8_t>
   return best;
 }
 
-// The reference runs through the span as through a gap, and what comes behind it moves along.
+// The reference crosses the span as it would a gap, and later frames move along.
 void hide_from_chart(Track& track, FrameSpan span, TakeEnds ends, double frame_rate_hz) {
   RotationChart& chart = track.chart;
   for (std::size_t f = span.first; f <= span.last; ++f) {

@@ -13,31 +13,31 @@
 
 namespace kinemend::fill {
 
-/// A chart whose reference is the rotation itself where it is observed and runs along the geodesic
-/// through a gap, so that a curve through the observed vectors has their angular velocity at its
-/// ends, the straight line is slerp, and no turn is cut at 180 degrees.
-/// Through a gap the reference takes the shortest way, or one with a whole turn more about the same
-/// axis where the velocities at both ends tell of it; before the first and behind the last observed
-/// frame it rests.
+/// Builds a chart whose reference is the rotation itself where it is observed and follows the
+/// geodesic through a gap. A curve through the observed vectors then has their angular velocity at
+/// its ends, the straight line is slerp, and no turn is cut at 180 degrees.
+/// Through a gap the reference takes the shortest turn, or one longer by a whole turn about the
+/// same axis if the velocities at both ends agree with it. Before the first and after the last
+/// observed frame it is constant.
 RotationChart make_rotation_chart(std::span<const Quat> rotations,
                                   std::span<const std::uint8_t> observed, double frame_rate_hz);
 
-/// What stands in one frame of a track.
+/// One frame of a track.
 struct Sample {
   Vec3 value;     ///< in the track's own vectors
-  Quat rotation;  ///< of a track of rotations
+  Quat rotation;  ///< only if the track is of rotations
 };
 
 /// Samples of one joint's rotation, or of a position of a joint or marker, as vectors. Only
 /// observed samples are evidence: a filled one stays marked as missing, so that the order in which
-/// gaps are filled does not matter.
+/// gaps are filled does not affect the result.
 struct Track {
   std::vector<Vec3> values;            ///< F: positions, or the chart's vectors
   std::vector<std::uint8_t> observed;  ///< F
   bool is_position = true;
-  RotationChart chart = {};     ///< of rotations
-  std::size_t joint = 0;        ///< of a joint's track
-  std::size_t first_frame = 0;  ///< of the take, where the track is a part of it
+  RotationChart chart = {};     ///< for rotations
+  std::size_t joint = 0;        ///< for a track of a joint
+  std::size_t first_frame = 0;  ///< the frame of the take at which the track begins
 
   std::size_t frames() const noexcept { return observed.size(); }
   Quat rotation(std::size_t frame) const { return chart.rotation_of(frame, values[frame]); }
@@ -45,15 +45,15 @@ struct Track {
     return {value, is_position ? Quat{} : chart.rotation_of(frame, value)};
   }
   Sample sample(std::size_t frame) const { return sample_of(frame, values[frame]); }
-  /// From a sample of this or another track to what stands in `frame`: a difference of positions,
-  /// or Log(other^-1 own).
+  /// Returns the offset from a sample of this or another track to the sample in `frame`: a
+  /// difference of positions, or Log(other^-1 own).
   Vec3 offset_from(const Sample& other, std::size_t frame) const {
     if (is_position) return values[frame] - other.value;
     return log(conjugate(other.rotation) * rotation(frame));
   }
 };
 
-/// A span of the take's frames as frames of the track.
+/// Converts a span of the take's frames to frames of the track.
 inline FrameSpan within(const Track& track, FrameSpan span) {
   return {span.first - track.first_frame, span.last - track.first_frame};
 }
@@ -73,22 +73,22 @@ struct TakeEnds {
   bool any() const { return at_start || at_end; }
 };
 
-/// The span and up to `reach` frames on either side, of a take of so many frames.
+/// Returns the span and up to `reach` frames on either side, in a take of `frames` frames.
 FrameSpan surroundings(FrameSpan span, TakeEnds ends, std::size_t reach, std::size_t frames);
 
 Track part_of(const Track& track, FrameSpan kept);
 
-/// The track up to `reach` frames around an observed span, as if that were a gap: nothing of what
-/// stands in it is known to the chart. With `ends` also as if the take ended there.
+/// Returns the track up to `reach` frames around an observed span, as if that were a gap: the chart
+/// knows none of its samples. With `ends` the take also ends there.
 Track hide_span(const Track& track, FrameSpan span, TakeEnds ends, std::size_t reach,
                 double frame_rate_hz);
 
-/// The whole track as if the span were missing too.
+/// Returns the whole track as if the span were missing too.
 Track without_span(const Track& track, FrameSpan span, double frame_rate_hz);
 
-/// Up to `most` of the frames, evenly chosen.
+/// Returns up to `most` of the frames, evenly chosen.
 std::vector<std::size_t> evenly(const std::vector<std::size_t>& frames, std::size_t most);
-/// The span's frames, or `most` of them.
+/// Returns the span's frames, or `most` of them.
 std::vector<std::size_t> frames_of(FrameSpan span, std::size_t most = SIZE_MAX);
 
 }  // namespace kinemend::fill

@@ -1,5 +1,4 @@
-// Chooses the spans of trials near a gap and elsewhere in the take, and runs the candidates on
-// them.
+// Chooses the trial spans near a gap and elsewhere in the take, and runs the candidates on them.
 #include "fill/trials.hpp"
 
 #include <algorithm>
@@ -9,13 +8,14 @@ namespace kinemend::fill {
 
 namespace {
 
-// How many trials, where: chosen on the takes that docs/methods/fill.md names.
+// The number of trials near the gap and elsewhere: chosen on the takes that docs/methods/fill.md
+// names.
 constexpr std::size_t most_near = 6, most_elsewhere = 3, least_places = 3;
-// Of the evidence; for speed.
+// The evidence on either side of a gap; for speed.
 constexpr double evidence_s = 60;
-constexpr std::size_t evidence_lengths = 10;  // of the gap, where that is more
+constexpr std::size_t evidence_lengths = 10;  // gap lengths, if that is more
 
-// Where a span of `length` frames may start.
+// Returns the frames at which a span of `length` usable frames may start.
 std::vector<std::size_t> starts_of(std::span<const std::uint8_t> usable, std::size_t first,
                                    std::size_t length) {
   std::vector<std::size_t> starts;
@@ -53,7 +53,7 @@ std::vector<std::size_t> nearest(const std::vector<std::size_t>& starts, FrameSp
   return chosen;
 }
 
-// How many trials that share no frame the spans amount to.
+// Returns the number of disjoint trials to which the spans amount.
 double independent(std::vector<FrameSpan> spans) {
   std::sort(spans.begin(), spans.end(),
             [](const FrameSpan& a, const FrameSpan& b) { return a.first < b.first; });

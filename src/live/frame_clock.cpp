@@ -1,4 +1,4 @@
-// Follows the sender's clock slowly, so that the jitter of a network is no loss.
+// Follows the sender's clock slowly, so that network jitter is not taken for losses.
 #include "live/frame_clock.hpp"
 
 #include <fmt/format.h>
@@ -9,14 +9,14 @@ namespace kinemend {
 
 namespace {
 
-// A frame that comes later than this share of a frame has others missing before it.
+// A frame that is later than this share of a frame has missing frames before it.
 constexpr double late_share = 0.75;
-// Share of a frame's lateness that the clock follows: a tenth keeps most jitter out. All of these
-// are chosen by hand, not swept.
+// The share of a frame's lateness that the clock follows: a tenth suppresses most jitter. All of
+// these are chosen by hand, not swept.
 constexpr double following = 0.1;
-// Time over which the rate is measured.
+// The time over which the rate is measured.
 constexpr double window_s = 2;
-// Share by which the measured rate differs from the expected one before a message says so.
+// The relative difference between measured and expected rate from which a message is written.
 constexpr double other_rate = 0.1;
 constexpr std::size_t most_notes = 5;
 

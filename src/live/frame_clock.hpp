@@ -1,5 +1,4 @@
-// Tells from the times at which frames arrive how many were lost between them, and at what rate
-// they come.
+// Derives from the arrival times of frames how many were lost between them, and their rate.
 #pragma once
 
 #include <cstddef>
@@ -9,17 +8,19 @@ namespace kinemend {
 
 class FrameClock {
  public:
-  /// `longest_gap_s`: after a longer one nothing counts as lost.
+  /// `longest_gap_s`: after a longer gap no frame counts as lost.
   FrameClock(double frame_rate_hz, double longest_gap_s)
       : frame_rate_hz_(frame_rate_hz), longest_gap_s_(longest_gap_s) {}
 
-  /// How many frames are missing before one that arrived at `now_s`, which is then the last one.
+  /// Returns the number of frames missing before the one that arrived at `now_s`, which becomes the
+  /// last one.
   std::size_t frames_before(double now_s);
-  /// A silence follows: nothing before the next frame counts as lost.
+  /// Announces a silence: no frame before the next one counts as lost.
   void pause() { runs_ = false; }
-  /// Frames per second of the last seconds without a silence; 0: not measured yet.
+  /// Returns the frames per second over the last seconds without a silence; 0: not measured yet.
   double measured_hz() const { return measured_hz_; }
-  /// A message where another rate than the expected one is measured, once for each; else empty.
+  /// Returns a message if the measured rate differs from the expected one, once for each rate; else
+  /// empty.
   std::string take_note(std::size_t latency_frames);
 
  private:

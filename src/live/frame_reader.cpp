@@ -11,7 +11,7 @@ namespace kinemend {
 
 namespace {
 
-// The first word and what is behind it.
+// Returns the first word and removes it from the line.
 std::string_view take_word(std::string_view& line) {
   const char* const end = line.data() + line.size();
   const char* const begin = skip_space(line.data(), end);

@@ -26,7 +26,7 @@ class FrameReader {
     text,    ///< the line does not begin like a frame
     values,  ///< too few or too many values, or text among them
   };
-  /// Anything but `Read::frame` leaves the last frame unchanged.
+  /// Reads a line. Any result except `Read::frame` leaves the last frame unchanged.
   Read read(std::string_view line);
 
   const Frame& frame() const { return frame_; }
@@ -34,7 +34,7 @@ class FrameReader {
   std::size_t gaps() const { return gaps_; }       ///< values of the frame that were not finite
   virtual std::size_t values_expected() const = 0;
   std::size_t values_found() const { return values_found_; }  ///< of the last line
-  /// The values of the frame as read. For joints: degrees and file units, by column.
+  /// Returns the values of the frame as read. For joints: degrees and file units, by column.
   const std::vector<double>& values() const { return row_; }
 
  protected:
@@ -51,8 +51,8 @@ class FrameReader {
   std::int64_t number_ = 0;
 };
 
-/// Lines of channel values. A value that is not finite is replaced by that of the frame before (at
-/// first, of the rest pose), and its joint is marked as not observed.
+/// Reads lines of channel values. A value that is not finite is replaced by that of the previous
+/// frame (at first, of the rest pose), and its joint is marked as not observed.
 class JointReader final : public FrameReader {
  public:
   JointReader(const Skeleton& skeleton, bool numbered, std::size_t skipped_words);
@@ -69,8 +69,8 @@ class JointReader final : public FrameReader {
   std::vector<double> line_;
 };
 
-/// Lines of three cells per marker, separated by commas. A marker with an empty or not finite cell
-/// is not observed.
+/// Reads lines of three cells per marker, separated by commas. A marker with an empty or non-finite
+/// cell is not observed.
 class MarkerReader final : public FrameReader {
  public:
   MarkerReader(std::size_t markers, bool numbered, std::size_t skipped_words);

@@ -21,13 +21,13 @@ class FrameWriter {
  public:
   virtual ~FrameWriter() = default;
 
-  /// The header. `latency_frames`: the delay.
+  /// Returns the header. `latency_frames`: the delay.
   virtual std::string header_text(std::size_t latency_frames) const = 0;
-  /// The angles of the first frame are chosen near these channel values of joints (degrees, file
-  /// units).
+  /// Sets the channel values of joints (degrees, file units) near which the angles of the first
+  /// frame are chosen.
   virtual void start_near(const std::vector<double>& /*values*/) {}
-  /// A line with its line end, valid until the next call. A value that is not finite is replaced by
-  /// that of the frame before, or 0.
+  /// Returns a line with its line end, valid until the next call. A value that is not finite is
+  /// replaced by that of the previous frame, or 0.
   std::string_view write(const Frame& frame, std::int64_t number);
 
  protected:
@@ -40,7 +40,7 @@ class FrameWriter {
   std::string line_;
 };
 
-/// Joints. Angles continue those of the frame before.
+/// Writes joints. Angles continue those of the previous frame.
 class JointWriter final : public FrameWriter {
  public:
   JointWriter(const LiveHeader& header, LiveFormat format);
@@ -61,7 +61,7 @@ class JointWriter final : public FrameWriter {
   std::vector<double> row_;  ///< as written
 };
 
-/// Markers. A missing one has empty cells, or is null in JSON.
+/// Writes markers. A missing one has empty cells, or is null in JSON.
 class MarkerWriter final : public FrameWriter {
  public:
   MarkerWriter(const LiveHeader& header, LiveFormat format) : header_(header), format_(format) {}

@@ -8,7 +8,7 @@
 
 namespace kinemend {
 
-/// Lines from bytes that arrive in pieces of any size, in bounded memory.
+/// Splits bytes that arrive in pieces of any size into lines, in bounded memory.
 class LineSplitter {
  public:
   enum class Found : std::uint8_t { nothing, line, too_long };

@@ -14,11 +14,11 @@ namespace kinemend {
 
 namespace {
 
-// Where a header tells no rate; and a limit of the stack. Chosen by hand.
+// The rate if a header states none, and a limit of the stack. Chosen by hand.
 constexpr double rate_when_unknown_hz = 30;
 constexpr std::size_t most_depth = 512;
 
-// The first word of a line, which distinguishes `Frames:` and `Frame Time:` from frames.
+// Returns the first word of a line, which distinguishes `Frames:` and `Frame Time:` from frames.
 std::string_view first_word(std::string_view line) {
   std::size_t begin = 0;
   if (line.substr(0, 3) == "\xEF\xBB\xBF") begin = 3;
@@ -71,7 +71,7 @@ bool begins_header(std::string_view line, bool surely) {
 bool is_marker_header(std::string_view line) { return first_word(line) == "MARKERS"; }
 
 LiveHeader read_marker_header(std::string_view line, double frame_rate_hz) {
-  // As of tables (io/table/marker_table.hpp), by definition.
+  // The limit of tables (io/table/marker_table.hpp), by definition.
   constexpr std::size_t most_markers = 16384;
   const auto fail = [](std::string_view what) {
     throw Error(ErrorKind::unreadable_input, fmt::format("header of markers: {}", what));
@@ -102,7 +102,7 @@ LiveHeader read_marker_header(std::string_view line, double frame_rate_hz) {
 
 HeaderLines::Next HeaderLines::take(std::string_view line) {
   const std::string_view word = first_word(line);
-  // No line of a header begins with a number: its end is lost, or it was not a header.
+  // No line of a header begins with a number: its end was lost, or it was not a header.
   constexpr std::string_view firsts_of_numbers = "0123456789+-.";
   if (!word.empty() && firsts_of_numbers.find(word.front()) != firsts_of_numbers.npos)
     return Next::over;

@@ -24,7 +24,7 @@ struct LiveHeader {
 };
 
 /// Reads a header, without the motion after it. `frame_rate_hz` overrides the rate of the header,
-/// unless it is 0. Errors: `unreadable_input`, naming the line; also if no joint has a channel.
+/// unless it is 0. Throws `unreadable_input`, naming the line; also if no joint has a channel.
 LiveHeader read_live_header(std::string_view text, std::string_view name, double frame_rate_hz);
 
 /// Whether a line of a stream begins a header: with HIERARCHY, or with ROOT unless `surely`.
@@ -32,8 +32,8 @@ bool begins_header(std::string_view line, bool surely);
 
 /// Whether a line is the header of a stream of markers: `MARKERS 120 LASI,RASI`.
 bool is_marker_header(std::string_view line);
-/// Reads it. `frame_rate_hz` overrides the rate of the header, unless it is 0. Errors:
-/// `unreadable_input`.
+/// Reads the header of a stream of markers. `frame_rate_hz` overrides the rate of the header,
+/// unless it is 0. Throws `unreadable_input`.
 LiveHeader read_marker_header(std::string_view line, double frame_rate_hz);
 
 /// Gathers the lines of a header.

@@ -8,7 +8,7 @@ namespace kinemend {
 
 namespace {
 
-// Whether a method reads a model file. (A `model` with choices is a setting of a filter.)
+// Whether a method reads a model file. (A `model` with choices is a filter's setting.)
 bool is_learned(const Method& method) {
   return std::any_of(method.options.begin(), method.options.end(), [](const OptionSpec& spec) {
     return spec.name == "model" && spec.choices.empty();
@@ -16,7 +16,7 @@ bool is_learned(const Method& method) {
 }
 
 bool runs_live(const Method& method, const OptionValues& options) {
-  // A rate as any other, by definition.
+  // The rate is arbitrary, by definition.
   constexpr double any_rate_hz = 120;
   try {
     return method.make(options)->live_support(any_rate_hz).runs();
@@ -30,8 +30,8 @@ bool runs_live(const Method& method, const OptionValues& options) {
 std::vector<LiveMethod> live_methods() {
   std::vector<LiveMethod> list;
   for (const Method& method : methods()) {
-    // To make a learned method reads a model, which takes long. Of those that run live, by their
-    // option, one cleans any body.
+    // Making a learned method reads a model, which takes long. One of those that run live, by their
+    // option, cleans any body.
     if (is_learned(method)) {
       if (method.name == "learned") list.push_back({method.name, {{"live", true}}});
       continue;

@@ -22,7 +22,7 @@ namespace kinemend {
 
 namespace {
 
-// Notes that bad headers get; more are only counted. Chosen by hand.
+// The most notes on bad headers; further ones are only counted. Chosen by hand.
 constexpr std::size_t most_header_notes = 3;
 
 void check(const LiveOptions& options) {
@@ -54,7 +54,7 @@ class LiveSession::Work {
       throw Error(ErrorKind::usage, support.why_not);
     if (options_.skeleton.empty()) return;
     LiveHeader header = read_live_header(options_.skeleton, "skeleton", options_.frame_rate_hz);
-    header.frames = 0;  // those of the stream are not known
+    header.frames = 0;  // the number in the stream is unknown
     open(std::move(header));
   }
 
@@ -138,7 +138,7 @@ class LiveSession::Work {
     }
   }
 
-  // Whether the line is for the stage, which begins with the first line of a form, or anew.
+  // Whether the line is for the stage. A stage begins with the first line of a form.
   bool is_of_the_avatar(std::string_view line) {
     const std::optional<NeuronForm> form = neuron_form(line);
     if (!form) return true;
@@ -165,7 +165,7 @@ class LiveSession::Work {
     }
   }
 
-  // `has_place`: a frame was meant.
+  // `has_place`: the line was meant to be a frame.
   void count_malformed(std::string_view why, bool has_place) {
     ++counts_.malformed;
     if (has_place && stage_ && !options_.datagrams) stage_->miss();
@@ -235,7 +235,7 @@ class LiveSession::Work {
   HeaderLines header_lines_;
   bool collects_ = false;
   bool is_told_malformed_ = false;
-  std::string avatar_;  ///< of Axis Neuron: the one that is cleaned
+  std::string avatar_;  ///< of Axis Neuron: the cleaned one
   bool is_displaced_ = false;
   bool is_told_other_avatar_ = false;
   std::optional<LiveStage> stage_;

@@ -35,7 +35,7 @@ std::unique_ptr<FrameWriter> writer_of(const LiveHeader& header, LiveFormat form
 
 std::unique_ptr<Stream> stream_of(const Cleaner& cleaner, const LiveHeader& header,
                                   const LiveOptions& options) {
-  // Axis Neuron sends what a suit records.
+  // Axis Neuron sends the recordings of a suit.
   const Source source =
       options.neuron && options.source == Source::unknown ? Source::suit : options.source;
   if (header.markers.empty()) return make_stream(cleaner, clip_like(header), 0, source);
@@ -95,7 +95,7 @@ FrameReader::Read LiveStage::take(std::string_view line) {
   if (may_be_overtaker(number)) {
     keep(number);
   } else {
-    // After a jump of the numbers nothing that is missing will arrive.
+    // After a jump of the numbers, missing frames will not arrive any more.
     if (std::abs(number - last_number_) > static_cast<std::int64_t>(longest_gap_)) settle();
     counts_.reordered += !overtakers_.empty() && number == last_number_ + 1 ? 1 : 0;
     accept(frame, number, reader_->gaps());
@@ -151,7 +151,7 @@ void LiveStage::accept(const Frame& frame, std::int64_t number, std::size_t gaps
   push(frame, last_number_);
 }
 
-// Interpolates the frames that were lost before this one. Returns false if it comes too late.
+// Interpolates the frames lost before this one. Returns false if the frame is too late.
 bool LiveStage::is_due(const Frame& frame, std::int64_t number) {
   const bool may_be_any = std::exchange(any_number_, false);
   if (!numbered_) {
@@ -174,7 +174,7 @@ bool LiveStage::is_due(const Frame& frame, std::int64_t number) {
   return false;
 }
 
-// Repeated frames have taken the place of as many lost ones.
+// Repeated frames replace an equal number of lost ones.
 void LiveStage::make_up(std::size_t frames, const Frame& before) {
   if (frames <= held_) return;
   const std::size_t count = frames - held_;
@@ -230,7 +230,7 @@ void LiveStage::give() {
   sink_({false, writer_->write(out_, waiting.number)});
 }
 
-// What was not measured has no noise.
+// Unmeasured samples have no noise and are skipped.
 void LiveStage::note_changes(const Frame& from) {
   const bool joints = !from.rotations.empty();
   for (std::size_t t = 0; t < (joints ? from.rotations.size() : from.positions.size()); ++t) {
@@ -249,7 +249,7 @@ std::vector<TrackChange> LiveStage::changes() const {
   return all;
 }
 
-// A joint that was not measured is repaired, and a repair is made in full at any strength.
+// An unmeasured joint is repaired, and a repair is complete at any strength.
 void LiveStage::blend(const Frame& from) {
   for (std::size_t j = 0; j < out_.rotations.size(); ++j) {
     const bool seen = from.observed.empty() || from.observed[j] != 0;

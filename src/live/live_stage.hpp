@@ -1,4 +1,4 @@
-// Cleans the frames of one header of a live stream: takes lines, gives cleaned lines.
+// Cleans the frames of one header of a live stream: takes lines and returns cleaned lines.
 #pragma once
 
 #include <cstddef>
@@ -18,11 +18,12 @@
 
 namespace kinemend {
 
-/// A live stream of one skeleton or one set of markers: takes lines and gives cleaned lines. Lost
-/// frames are interpolated, so that the output keeps its rate.
+/// Cleans a live stream of one skeleton or one set of markers: takes lines and gives cleaned lines.
+/// Lost frames are interpolated, so that the output keeps its rate.
 class LiveStage {
  public:
-  /// Gives the header of the output at once. All arguments but `header` must outlive the stage.
+  /// Writes the header of the output immediately. All arguments except `header` must outlive the
+  /// stage.
   LiveStage(const Cleaner& cleaner, const LiveOptions& options, LiveHeader header,
             const LiveSink& sink, LiveCounts& counts);
 
@@ -32,9 +33,9 @@ class LiveStage {
   std::vector<TrackChange> changes() const;
 
   FrameReader::Read take(std::string_view line);
-  /// A malformed line took the place of a frame.
+  /// Reports that a malformed line replaced a frame.
   void miss();
-  /// The sender starts again: the next frame may have any number.
+  /// Reports that the sender restarts: the next frame may have any number.
   void expect_any_number();
   void hold();
   /// Gives the frames that wait for a missing one.
@@ -78,15 +79,15 @@ class LiveStage {
   std::unique_ptr<FrameReader> reader_;
   std::unique_ptr<FrameWriter> writer_;
   std::unique_ptr<Stream> stream_;
-  std::vector<Waiting> waiting_;  ///< a ring
+  std::vector<Waiting> waiting_;  ///< a ring buffer
   std::size_t pushed_ = 0, given_ = 0;
   std::vector<Overtaker> overtakers_;  ///< by number, at most `reorder_` between calls
-  RunningChanges changes_;             ///< of joints, radians, or of markers
+  RunningChanges changes_;             ///< for joints in radians, or for markers
   std::optional<feet::LiveFeet> feet_;
   Frame last_, made_, out_;
   std::int64_t last_number_ = -1;
   std::size_t missed_ = 0;  ///< frames without a number that were lost since the last frame
-  std::size_t held_ = 0;    ///< repeated since the last frame
+  std::size_t held_ = 0;    ///< repeated frames since the last frame
   bool has_started_ = false;
   bool any_number_ = false;
 };

@@ -1,4 +1,4 @@
-// Counts the words of lines, and writes the hierarchy of Perception Neuron.
+// Counts the words of lines, and writes Perception Neuron's hierarchy.
 #include "live/neuron_lines.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +17,8 @@ namespace {
 constexpr std::size_t neuron_joints = 59;
 constexpr std::size_t plain_values = 6 + 3 * (neuron_joints - 1);
 constexpr std::size_t displaced_values = 6 * neuron_joints;
-// The number and the name of the avatar, which may have spaces, and the six values of a reference.
+// Bounds the words of the number, the avatar's name, which may have spaces, and the six reference
+// values.
 constexpr std::size_t most_words_before = 16;
 
 std::size_t words_of(std::string_view line) {
@@ -38,7 +39,7 @@ std::string_view avatar_of(std::string_view line) {
   return line.substr(0, end);
 }
 
-// Writes joints one within the other.
+// Writes nested joints.
 class NeuronHierarchy {
  public:
   explicit NeuronHierarchy(bool displaced) : displaced_(displaced) {}
@@ -77,7 +78,7 @@ class NeuronHierarchy {
   std::size_t depth_ = 0;
 };
 
-// Lengths are those of a person of 1.75 m, in centimetres; y is up, x is to the left.
+// Lengths belong to a person of 1.75 m, in centimetres; y is up, x is to the left.
 void write_leg(NeuronHierarchy& out, const std::string& side, double sign) {
   out.open(side + "UpLeg", {sign * 9, -2, 0});
   out.open(side + "Leg", {0, -43, 0});

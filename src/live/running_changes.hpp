@@ -1,4 +1,4 @@
-// Running means of how much each track is changed.
+// Running means of the change of each track.
 #pragma once
 
 #include <algorithm>
@@ -8,13 +8,13 @@
 
 namespace kinemend {
 
-/// By track, the root mean square of changes.
+/// The root mean square of changes for each track.
 class RunningChanges {
  public:
   explicit RunningChanges(std::size_t tracks) : squares_(tracks, 0), counts_(tracks, 0) {}
 
   void add(std::size_t track, double change) {
-    // Older changes fade, so that a loose sensor shows: frames of 10 s at 60 Hz. Not swept.
+    // Older changes fade, so that a loose sensor becomes visible: 10 s at 60 Hz. Not swept.
     constexpr std::size_t most = 600;
     counts_[track] = std::min(counts_[track] + 1, most);
     squares_[track] += (change * change - squares_[track]) / static_cast<double>(counts_[track]);

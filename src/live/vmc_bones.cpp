@@ -14,7 +14,7 @@ struct HumanBone {
   std::string_view name, parent;
 };
 
-// The names are those of Unity's enumeration HumanBodyBones, which the VMC protocol refers to; the
+// The names are those of Unity's enumeration HumanBodyBones, to which the VMC protocol refers; the
 // parents are those of the VRM humanoid. A parent comes before its children.
 constexpr HumanBone human_bones[] = {{"root", ""},
                                      {"Hips", "root"},

@@ -1,4 +1,4 @@
-// The bones that VMC may name, and the skeleton of those that a sender has.
+// The bones that VMC may name, and the skeleton of the bones that a sender has.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace kinemend {
 
-/// Bones are numbers from 0: the root, those of Unity's humanoid, then any that were added.
+/// Bones are numbered from 0: the root, those of Unity's humanoid, then added ones.
 class VmcBones {
  public:
   static constexpr std::size_t root = 0, hips = 1;
@@ -20,11 +20,12 @@ class VmcBones {
 
   std::size_t count() const { return names_.size(); }
   const std::string& name(std::size_t bone) const { return names_[bone]; }
-  /// -1: none of that name. Upper and lower case are alike.
+  /// Returns -1 if no bone has that name. Matching ignores case.
   std::int32_t find(std::string_view name) const;
 
-  /// A take without frames, of the root and of the bones that `present` marks, in the order of
-  /// their numbers. A bone hangs on its nearest ancestor that is present. `offsets`: of each bone.
+  /// Returns a take without frames, of the root and of the bones that `present` marks, in the order
+  /// of their numbers. Each bone's parent is its nearest present ancestor. `offsets`: for each
+  /// bone.
   Take take_of(const std::vector<std::uint8_t>& present, const std::vector<Vec3>& offsets,
                double frame_rate_hz) const;
 

@@ -28,7 +28,7 @@ void read_vmc_poses(std::string_view datagram, const std::vector<OscMessage>& me
                     std::vector<VmcPose>& poses) {
   for (const OscMessage& message : messages) {
     const bool is_root = message.address == "/VMC/Ext/Root/Pos";
-    // Later versions of the protocol add arguments behind these.
+    // Later versions of the protocol add arguments after these.
     if (!(is_root || message.address == "/VMC/Ext/Bone/Pos") ||
         !message.types.starts_with("sfffffff"))
       continue;
@@ -42,7 +42,7 @@ void read_vmc_poses(std::string_view datagram, const std::vector<OscMessage>& me
 
 bool VmcValues::is_usable() const {
   const double length = norm(rotation);
-  // Senders round their quaternions; zeros stand for a bone that is not tracked.
+  // Senders round their quaternions; zeros mark a bone that is not tracked.
   constexpr double least = 0.5, most = 2;
   return is_finite(position) && length >= least && length <= most;
 }

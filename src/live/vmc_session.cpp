@@ -1,4 +1,4 @@
-// Puts the poses of datagrams together to frames, and holds datagrams until their bones are clean.
+// Assembles frames from the poses of datagrams, and holds datagrams until their bones are clean.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,15 +20,15 @@ namespace kinemend {
 
 namespace {
 
-// A sender gives the datagrams of a frame one after another: after a pause of this share of a frame
-// the rest of it is lost.
+// A sender sends the datagrams of a frame in succession: after a pause of this share of a frame the
+// rest of the frame is lost.
 constexpr double quiet_share = 0.3;
-// A face may go on while the body rests; its values are not kept longer than this.
+// A face may move on while the body rests; its values are kept no longer than this.
 constexpr double silence_s = 0.25;
 // A bone that is missing for longer is gone, and frames are complete without it.
 constexpr std::size_t memory_frames = 60;
 constexpr std::size_t most_named_bones = 5;
-// A change below what a float resolves keeps the sender's bytes.
+// A change below the resolution of a float keeps the sender's bytes.
 constexpr double least_change = 1e-6;
 
 void check_vmc_options(const VmcOptions& options) {
@@ -68,7 +68,7 @@ class VmcSession::Work {
     queue_bytes_ += datagram.size();
     messages_.clear();
     poses_.clear();
-    // The messages refer to the bytes that are kept.
+    // The messages refer to the stored bytes.
     if (read_osc(queue_.back().bytes, messages_)) {
       read_vmc_poses(queue_.back().bytes, messages_, poses_);
       for (const VmcPose& pose : poses_) take_pose(pose, now_s);
@@ -90,7 +90,7 @@ class VmcSession::Work {
     return queue_.empty() ? std::numeric_limits<double>::infinity() : last_pose_s_ + silence_s;
   }
 
-  // Repeats the last frame until all that waits has been cleaned.
+  // Repeats the last frame until all waiting datagrams have been cleaned.
   void settle() {
     if (has_open_frame_) close_frame();
     release();
@@ -120,7 +120,7 @@ class VmcSession::Work {
  private:
   struct Waiting {
     std::string bytes;
-    std::size_t pending;  ///< poses that are not cleaned yet
+    std::size_t pending;  ///< poses not cleaned yet
   };
   /// A pose that waits in a datagram.
   struct Pending {
@@ -140,7 +140,7 @@ class VmcSession::Work {
     const VmcValues values = vmc_values(queue_.back().bytes, pose.place);
     const bool usable = values.is_usable();
     counts_.not_finite += usable ? 0 : 1;
-    // Nothing is known that could replace it.
+    // An unusable pose cannot be replaced before the bone is known.
     if (!usable && !stream_.has(bone)) return;
     if (in_frame_[bone] != 0) close_frame();
     begin_frame(now_s);
@@ -171,7 +171,7 @@ class VmcSession::Work {
     std::fill(next_.measured.begin(), next_.measured.end(), 0);
   }
 
-  // Whether every bone is there that the last frames had. Before the first frame nothing is known.
+  // Whether every bone of the last frames is present. Before the first frame no bone is known.
   bool is_complete() const {
     bool knows_any = false;
     for (std::size_t b = 0; b < bones_.count(); ++b) {
@@ -218,7 +218,7 @@ class VmcSession::Work {
     stream_.push(std::move(frame));
   }
 
-  // The stream gives a frame.
+  // Cleans the poses of a frame from the stream.
   void clean_poses(const VmcFrame& frame) {
     const std::vector<Pending> poses = std::move(pending_.front());
     pending_.pop_front();
@@ -229,7 +229,7 @@ class VmcSession::Work {
     }
   }
 
-  // True if a value changed.
+  // Returns true if a value changed.
   bool clean_pose(const Pending& pose, const VmcFrame& frame, std::string& bytes) {
     const VmcValues came = vmc_values(bytes, pose.place);
     const bool usable = came.is_usable();
@@ -237,17 +237,18 @@ class VmcSession::Work {
     const Quat to = stream_.rotation(pose.bone);
     const double change = angle_between(from, to);
     if (usable) changes_.add(pose.bone, change);
-    // What cannot be used is replaced in full.
+    // An unusable pose is replaced entirely.
     const double share = usable ? options_.strength : 1;
     bool changed = false;
     if (share > 0 && (!usable || change > least_change)) {
-      // From the pose as it came, whose sign the result keeps.
+      // The result starts from the received pose and keeps its sign.
       changed = set_vmc_rotation(bytes, pose.place, slerp(from, to, share));
     }
     return clean_position(pose, frame, share, bytes) || changed;
   }
 
-  // Of the root and the hips. Those of other bones are the lengths of the body, and stay.
+  // Cleans the positions of the root and the hips. Those of other bones are the lengths of the body
+  // and stay unchanged.
   bool clean_position(const Pending& pose, const VmcFrame& frame, double share,
                       std::string& bytes) {
     const bool finite = is_finite(vmc_values(bytes, pose.place).position);
@@ -287,17 +288,17 @@ class VmcSession::Work {
   VmcBones bones_;
   VmcStream stream_;
   FrameClock clock_;
-  std::vector<std::uint8_t> chosen_;  ///< by bone
-  std::vector<std::size_t> age_;      ///< frames since the bone was there, at most memory_frames
+  std::vector<std::uint8_t> chosen_;  ///< for each bone
+  std::vector<std::size_t> age_;      ///< frames since the bone was present, at most memory_frames
   std::vector<std::uint8_t> in_frame_;
-  RunningChanges changes_;  ///< of rotations, radians
+  RunningChanges changes_;  ///< for rotations, in radians
   std::deque<Waiting> queue_;
   std::size_t queue_bytes_ = 0;
   std::size_t sent_ = 0;                      ///< datagrams
-  std::deque<std::vector<Pending>> pending_;  ///< of each frame that is in the stream
+  std::deque<std::vector<Pending>> pending_;  ///< for each frame in the stream
   bool has_open_frame_ = false;
-  double frame_s_ = 0;      ///< when the frame began that is open
-  double last_pose_s_ = 0;  ///< when the last pose arrived
+  double frame_s_ = 0;      ///< start of the open frame
+  double last_pose_s_ = 0;  ///< arrival of the last pose
   VmcFrame last_, next_;
   std::vector<Pending> next_poses_;
   std::vector<OscMessage> messages_;

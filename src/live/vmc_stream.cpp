@@ -8,7 +8,7 @@ namespace kinemend {
 
 namespace {
 
-// What a causal filter needs to be as steady as one that has always run, in frames.
+// The number of frames after which a causal filter is as steady as one that has always run.
 constexpr std::size_t warm_frames = 60;
 
 }  // namespace
@@ -23,7 +23,7 @@ VmcStream::VmcStream(const Cleaner& cleaner, const VmcBones& bones, double frame
       present_(bones.count(), 0),
       offsets_(bones.count()),
       holds_feet_(feet) {
-  // A method that cannot clean a humanoid says so before there is a sender.
+  // A method that cannot clean a humanoid fails here, before a sender connects.
   const std::vector<std::uint8_t> all(bones.count(), 1);
   latency_ = make_stream(cleaner, bones.take_of(all, offsets_, frame_rate_hz), 0, source)
                  ->latency_frames();
@@ -76,7 +76,7 @@ void VmcStream::pass(const VmcFrame& frame) {
     in_.rotations.push_back(frame.rotations[bone]);
     in_.observed.push_back(frame.measured[bone] != 0 || !has(bone) ? 1 : 0);
   }
-  // A mask would keep filters from the way that needs no memory.
+  // A mask would keep filters from the fast path that needs no memory.
   if (std::find(in_.observed.begin(), in_.observed.end(), 0) == in_.observed.end())
     in_.observed.clear();
   const std::size_t points = has(VmcBones::hips) ? 2 : 1;
@@ -86,7 +86,7 @@ void VmcStream::pass(const VmcFrame& frame) {
   if (number < given_) return;
   ++given_;
   if (feet_) feet_->hold(out_.rotations, out_.positions);
-  // The frame is among those kept: there are more of them than the filter looks ahead.
+  // The frame is still stored, because more frames are stored than the filter looks ahead.
   give_(number, history_[number + history_.size() - pushed_]);
 }
 

@@ -1,5 +1,5 @@
-// A live filter for bones that become known one by one: it starts again for a new bone, with the
-// last frames, so that nobody notices.
+// A live filter for bones that become known one by one: for a new bone it restarts unnoticeably
+// with the last frames.
 #pragma once
 
 #include <array>
@@ -19,31 +19,31 @@ namespace kinemend {
 
 /// Poses of all bones of the table at one time.
 struct VmcFrame {
-  std::vector<Quat> rotations;         ///< by bone; one that did not arrive has its last one
-  std::array<Vec3, 2> positions{};     ///< of the root and the hips
-  std::vector<std::uint8_t> measured;  ///< by bone: 0 if the rotation is to be bridged
+  std::vector<Quat> rotations;         ///< for each bone; a missing one repeats its last rotation
+  std::array<Vec3, 2> positions{};     ///< root and hips
+  std::vector<std::uint8_t> measured;  ///< for each bone: 0 if the rotation must be bridged
 };
 
 class VmcStream {
  public:
-  /// Takes the number of a frame, counted from 0, and the frame as it came; the stream then holds
-  /// its cleaned poses.
+  /// Takes the number of a frame, counted from 0, and the received frame; the stream then holds its
+  /// cleaned poses.
   using Give = std::function<void(std::size_t number, const VmcFrame& frame)>;
 
-  /// `cleaner` and `bones` must outlive the stream. Errors: as of `make_stream`.
+  /// `cleaner` and `bones` must outlive the stream. Throws as `make_stream` does.
   VmcStream(const Cleaner& cleaner, const VmcBones& bones, double frame_rate_hz, bool feet,
             Source source, Give give);
 
   std::size_t latency_frames() const { return latency_; }
   bool has(std::size_t bone) const { return present_[bone] != 0; }
-  /// A bone appears, with its first rotation and its position relative to its parent.
+  /// Adds a new bone with its first rotation and its position relative to its parent.
   void add(std::size_t bone, Quat rotation, Vec3 offset);
   void push(VmcFrame frame);
 
-  /// Of the frame that is given.
+  /// Returns the cleaned rotation in the current frame.
   Quat rotation(std::size_t bone) const { return out_.rotations[joints_[bone]]; }
   Vec3 position(std::size_t bone) const { return out_.positions[bone]; }  ///< root or hips
-  /// Of a bone that is present: its first position.
+  /// Returns the first position of a present bone.
   Vec3 offset(std::size_t bone) const { return offsets_[bone]; }
 
  private:
@@ -57,7 +57,7 @@ class VmcStream {
   Give give_;
   std::vector<std::uint8_t> present_;
   std::vector<Vec3> offsets_;
-  std::vector<std::size_t> joints_;  ///< of each bone that is present
+  std::vector<std::size_t> joints_;  ///< for each present bone
   std::vector<std::size_t> order_;   ///< the bone of each joint
   std::size_t latency_ = 0;
   std::size_t kept_frames_ = 0;

@@ -20,7 +20,7 @@ std::vector<Quat> rotations_of(const Take& clip, std::size_t joint, std::size_t 
   return track;
 }
 
-// Either of the two may be the noisy one, and the one with spikes.
+// Either track may be noisy, so the larger noise is used and the spikes of both are left out.
 Peaks peaks_of(const std::vector<Quat>& reference, const std::vector<Quat>& other,
                double frame_rate_hz) {
   const double noise = std::max(track_noise(reference), track_noise(other));

@@ -1,4 +1,4 @@
-// Compares two takes of markers, also of different systems, whose lag in time it finds.
+// Compares two takes of markers, also from different systems, and finds their time lag.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,8 +26,7 @@ constexpr int filter_order = 4;
 constexpr std::size_t fewest_filtered_frames = 16;
 constexpr double longest_lag_s = 0.5;
 
-// The error of each channel (frames x 3 markers); of samples that are missing on the line between
-// those beside them.
+// The error of each channel (frames x 3 markers); missing samples are interpolated linearly.
 struct Errors {
   PoseMatrix values;
   std::vector<std::uint8_t> seen;    // F x M
@@ -58,7 +57,7 @@ void bridge(Errors& errors, std::size_t marker) {
   }
 }
 
-// Standard deviations of the fitted reference, by which channels count.
+// Whether the standard deviation of the reference exceeds `least`, so that the channel is compared.
 bool moves(const std::vector<double>& values, double least) {
   if (least <= 0) return true;
   double sum = 0, squares = 0;
@@ -104,8 +103,8 @@ struct Squares {
   double rms() const { return count > 0 ? std::sqrt(sum / count) : 0; }
 };
 
-// Over the channels of markers [first, last) that count, where both ends of a span of `reach`
-// frames about the frame are seen.
+// Returns the root mean square over the compared channels of markers [first, last), where both ends
+// of a span of `reach` frames about the frame are seen.
 template <class Value>
 double rms_of(const Errors& errors, std::size_t first, std::size_t last, std::size_t reach,
               const Value& value) {
@@ -124,7 +123,7 @@ double rms_of(const Errors& errors, std::size_t first, std::size_t last, std::si
   return squares.rms();
 }
 
-// The error below each cut; none of a cut that the rate does not hold.
+// Returns the error below each cut; empty for a cut above half the frame rate.
 std::vector<std::optional<PoseMatrix>> lowpasses(const Errors& errors, double rate_hz) {
   std::vector<std::optional<PoseMatrix>> low(std::size(cuts_hz));
   if (errors.values.frames < fewest_filtered_frames) return low;
@@ -158,7 +157,7 @@ MarkerErrors summary(const Errors& errors, const std::vector<std::optional<PoseM
   });
   for (std::size_t i = 0; i <= low.size(); ++i) {
     const bool has_lower = i == 0 || low[i - 1], has_upper = i < low.size() && low[i];
-    // Above the highest cut that the rate holds all is one band.
+    // Everything above the highest cut that the rate allows is one band.
     if (!has_lower || (i == 0 && !has_upper)) continue;
     result.bands[i] = rms([&](std::size_t f, std::size_t c) {
       const double upper = has_upper ? (*low[i])(f, c) : e(f, c);
@@ -183,7 +182,7 @@ double percentile_99(const Errors& errors) {
   return metrics::percentile_of(std::move(distances), 99);
 }
 
-// Mean square of the difference of steps from frame to frame, gains and offsets set apart.
+// Returns the mean square difference of steps from frame to frame, with gains and offsets removed.
 double disagreement(const Take& reference, const Take& other, std::ptrdiff_t lag, MarkerFit fit) {
   const MarkerPair pair = metrics::pair_markers(reference, other, lag);
   const std::vector<FittedMarker> fitted = metrics::fit_markers(pair, fit);
@@ -198,7 +197,7 @@ double disagreement(const Take& reference, const Take& other, std::ptrdiff_t lag
   return squares.count > 0 ? squares.sum / squares.count : std::numeric_limits<double>::infinity();
 }
 
-// So many frames from the middle of a take.
+// Returns at most `most_frames` frames from the middle of a take.
 Take middle_of(const Take& clip) {
   // For speed, not swept.
   constexpr std::size_t most_frames = 4000;
@@ -207,7 +206,7 @@ Take middle_of(const Take& clip) {
   return slice(clip, first, first + kept);
 }
 
-// The least of the disagreements, between frames by a parabola.
+// Returns the lag of least disagreement, refined between frames by a parabola.
 double lag_of(const Take& reference, const Take& other, MarkerFit fit) {
   const auto frames = static_cast<std::ptrdiff_t>(reference.frame_count());
   const double rate_hz = reference.frame_rate_hz;

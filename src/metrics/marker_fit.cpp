@@ -36,7 +36,7 @@ struct ChannelSums {
   }
   double variance() const { return xx - x * x / count; }
   double gain() const {
-    // Of the square of the size: rounding. Not swept.
+    // Rounding errors, as a share of the squared size. Not swept.
     constexpr double standing_still = 1e-12;
     return variance() > standing_still * xx ? (xy - x * y / count) / variance() : 1;
   }
@@ -44,7 +44,7 @@ struct ChannelSums {
 
 FittedMarker gains_and_offsets(const MarkerPair& pair, std::size_t marker) {
   ChannelSums x, y, z;
-  // Sums of squares lose no digits about a point of the path.
+  // Coordinates relative to a point of the path lose no digits in sums of squares.
   Vec3 origin;
   for (std::size_t f = 0; f < pair.frames; ++f) {
     if (!pair.is_seen(f, marker)) continue;

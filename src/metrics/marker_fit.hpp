@@ -8,15 +8,15 @@
 
 namespace kinemend::metrics {
 
-/// Markers that two takes share, one behind the other in time.
+/// Markers that two takes share, with a lag in time.
 struct MarkerPair {
   const Take& reference;
   const Take& other;
   std::vector<std::size_t> reference_markers, other_markers;  ///< the same length
-  std::size_t first_frame = 0;                                ///< of the reference
+  std::size_t first_frame = 0;  ///< first compared frame of the reference
   std::size_t frames = 0;
   std::ptrdiff_t lag = 0;  ///< frame f of the reference is f + lag of the other
-  double scale = 1;        ///< of the other's lengths
+  double scale = 1;        ///< factor of the other's lengths
 
   std::size_t markers() const { return reference_markers.size(); }
   bool is_seen(std::size_t frame, std::size_t marker) const;
@@ -24,11 +24,11 @@ struct MarkerPair {
   Vec3 other_at(std::size_t frame, std::size_t marker) const;
 };
 
-/// Errors: as of `compare_markers`.
+/// Throws as `compare_markers` does.
 MarkerPair pair_markers(const Take& reference, const Take& other, std::ptrdiff_t lag_frames);
 
-/// Of each marker, from the reference to what the other system shows: p' = turn p + shift, or
-/// gain p + shift along each axis.
+/// The fit of one marker from the reference to the other system: p' = turn p + shift, or gain p +
+/// shift along each axis.
 struct FittedMarker {
   Quat turn{1, 0, 0, 0};
   Vec3 gain{1, 1, 1};
@@ -36,8 +36,8 @@ struct FittedMarker {
 
   Vec3 operator()(Vec3 p) const;
 };
-/// Least squares over the samples that both have. A marker that is never seen in both is not moved;
-/// a channel that stands still gets an offset alone.
+/// Fits by least squares over the samples that both takes have. A marker that is never seen in both
+/// is not moved; a constant channel gets an offset only.
 std::vector<FittedMarker> fit_markers(const MarkerPair& pair, MarkerFit fit);
 
 }  // namespace kinemend::metrics

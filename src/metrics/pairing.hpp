@@ -7,17 +7,16 @@
 
 namespace kinemend::metrics {
 
-/// Errors: `ErrorKind::usage` when the two clips cannot be compared frame by frame and joint by
-/// joint.
+/// Throws `ErrorKind::usage` if the two clips cannot be compared frame by frame and joint by joint.
 void check_pair(const Take& reference, const Take& other, std::size_t first_frame);
 
-/// Angle (radians) between the local rotations of every frame from `first_frame` on and joint,
-/// frame-major.
+/// Returns the angles (radians) between the local rotations of each joint, for every frame from
+/// `first_frame` on, frame-major.
 std::vector<double> geodesic_angles(const Take& reference, const Take& other,
                                     std::size_t first_frame);
 
-/// Linear interpolation between order statistics, as NumPy's default; `percentile` in [0, 100]. 0
-/// for no values.
+/// Returns the percentile by linear interpolation between order statistics, as NumPy does by
+/// default; `percentile` is in [0, 100]. Returns 0 for no values.
 double percentile_of(std::vector<double> values, double percentile);
 
 }  // namespace kinemend::metrics

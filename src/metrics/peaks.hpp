@@ -14,27 +14,27 @@
 
 namespace kinemend {
 
-/// Of the samples of a track, along each axis.
+/// The noise of a track's samples along each axis.
 struct SampleNoise {
-  double white = 0;        ///< of white noise as strong at the highest frequencies
-  double strength = 0;     ///< of all of it
+  double white = 0;        ///< strength of the white noise that has the same highest frequencies
+  double strength = 0;     ///< total strength
   double correlation = 0;  ///< from one frame to the next
 
-  /// Deviation of the difference of two samples so many frames apart.
+  /// Returns the standard deviation of the difference of two samples `frames` apart.
   double of_difference(std::size_t frames) const {
     return strength * std::sqrt(2 * (1 - portable::pow(correlation, static_cast<double>(frames))));
   }
 };
 
 struct Peaks {
-  double before = 0;  ///< a second
+  double before = 0;  ///< speed, per second
   double after = 0;
   std::size_t frames = 1;  ///< the step over which they are measured
-  double noise = 0;        ///< by how much noise may have raised the first
+  double noise = 0;        ///< by how much noise may have raised `before`
 };
 
-/// How long the longest of `count` vectors of white noise may well be, of a standard deviation of 1
-/// along each of their three axes: one in twenty such sets holds a longer one.
+/// Returns the probable length of the longest of `count` vectors of white noise with a standard
+/// deviation of 1 along each of three axes: one in twenty such sets has a longer one.
 inline double longest_of_noise(std::size_t count) {
   // One in twenty, by definition.
   constexpr double chance = 0.05;
@@ -50,16 +50,17 @@ namespace peaks {
 
 inline double between(Quat a, Quat b) { return angle_between(a, b); }
 inline double between(Vec3 a, Vec3 b) { return norm(a - b); }
-/// Grows with the distance, and is cheap.
+/// A cheap number that grows with the distance.
 inline double order_of_distance(Quat a, Quat b) { return -std::fabs(dot(a, b)); }
 inline double order_of_distance(Vec3 a, Vec3 b) { return dot(a - b, a - b); }
 
-/// Marks samples that lie far off the path of their neighbours: out and back within two frames is
-/// no motion of a person, and spikes that the method left in are no peaks.
+/// Marks samples that lie far off the path of their neighbours. A person cannot move out and back
+/// within two frames, and a spike that the method left is not a peak.
 template <class Sample>
 void leave_out_spikes(const std::vector<Sample>& track, double noise,
                       std::vector<std::uint8_t>& left_out) {
-  // In deviations of the noise, and as a detour over the way past it. Chosen by hand, not swept.
+  // The limits in deviations of the noise, and as a detour relative to the direct distance. Chosen
+  // by hand, not swept.
   constexpr double clear_noise = 8, clear_detour = 3;
   for (std::size_t f = 1; f + 1 < track.size(); ++f) {
     if (second_difference(track[f - 1], track[f], track[f + 1]) < 2 * clear_noise * noise) continue;
@@ -69,8 +70,8 @@ void leave_out_spikes(const std::vector<Sample>& track, double noise,
   }
 }
 
-/// Largest way within `gap` frames, as a speed; negative where there is none. `left_out` marks
-/// samples that do not count.
+/// Returns the largest distance within `gap` frames as a speed; negative if there is no pair.
+/// `left_out` marks ignored samples.
 template <class Sample>
 double peak_speed(const std::vector<Sample>& track, const std::vector<std::uint8_t>& left_out,
                   std::size_t gap, double rate_hz) {
@@ -88,13 +89,14 @@ double peak_speed(const std::vector<Sample>& track, const std::vector<std::uint8
 
 }  // namespace peaks
 
-/// The peaks of a track with noise of this kind; `left_out` marks samples that do not count,
-/// and nor do spikes. They are measured over the shortest step (one frame to 50 ms) in which noise
-/// adds less than a tenth.
+/// Returns the peaks of a track with this noise. `left_out` marks ignored samples; spikes are also
+/// ignored. Peaks are measured over the shortest step (one frame to 50 ms) in which noise adds less
+/// than a tenth.
 template <class Sample>
 Peaks measure_peaks(const std::vector<Sample>& before, const std::vector<Sample>& after,
                     std::vector<std::uint8_t> left_out, const SampleNoise& noise, double rate_hz) {
-  // The window of a peak, and the share of it that noise may have. Chosen by hand, not swept.
+  // The window of a peak, and the largest share of it that noise may have. Chosen by hand, not
+  // swept.
   constexpr double longest_s = 0.05;
   constexpr double noise_share = 0.1;
   const double longest = longest_of_noise(before.size());

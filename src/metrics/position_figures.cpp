@@ -12,7 +12,7 @@ namespace kinemend {
 
 namespace {
 
-// Joint positions from `first_frame` on.
+// Returns the joint positions from `first_frame` on.
 std::vector<Vec3> positions_from(const Take& clip, std::size_t first_frame) {
   std::vector<Vec3> positions = joint_positions(clip);
   positions.erase(positions.begin(), positions.begin() + static_cast<std::ptrdiff_t>(

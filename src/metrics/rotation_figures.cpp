@@ -18,15 +18,15 @@ namespace {
 
 using Angles = std::array<double, 3>;
 
-// Channels that turn by less over a take are still, but for rounding. Chosen by hand, not swept.
+// Channels that turn less over a take are constant except for rounding. Chosen by hand, not swept.
 constexpr double moving_range = 0.001 * radians_per_degree;
 
 bool counts_in_rms(const Skeleton& skeleton, std::size_t joint) {
   return skeleton.parents[joint] >= 0 && skeleton.rotation_order(joint).count > 0;
 }
 
-// Squared differences (wrapped, as the other clip's angles are the nearest) of one joint's moving
-// channels, added to `sums` frame by frame. Returns the channels.
+// Adds the squared differences of one joint's moving channels to `sums` frame by frame; each uses
+// the other clip's nearest equivalent angles. Returns the channels.
 std::size_t add_channel_errors(const Take& reference, const Take& other, std::size_t joint,
                                std::size_t first_frame, std::vector<double>& sums) {
   const RotationOrder order = reference.skeleton.rotation_order(joint);
@@ -128,7 +128,7 @@ double psnr_db(const Take& reference, const Take& other, std::size_t first_frame
   const auto angles = metrics::geodesic_angles(reference, other, first_frame);
   // The logarithm of the quaternion is half the rotation vector and has three channels.
   const double mean_square = sum_of_squares(angles) / 4 / (3 * static_cast<double>(angles.size()));
-  // Not a number stays one: a clip with such values is not the same as the reference.
+  // NaN is kept: a clip with such values is not the same as the reference.
   return mean_square == 0 ? std::numeric_limits<double>::infinity()
                           : 10 * portable::log10(peak * peak / mean_square);
 }

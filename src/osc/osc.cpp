@@ -10,7 +10,7 @@ namespace kinemend {
 namespace {
 
 constexpr std::size_t word = 4;
-// "#bundle" with its zero, and the time tag.
+// "#bundle" with its terminating zero, followed by the time tag.
 constexpr std::string_view bundle_begin{"#bundle\0", 8};
 constexpr std::size_t bundle_head = 16;
 
@@ -21,7 +21,7 @@ std::uint32_t osc_word(std::string_view packet, std::size_t place) {
   return value;
 }
 
-// [begin, end) is a message.
+// Reads the message in [begin, end).
 bool read_osc_message(std::string_view packet, std::size_t begin, std::size_t end,
                       std::vector<OscMessage>& messages) {
   const auto address = osc_string(packet, begin, end);

@@ -12,7 +12,7 @@ namespace kinemend {
 
 namespace {
 
-// Smaller changes are rounding errors: the sample keeps its input value, and its digits. Not swept.
+// Smaller changes are rounding errors: the sample keeps its input value and its digits. Not swept.
 constexpr double least_change_rad = 1e-9 * radians_per_degree;
 
 Quat turned_towards(Quat from, Quat to, double weight, double limit) {
@@ -22,8 +22,8 @@ Quat turned_towards(Quat from, Quat to, double weight, double limit) {
   return normalized(from * exp(share * turn));
 }
 
-// The same along the joint's own axes, so that its channels can hold the result. `angles` are those
-// of the frame before.
+// Turns in the same way about the joint's own axes, so that its channels can hold the result.
+// `angles` are those of the previous frame.
 Quat turned_within_axes(Quat from, Quat to, double weight, double limit, RotationOrder order,
                         std::array<double, 3>& angles) {
   const auto start = to_euler_near(from, order, angles);
@@ -49,10 +49,10 @@ Quat turned_within_axes(Quat from, Quat to, double weight, double limit, Rotatio
   return from;
 }
 
-// The angle between two rotations; by the arc sine's series where it is small, which is nearly
-// always and an order of magnitude faster.
+// Returns the angle between two rotations. Small angles, nearly all, use the arc sine's series,
+// which is an order of magnitude faster.
 double turn_between(Quat a, Quat b) {
-  // Up to here the series below is exact to rounding. Not swept.
+  // Up to this value the series below is exact to rounding. Not swept.
   constexpr double small = 0.01;  // of sin(angle / 4)^2: 23 degrees
   const Quat nearest = align_hemisphere(b, a);
   const Quat d{a.w - nearest.w, a.x - nearest.x, a.y - nearest.y, a.z - nearest.z};
@@ -87,18 +87,18 @@ double blend_position(Vec3 from, Vec3& to, double weight, std::array<bool, 3> ax
 
 double smooth_step(double x) { return x * x * (3 - 2 * x); }
 
-// Whether some sample goes part of the way only.
+// Whether some sample is changed only partly.
 bool goes_part_way(const std::vector<double>& weights) {
   return std::any_of(weights.begin(), weights.end(), [](double w) { return w > 0 && w < 1; });
 }
 
-// Puts a sample where a blend of weight `weight` would, had its input been like its neighbours': a
-// repair is never blended with what it repaired.
+// Blends repaired samples. A repair is never blended with the value that it replaced, but moved as
+// a blend of weight `weight` would move it if its input were like its neighbours'.
 struct RepairBlend {
   std::vector<Evidence> evidence;
   std::vector<Vec3> residuals;
 
-  // What is left of the residual of a repaired sample; none of any other.
+  // Returns the residual of a repaired sample; null for any other sample.
   const Vec3* residual(std::size_t frame, double weight) const {
     const bool repaired =
         weight > 0 && weight < 1 && !residuals.empty() && evidence[frame] == Evidence::repaired;
@@ -124,7 +124,7 @@ std::vector<double> frame_weights(const CleanSettings& settings, std::size_t fra
                                   std::size_t first_frame, double frame_rate_hz) {
   std::vector<double> weights(frames - first_frame, settings.strength);
   if (!settings.range) return weights;
-  // In which a change sets in at the ends of a range. Chosen by hand, not swept.
+  // The time over which a change fades in and out inside a range. Chosen by hand, not swept.
   constexpr double slope_s = 0.1;
   const auto [first, last] = *settings.range;
   const auto slope = static_cast<double>(frames_in(slope_s, frame_rate_hz, 0) + 1);
@@ -162,7 +162,7 @@ TrackChanges blend(TrackEdit<Quat>& track, RotationOrder order, double most_chan
     if (weights[f] > 0 && result != from) {
       const bool seen = track.is_observed(f);
       const double limit = seen ? most_change : 2 * pi;
-      // What stands in a gap is no motion to go halfway from.
+      // A value in a gap is not motion, so the result is not blended with it.
       double weight = seen ? weights[f] : 1;
       if (const Vec3* residual = repairs.residual(f, weight)) {
         result = normalized(result * exp((1 - weight) * *residual));

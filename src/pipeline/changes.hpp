@@ -1,6 +1,5 @@
-// What the pipeline does with a track (a joint's rotations, or positions) once the cleaner is done:
-// it blends the track with its input and reports on it. Frames are those of the motion, without
-// calibration.
+// Blends a track (a joint's rotations, or positions) with its input after cleaning, and reports on
+// it. Frames are those of the motion, without calibration.
 #pragma once
 
 #include <array>
@@ -17,14 +16,15 @@
 
 namespace kinemend {
 
-/// What became of every sample of a track.
+/// The change of every sample of a track.
 struct TrackChanges {
   std::vector<double> amounts;  ///< degrees; file units for positions
   std::vector<Action> actions;
 };
 
-/// How far frame f goes from its input to the cleaned value, 0..1: the strength, and the range with
-/// its slopes. `first_frame` is the number of calibration frames; one weight a frame of motion.
+/// Returns each frame's share of the cleaned value, 0..1: the strength, and the range with its
+/// slopes. `first_frame` is the number of calibration frames; there is one weight for each frame of
+/// motion.
 std::vector<double> frame_weights(const CleanSettings& settings, std::size_t frames,
                                   std::size_t first_frame, double frame_rate_hz);
 
@@ -33,68 +33,68 @@ template <class Sample>
 struct TrackEdit {
   std::vector<Sample> before, after;
   std::vector<std::uint8_t> observed;  ///< empty means all
-  std::vector<Action> stated;  ///< what the steps say they did; empty: nothing in particular
+  std::vector<Action> stated;          ///< as the steps state it; empty: not stated
 
   bool is_observed(std::size_t frame) const { return observed.empty() || observed[frame] != 0; }
 };
 
-/// Blends `after` with `before` in place and says what changed. What was missing or repaired is not
-/// blended with its input, which says nothing. Samples that hardly changed get their input value
-/// back. Joints of one or two axes are turned about these only. `most_change` in radians.
+/// Blends `after` with `before` in place and returns the changes. Missing or repaired samples are
+/// not blended with their input, which is meaningless. Samples that hardly changed get their input
+/// value back. Joints of one or two axes are turned about these only. `most_change` is in radians.
 TrackChanges blend(TrackEdit<Quat>& track, RotationOrder order, double most_change,
                    const std::vector<double>& weights);
 
-/// How positions may change.
+/// The limits of changes of positions.
 struct PositionLimits {
   GapTreatment gaps = GapTreatment::bridge;
-  std::array<bool, 3> axes{true, true, true};             ///< the others stay
-  double least = 0;                                       ///< smaller changes are none; file units
+  std::array<bool, 3> axes{true, true, true};  ///< the axes that may change
+  double least = 0;                            ///< smaller changes are ignored; file units
   double most = std::numeric_limits<double>::infinity();  ///< file units
 };
-/// The axes that have a channel.
+/// Returns the axes that have a channel.
 std::array<bool, 3> position_axes(const std::vector<Channel>& channels);
 
-/// The same of positions. Where gaps are cut, samples that were missing stay out of it: they are
-/// filled where the steps say so and the weight is above 0.
+/// Blends positions in the same way. Where gaps are cut, missing samples are not blended: they are
+/// filled if the steps say so and the weight is above 0.
 TrackChanges blend(TrackEdit<Vec3>& track, const PositionLimits& limits,
                    const std::vector<double>& weights);
 
-/// What the figures of a report are measured by.
+/// The units and thresholds of a report's figures.
 struct ReportScale {
   GapTreatment gaps = GapTreatment::bridge;
-  double per_sample_unit = 1;  ///< of speeds and noise, as they are shown
+  double per_sample_unit = 1;  ///< factor of speeds and noise, as they are shown
   std::string unit, speed_unit;
-  double slow = 0;          ///< peak speeds below are no events, as shown
-  double small_change = 0;  ///< of what smoothing does, no event, as shown
+  double slow = 0;          ///< lower peak speeds are ignored, as shown
+  double small_change = 0;  ///< smaller smoothing changes are ignored, as shown
   std::size_t first_frame = 0;
   double frame_rate_hz = 0;
   double peak_loss_limit = 0;
 };
-/// Of rotations, in degrees.
+/// Returns the scale of rotations, in degrees.
 ReportScale joint_scale();
-/// Of positions of markers, in their unit (empty: unknown).
+/// Returns the scale of marker positions in their unit (empty: unknown).
 ReportScale marker_scale(const std::string& unit, double body_height);
 
 /// A peak speed that cleaning lowered by more than the limit, as shown.
 struct PeakLoss {
   double before = 0, after = 0;
-  double share = 0;  ///< of `before`
+  double share = 0;  ///< loss as a share of `before`
 };
 /// A sample that smoothing changed by far more than the noise explains, as shown.
 struct LargeChange {
   double size = 0, noise = 0;
-  double time_s = 0;      ///< of the largest
-  std::size_t count = 0;  ///< of such frames
+  double time_s = 0;      ///< time of the largest
+  std::size_t count = 0;  ///< number of such frames
 };
 
-/// What was measured of a track before cleaning, the same for every method.
+/// The measurements of a track before cleaning, the same for every method.
 struct TrackMeasure {
-  ColouredNoise coloured{};            ///< where the noise is coloured; white noise is measured
+  ColouredNoise coloured{};  ///< set if the noise is coloured; white noise is measured separately
   std::vector<std::uint8_t> spikes{};  ///< F, 1 for a spike; empty: none
 };
 
-/// What the report says of one joint or marker. `taken`: coloured noise that the method took out; a
-/// change that it explains is no warning.
+/// The report on one joint or marker. `taken`: coloured noise that the method removed; a change
+/// that it explains causes no warning.
 struct TrackReport {
   TrackSummary summary;
   std::vector<ReportSpan> spans;
@@ -106,11 +106,11 @@ TrackReport report_track(std::string name, std::size_t owner, const TrackEdit<Sa
                          const TrackChanges& changes, const TrackMeasure& measure,
                          const ColouredNoise& taken, const ReportScale& scale);
 
-/// One line for all lost peaks and one for all large changes, with the worst few by name.
+/// Returns one line for all lost peaks and one for all large changes, with the worst few by name.
 std::vector<std::string> warnings_of(const std::vector<TrackReport>& tracks, TakeKind kind,
                                      const ReportScale& scale);
 
-/// The spans of one track, `kept` left out.
+/// Returns the spans of one track, without those of `kept`.
 std::vector<ReportSpan> spans_of(std::int32_t owner, const TrackChanges& changes,
                                  std::size_t first_frame);
 

@@ -19,12 +19,12 @@ namespace kinemend {
 
 namespace {
 
-// Whether blending leaves something of the input.
+// Whether blending keeps some of the input.
 bool takes_part_only(const CleanSettings& settings) {
   return settings.strength < 1 || settings.max_change_deg < 180 || settings.range;
 }
 
-// One stage of the work, told of from its beginning to its end.
+// Reports progress of one stage of the work.
 class Stage {
  public:
   Stage(const CleanSettings& settings, std::string_view name) : settings_(settings), name_(name) {
@@ -33,9 +33,9 @@ class Stage {
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
   void finish() const { tell(1); }
-  /// Says again that it goes on, so that whoever listens may end it by throwing.
+  /// Reports progress again so that the listener can cancel by throwing.
   void ask() const { tell(0); }
-  /// What the work itself may tell: nothing where nobody listens.
+  /// Returns the progress callback for the work itself; empty without a listener.
   std::function<void(double)> shares() const {
     if (!settings_.progress) return {};
     return [this](double done) {
@@ -52,18 +52,18 @@ class Stage {
   std::string_view name_;
 };
 
-// How to get from what a cleaner made of a track to the result.
+// The data that turns a cleaner's result on a track into the final result.
 struct Work {
   const CleanSettings& settings;
   Selection selection;
-  std::size_t first;            // frame of the motion: the number of calibration frames
-  std::vector<double> weights;  // one a frame of motion
+  std::size_t first;            // number of calibration frames, where the motion begins
+  std::vector<double> weights;  // one for each frame of motion
   ReportScale scale;
   double least_shift = 0;  // file units
   MeasuredNoise measured{};
 };
 
-// The cleaner's tracks one by one, each in the place of its input as soon as it is there.
+// Finishes the cleaner's tracks one by one, writing each over its input as soon as it arrives.
 class Finisher {
  public:
   Finisher(const Work& work, const TakeView& take, Take& clip)
@@ -83,7 +83,7 @@ class Finisher {
     finished_[track] = 1;
   }
 
-  // What the cleaner left alone.
+  // Finishes the tracks that the cleaner left alone.
   void finish_others() {
     for_each_parallel(take_.tracks.size(), take_.tracks.size() * take_.frames, [&](std::size_t n) {
       if (finished_[n] == 0) finish(n, as_it_stands(n));
@@ -124,7 +124,7 @@ class Finisher {
     const Track& track = take_.tracks[joint];
     TrackEdit<Quat> edit = edit_of(joint, rotations_of(track), std::move(cleaned.rotations),
                                    std::move(cleaned.actions));
-    // The rotation of a joint without rotation channels has no place in a file.
+    // A file cannot store the rotation of a joint without rotation channels.
     const RotationOrder order = take_.joints->skeleton.rotation_order(joint);
     const bool may_turn = track.selected && order.count > 0;
     const TrackChanges changes =
@@ -200,12 +200,12 @@ class Finisher {
   const TakeView& take_;
   Take& clip_;
   std::vector<double> nothing_;
-  std::vector<TrackReport> reports_;  // of joints' rotations and markers
+  std::vector<TrackReport> reports_;  // for joints' rotations and markers
   TrackChanges root_;
   std::vector<std::uint8_t> finished_;
 };
 
-// Also where the cleaner did not look at a gap.
+// States filled samples, also in gaps that the cleaner skipped.
 void state_filled(const TakeView& measured, const TakeView& filled, InPlaceTrace& trace) {
   for (std::size_t n = 0; n < measured.owners; ++n) {
     for (std::size_t f = 0; f < measured.frames; ++f) {
@@ -224,8 +224,8 @@ void hold_feet(const Work& work, Take& cleaned, InPlaceTrace& trace, CleanReport
   stage.finish();
 }
 
-// Joins the measured noise and the noise that the model of the method expects: slow noise, and
-// noise of a space in which none was measured.
+// Joins the measured noise and the noise that the method's model expects: slow noise, and noise of
+// a space in which none was measured.
 std::vector<NoiseCharacter> noise_of(const MeasuredNoise& measured, const CleanTrace& trace) {
   std::vector<NoiseCharacter> noise = measured.characters;
   if (trace.left.empty()) return noise;
@@ -233,7 +233,7 @@ std::vector<NoiseCharacter> noise_of(const MeasuredNoise& measured, const CleanT
     const bool is_measured =
         std::any_of(measured.characters.begin(), measured.characters.end(),
                     [&](const NoiseCharacter& own) { return own.space == character.space; });
-    // White noise shows from frame to frame, so the measurement finds it where there is any.
+    // White noise shows from frame to frame, so the measurement finds it if it exists.
     if (!character.is_expected && (is_measured || character.correlation == 0)) continue;
     character.is_expected = true;
     noise.push_back(character);
@@ -241,8 +241,7 @@ std::vector<NoiseCharacter> noise_of(const MeasuredNoise& measured, const CleanT
   return noise;
 }
 
-// Filling and holding feet look at many tracks at once: the whole motion is cleaned beside the
-// input.
+// Filling and holding feet read many tracks at once, so a copy of the whole motion is cleaned.
 void clean_whole(Take& motion, const Cleaner& cleaner, const Work& work, CleanReport& report) {
   const CleanSettings& settings = work.settings;
   const TakeView take = view_of(motion, work.selection);
@@ -256,7 +255,7 @@ void clean_whole(Take& motion, const Cleaner& cleaner, const Work& work, CleanRe
   cleaning.finish();
   if (settings.fill) {
     const Stage stage(settings, "filling");
-    // Gaps are filled in several threads: one at a time asks whether anybody still waits.
+    // Several threads fill gaps; one at a time checks for a cancellation.
     std::mutex asking;
     const FillCheck check = [&] {
       const std::lock_guard lock(asking);
@@ -286,8 +285,7 @@ void clean_whole(Take& motion, const Cleaner& cleaner, const Work& work, CleanRe
   motion.observed_positions = cleaned.observed_positions;
 }
 
-// Each track takes the place of its input as soon as it is cleaned, so that there is one copy of
-// the take.
+// Each track replaces its input as soon as it is cleaned, so only one copy of the take exists.
 void clean_track_by_track(Take& motion, const Cleaner& cleaner, const Work& work,
                           CleanReport& report) {
   const TakeView take = view_of(motion, work.selection);
@@ -353,7 +351,7 @@ void warn_of_feet(const CleanSettings& settings, CleanReport& report) {
       "joints");
 }
 
-// Changes below rounding are none: the limit follows from the size of the body.
+// Changes below rounding are ignored; the limit follows from the size of the body.
 Work work_of(const Take& take, const CleanSettings& settings, const CleanReport& report) {
   // Not swept.
   constexpr double rounding_of_bone = 1e-11, rounding_of_body = 1e-13;

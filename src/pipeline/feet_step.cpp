@@ -1,4 +1,4 @@
-// Lets the room `feet` hold feet within the selection and states which samples changed.
+// Holds feet within the selection and states which samples changed.
 #include "pipeline/steps.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace kinemend {
 
 namespace {
 
-// `changed`: F rows of `width`, those of a track in column `column`.
+// `changed`: F rows of `width`; the track is in column `column`.
 void state_adjusted(const std::vector<std::uint8_t>& changed, std::size_t width, std::size_t column,
                     std::vector<Action>& actions) {
   if (changed.empty()) return;

@@ -23,7 +23,8 @@ bool holds_more_spikes(const InPlaceTrace& found, const InPlaceTrace& repaired) 
   return false;
 }
 
-// What the gaps are filled from: the cleaned take, or one that was cleaned without its spikes.
+// Returns the samples that gaps are filled from: the cleaned take, or one cleaned without its
+// spikes.
 Take evidence_of(const Take& measured, const Cleaner& cleaner, const Selection& selection,
                  const InPlaceTrace& trace, const Take& cleaned) {
   Take evidence = measured;
@@ -36,7 +37,7 @@ Take evidence_of(const Take& measured, const Cleaner& cleaner, const Selection& 
   return evidence;
 }
 
-// Calls `take_over(i)` for the samples that were not measured, are filled, and may be.
+// Calls `take_over(i)` for the selected samples that were missing, are filled, and have weight.
 template <class TakeOver>
 void for_each_filled(const std::vector<std::uint8_t>& measured,
                      const std::vector<std::uint8_t>& filled,
@@ -48,7 +49,7 @@ void for_each_filled(const std::vector<std::uint8_t>& measured,
   }
 }
 
-// The same of the root position and the translations, which are selected with their joints.
+// Takes over the root position and the translations, which are selected with their joints.
 void take_over_positions(const Take& measured, const Take& filled,
                          const std::vector<std::uint8_t>& selected,
                          const std::vector<double>& weights, Take& clip) {

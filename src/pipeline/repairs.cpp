@@ -10,7 +10,7 @@ namespace {
 // Chosen by hand, not swept.
 constexpr std::size_t most_neighbours = 8;
 
-// The mean of some residuals, at their mean frame.
+// The mean of some residuals at their mean frame.
 struct Side {
   double frame = 0;
   Vec3 residual;
@@ -23,7 +23,7 @@ class Neighbours {
              const std::function<Vec3(std::size_t)>& residual)
       : evidence_(evidence), residual_(residual) {}
 
-  // Frames before `end`, the nearest first.
+  // Uses frames before `end`, the nearest first.
   Side before(std::size_t end) const {
     Sum sum;
     for (std::size_t f = end; f-- > 0 && sum.count < most_neighbours;) add(f, sum);

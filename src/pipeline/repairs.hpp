@@ -1,4 +1,4 @@
-// Decides what becomes of repaired samples where cleaning goes only part of the way.
+// Computes the residuals of repaired samples for a clean of partial strength.
 #pragma once
 
 #include <cstddef>
@@ -11,23 +11,23 @@
 
 namespace kinemend {
 
-/// What the input of a sample is worth.
+/// How far the input of a sample can be trusted.
 enum class Evidence : std::uint8_t {
   measured,
-  repaired,  ///< measured, but the cleaner put something else in its place
+  repaired,  ///< measured, but replaced by the cleaner
   missing
 };
 
-/// `observed` and `stated` may be empty: all observed, nothing in particular stated.
+/// `observed` and `stated` may be empty: all are observed, and no action is stated.
 std::vector<Evidence> evidence_of(std::size_t frames, const std::vector<std::uint8_t>& observed,
                                   const std::vector<Action>& stated);
 
-/// A repaired sample has no input of its own to go halfway from, so it stands off its cleaned value
-/// as its neighbours do: on the straight line between the mean residuals (from the cleaned value to
-/// the input) of the eight nearest measured samples on either side, or at that of the only side
-/// there is. Of white noise little is left in such a mean; a bend that smoothing cuts, or a foot
-/// that is moved, is all in it. `residual(f)` is asked for measured samples only. One vector a
-/// frame, zero where nothing was repaired; empty where nothing was at all.
+/// A repaired sample has no input of its own to blend with. It gets the residual (from the cleaned
+/// value to the input) of its neighbours instead: on the straight line between the mean residuals
+/// of the eight nearest measured samples on either side, or the mean of the only side that has any.
+/// White noise nearly vanishes in such a mean; a bend that smoothing cuts, or a foot that is moved,
+/// is kept. `residual(f)` is called for measured samples only. Returns one vector for each frame,
+/// zero if it was not repaired; empty if no sample was repaired.
 std::vector<Vec3> residuals_of_repaired(const std::vector<Evidence>& evidence,
                                         const std::function<Vec3(std::size_t)>& residual);
 

@@ -1,4 +1,4 @@
-// Writes what the report says of each track: its summary, its spans, lost peaks and large changes.
+// Writes the report of each track: its summary, its spans, lost peaks and large changes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,17 +15,17 @@ namespace kinemend {
 
 namespace {
 
-// Samples of the noise, for speed; what counts as slow, and as a small change. Chosen by hand, not
-// swept.
+// The noise samples, for speed; the limit of a slow peak, and of a small change. Chosen by hand,
+// not swept.
 constexpr std::size_t noise_samples = 1024;
 constexpr double slow_deg_s = 60;
-constexpr double slow_heights_s = 0.25;  // of markers, statures a second
+constexpr double slow_heights_s = 0.25;  // for markers, statures a second
 constexpr double small_change_deg = 10, small_change_heights = 0.04;
 
-// A foot that is held is moved, not repaired: how fast it goes counts.
+// A held foot is adjusted, not repaired, so its speed counts.
 bool repaired(Action action) { return action == Action::despiked || action == Action::filled; }
 
-// Peaks below `scale.slow` are no events.
+// Ignores peaks below `scale.slow`.
 std::optional<PeakLoss> lost_peak(const Peaks& peaks, const ReportScale& scale) {
   const double before = peaks.before * scale.per_sample_unit;
   const double after = peaks.after * scale.per_sample_unit;
@@ -34,8 +34,8 @@ std::optional<PeakLoss> lost_peak(const Peaks& peaks, const ReportScale& scale) 
   return PeakLoss{before, after, 1 - peaks.after / peaks.before};
 }
 
-// Smoothing takes noise away; what it changes by far more than the largest noise there may be was a
-// spike to everybody but the method, or motion.
+// Smoothing removes noise. A change far above the largest noise to be expected was a spike that the
+// method did not state, or it was motion.
 std::optional<LargeChange> large_change(const TrackChanges& changes, double noise,
                                         const ReportScale& scale) {
   // Chosen by hand, not swept.
@@ -60,7 +60,7 @@ std::string text_of(const LargeChange& change, const ReportScale& scale) {
   return fmt::format("{} at {:.2f} s", measure_text(change.size, scale.unit), change.time_s);
 }
 
-// The tracks that have a `member`, worst first by `size`.
+// Returns the tracks that have a `member`, worst first by `size`.
 template <class Event, class Size>
 std::vector<const TrackReport*> worst_first(const std::vector<TrackReport>& tracks,
                                             std::optional<Event> TrackReport::*member,
@@ -75,7 +75,7 @@ std::vector<const TrackReport*> worst_first(const std::vector<TrackReport>& trac
   return found;
 }
 
-// "A (x), B (y), C (z)" of the first three.
+// Returns the first three as "A (x), B (y), C (z)".
 template <class Text>
 std::string worst_text(const std::vector<const TrackReport*>& found, const Text& text) {
   // Chosen by hand.
@@ -169,8 +169,8 @@ TrackReport report_track(std::string name, std::size_t owner, const TrackEdit<Sa
   summary.name = std::move(name);
   report.spans = spans_of(static_cast<std::int32_t>(owner), changes, scale.first_frame);
   std::vector<std::uint8_t> left_out(frames);      // spikes and gaps, whatever the method did
-  std::vector<std::uint8_t> not_followed(frames);  // also what the method repaired
-  std::vector<Sample> counted;                     // of a joint a bridge counts, too
+  std::vector<std::uint8_t> not_followed(frames);  // those, and samples that the method repaired
+  std::vector<Sample> counted;  // samples of the figures; bridged ones of a joint count too
   double squares = 0;
   bool was_missing = false;
   for (std::size_t f = 0; f < frames; ++f) {
@@ -205,7 +205,7 @@ TrackReport report_track(std::string name, std::size_t owner, const TrackEdit<Sa
   report.lost_peak = lost_peak(peaks, scale);
   const SampleNoise explained = sample_noise(taken);
   if (report.lost_peak) {
-    // A peak that the method repaired, or that the noise explains which it took out, is not lost.
+    // A peak is not lost if the method repaired it, or if the removed noise explains it.
     const Peaks own = measure_peaks(track.before, track.after, std::move(not_followed), explained,
                                     scale.frame_rate_hz);
     if (!lost_peak(own, scale)) report.lost_peak.reset();

@@ -1,5 +1,4 @@
-// The steps around the cleaner: what is selected, gaps that are filled after it, feet that are
-// held.
+// The steps around the cleaner: the selection, the filling of gaps, and the holding of feet.
 #pragma once
 
 #include <cstddef>
@@ -17,32 +16,32 @@
 
 namespace kinemend {
 
-/// Errors: `ErrorKind::usage` for a number or range that is out of range.
+/// Throws `ErrorKind::usage` for a number or range that is out of range.
 void check_settings(const CleanSettings& settings, std::size_t frames);
 
-/// What the settings select: of joints the root position with joint 0, where it has channels; of
-/// markers those that are positions. Errors: `ErrorKind::usage` for a pattern that matches nothing.
+/// Returns the tracks that the settings select. Joint 0 includes the root position if it has
+/// channels; only markers that are positions are selected. Throws `ErrorKind::usage` for a pattern
+/// that matches nothing.
 Selection selection_of(const Take& clip, const CleanSettings& settings);
 
-/// 1 for each of `names` that `settings.joints` means and `settings.exclude` does not. `kind`
-/// ("joint", "marker") stands in messages. Errors: `ErrorKind::usage` for a pattern that matches
-/// nothing.
+/// Returns 1 for each of `names` that `settings.joints` matches and `settings.exclude` does not.
+/// `kind` ("joint", "marker") is used in messages. Throws `ErrorKind::usage` for a pattern that
+/// matches nothing.
 std::vector<std::uint8_t> select_names(const std::vector<std::string>& names,
                                        const CleanSettings& settings, std::string_view kind);
 
 /// Fills the gaps of the selected joints or markers in the frames of weight above 0. `measured` is
-/// the take before the cleaner, `cleaned` behind it, with what the cleaner says of it in `trace`;
-/// the gaps are filled in `cleaned`, from its samples, so that they meet these. Where the cleaner
-/// has left spikes, as `auto` finds them, they are filled from a take that was cleaned without
-/// them. A gap that is refused stays as the cleaner has left it. The report lists the gaps of what
-/// is selected.
+/// the take before the cleaner, `cleaned` after it, `trace` the cleaner's statements. Gaps are
+/// filled in `cleaned`, from its samples, so that fillings meet these. If the cleaner has left
+/// spikes (as `auto` finds them), gaps are filled from a take that was cleaned without them. A
+/// refused gap stays as the cleaner left it. The report lists the gaps of the selection.
 FillReport fill_step(const Take& measured, const Cleaner& cleaner, const Selection& selection,
                      const std::vector<double>& weights, const FillSettings& settings,
                      const InPlaceTrace& trace, Take& cleaned, const FillCheck& check = {});
 
 /// Holds feet in place as far as the selection lets legs and root move. `motion` begins with frame
-/// `first` of the take, by whose frames settings and report go. What changed is stated in `trace`,
-/// over what the cleaner did; filled and despiked samples stay such.
+/// `first` of the take, whose frame numbers settings and report use. Changes are stated in `trace`,
+/// over those of the cleaner; filled and despiked samples keep their action.
 FeetReport feet_step(Take& motion, const Selection& selection, const FeetSettings& settings,
                      std::size_t first, InPlaceTrace& trace);
 

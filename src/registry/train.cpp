@@ -19,7 +19,7 @@ namespace kinemend {
 
 namespace {
 
-// Checked before any take is read, so that errors are reported early.
+// The options are checked before any take is read, so that errors are reported early.
 OptionValues checked_options(const LearnedMethod& method, const OptionValues& values) {
   OptionValues checked;
   for (const auto& [name, value] : values) {
@@ -30,7 +30,7 @@ OptionValues checked_options(const LearnedMethod& method, const OptionValues& va
   return checked;
 }
 
-// All that the bytes of the model depend on beside the takes and the card.
+// Returns all facts, besides the takes and the card, on which the bytes of the model depend.
 TrainingFacts facts_of(const LearnedMethod& method, const OptionValues& checked,
                        const TrainSettings& settings) {
   TrainingFacts facts = {{"method", fmt::format("{} {}", method.name, method.version)},

@@ -15,7 +15,7 @@ namespace kinemend {
 
 namespace {
 
-// Rows come from files, which may hold anything.
+// Rows are read from files, which may hold anything.
 std::string word(const Json& json, const char* key) {
   const auto found = json.find(key);
   return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();

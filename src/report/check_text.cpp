@@ -1,4 +1,4 @@
-// Says in text what `check` found.
+// Writes the findings of `check` as text.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ std::string dashes_to_spaces(std::string_view name) {
 
 std::string finding_sentence(const Finding& finding, const TakeFacts& take,
                              const CheckReport& report) {
-  // "Frame 1 is a calibration pose": the frames are the subject.
+  // In "Frame 1 is a calibration pose" the frames are the subject.
   if (finding.kind == FindingKind::calibration)
     return frames_text(finding, take, report) + " " + printable(finding.words);
   std::string text = frames_text(finding, take, report) + ": ";
@@ -57,14 +57,14 @@ std::string finding_sentence(const Finding& finding, const TakeFacts& take,
 
 namespace {
 
-// How many findings are a fault.
+// Returns the number of findings that are a fault.
 std::size_t faults_in(const CheckReport& report) {
   return static_cast<std::size_t>(
       std::count_if(report.findings.begin(), report.findings.end(),
                     [](const Finding& finding) { return finding.severity != Severity::note; }));
 }
 
-// Whether the take looks as one that has errors which do not show.
+// Whether the take may have errors that are not visible.
 bool is_doubtful(const CheckReport& report) {
   return std::any_of(report.findings.begin(), report.findings.end(), [](const Finding& finding) {
     return finding.kind == FindingKind::no_contact || finding.kind == FindingKind::expected_noise;
@@ -88,7 +88,7 @@ std::string check_verdict(const CheckReport& report) {
 
 namespace {
 
-// The first few of each kind: a hundred spikes say no more than five.
+// Lists the first few of each kind: a hundred spikes say no more than five.
 std::string findings_text(const TakeFacts& take, const CheckReport& report, bool all) {
   // Chosen by hand.
   constexpr std::size_t most_of_a_kind = 5;
@@ -144,7 +144,7 @@ std::string tracks_text(const CheckReport& report) {
   return "\n" + table.text();
 }
 
-// Of several people what the feet of each do.
+// Lists slide and depth of the feet of each of several people.
 std::string subjects_text(const CheckReport& report) {
   if (report.subjects.empty()) return "";
   const auto length = [](const std::optional<double>& value) {

@@ -13,7 +13,7 @@ std::size_t count_spans(const CleanReport& report, Action action) {
 }
 
 std::size_t count_bursts(const CleanReport& report) {
-  // Of a burst. Chosen by hand.
+  // The least length of a burst. Chosen by hand.
   constexpr std::size_t fewest_frames = 3;
   return static_cast<std::size_t>(
       std::count_if(report.spans.begin(), report.spans.end(), [](const ReportSpan& span) {

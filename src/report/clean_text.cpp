@@ -1,4 +1,4 @@
-// Says in text what `clean` did.
+// Writes the result of `clean` as text.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,10 +15,10 @@ namespace kinemend {
 
 namespace {
 
-// Names in a list of the short report. Chosen by hand.
+// The longest list of names in the short report. Chosen by hand.
 constexpr std::size_t short_list = 8;
 
-// Below this much jitter a take is not called noisy.
+// A take with less jitter is not called noisy.
 double noticeable_noise(const CleanReport& report) {
   // Chosen by hand, not swept.
   constexpr double noticeable_deg = 0.1;
@@ -32,7 +32,7 @@ struct TypicalNoise {
   std::size_t tracks = 0;
 };
 
-// The middle one of the noises of what was smoothed and has one; 0 without any.
+// Returns the median noise of the smoothed tracks that have noise; 0 without any.
 TypicalNoise typical_noise(const CleanReport& report, double TrackSummary::*noise) {
   std::vector<double> noises;
   for (const TrackSummary& row : report.tracks) {
@@ -44,7 +44,7 @@ TypicalNoise typical_noise(const CleanReport& report, double TrackSummary::*nois
   return {*middle, noises.size()};
 }
 
-// What changed, most first.
+// Returns the changed tracks, the most changed first.
 std::vector<const TrackSummary*> changed_rows(const CleanReport& report) {
   std::vector<const TrackSummary*> rows;
   for (const TrackSummary& row : report.tracks) {
@@ -81,7 +81,7 @@ std::string change_table(const CleanReport& report, bool all_rows) {
   return text;
 }
 
-// Gaps that were filled, by method, and those that were refused, one a line.
+// Lists filled gaps by method, and refused gaps on one line each.
 std::string gaps_text(const CleanReport& report, std::int64_t first_frame, bool all_rows) {
   std::string unlabelled =
       report.fill.unlabelled == 0
@@ -137,9 +137,9 @@ std::string leftovers_text(const CleanOutcome& outcome) {
   return text;
 }
 
-// Of tracks that changed at all: what nobody touched fell back to nothing.
+// Only tracks that changed are listed; an untouched track has no fall-back.
 std::string fall_backs_text(const CleanReport& report, bool all_rows) {
-  // Rows of the short report. Chosen by hand.
+  // The number of rows in the short report. Chosen by hand.
   constexpr std::size_t few = 4;
   std::string text;
   for (const FallBack& fall_back : report.fall_backs) {
@@ -162,7 +162,7 @@ std::string fall_backs_text(const CleanReport& report, bool all_rows) {
   return text;
 }
 
-// Changed joints or markers that are more another method's than the one's that was asked for.
+// Counts the changed joints or markers that other methods cleaned more than the requested one.
 std::size_t count_fallen_back(const CleanReport& report) {
   std::map<std::int32_t, double> shares;
   for (const FallBack& fall_back : report.fall_backs) {
@@ -198,7 +198,7 @@ std::string clean_verdict(const TakeFacts& take, const CleanOutcome& outcome) {
   }
   const TypicalNoise jitter = typical_noise(report, &TrackSummary::noise);
   const TypicalNoise expected = typical_noise(report, &TrackSummary::expected_noise);
-  // Noise that does not show from frame to frame is known from the model alone.
+  // Noise that does not show from frame to frame is known only from the model.
   const bool is_expected = jitter.size < noticeable_noise(report) && expected.size > jitter.size;
   const TypicalNoise noise = is_expected ? expected : jitter;
   std::vector<std::string> findings;
@@ -226,7 +226,7 @@ std::string clean_verdict(const TakeFacts& take, const CleanOutcome& outcome) {
 
 namespace {
 
-// The take's name, the verdict and where the result went, on one line.
+// Returns the take's name, the verdict and the output path on one line.
 std::string headline(const TakeFacts& take, const CleanOutcome& outcome, bool colours) {
   const std::string result = clean_verdict(take, outcome);
   const bool is_good = result.compare(0, 5, "noisy") != 0 && result.compare(0, 7, "damaged") != 0;
@@ -235,7 +235,7 @@ std::string headline(const TakeFacts& take, const CleanOutcome& outcome, bool co
   return line + (take.output.empty() ? "; nothing written (--dry-run)" : written_text(take)) + "\n";
 }
 
-// How far off the result is expected to be, of methods that say it.
+// Returns the expected error of the result, if the method states it.
 std::string left_text(const CleanReport& report) {
   std::vector<double> all;
   const TrackSummary* worst = nullptr;
@@ -250,7 +250,7 @@ std::string left_text(const CleanReport& report) {
                      measure_text(worst->left, report.unit));
 }
 
-// A table of what changed, the gaps, and the sums.
+// Returns a table of the changes, the gaps, and the totals.
 std::string details(const TakeFacts& take, const CleanOutcome& outcome, bool all_rows) {
   if (!take.contents.empty()) return "";
   const CleanReport& report = outcome.report;

@@ -1,4 +1,4 @@
-// Says in text how two takes differ.
+// Writes the differences of two takes as text.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -51,7 +51,7 @@ std::string markers_text(const TakeFacts& take, const MarkerComparison& comparis
   return table.text();
 }
 
-// What the figures of markers are of.
+// Describes the compared frames and markers.
 std::string pairing_text(const CompareOutcome& outcome) {
   const MarkerComparison& comparison = *outcome.markers;
   std::string text = fmt::format("  {} and {} compared", counted(comparison.frames, "frame"),

@@ -21,7 +21,7 @@ using Point = Svg::Point;
 
 // Chosen by hand.
 constexpr double left = 64, right = 12, top = 28, bottom = 22, space = 10;  // pixels
-// What is drawn: frames, and where they are.
+// The drawn frames and their horizontal positions.
 struct Span {
   std::size_t first = 0, count = 0;
   double width = 0;
@@ -54,8 +54,8 @@ void widen(const std::vector<double>& curve, const Span& span, double& low, doub
   }
 }
 
-// A panel that holds the curves with some room; `least` is a range of values below which it does
-// not get.
+// Returns a panel that holds the curves with a margin; `least` is the smallest range of values that
+// it shows.
 Panel panel_of(const std::vector<const std::vector<double>*>& curves, const Span& span, double y,
                double height, double least) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -65,8 +65,8 @@ Panel panel_of(const std::vector<const std::vector<double>*>& curves, const Span
   return {y, height, low - room, high + room};
 }
 
-// Lines that break where samples are missing. Where several frames share a pixel, its least and
-// largest values stand for them.
+// Lines break at missing samples. Where several frames share a pixel, its least and largest values
+// represent them.
 std::vector<std::vector<Point>> lines_of(const std::vector<double>& curve, const Span& span,
                                          const Panel& panel) {
   const auto pixels = static_cast<std::size_t>(span.width);
@@ -94,14 +94,14 @@ std::vector<std::vector<Point>> lines_of(const std::vector<double>& curve, const
     }
     if (breaks && !lines.back().empty()) lines.emplace_back();
   }
-  // A sample alone between two gaps is a dot.
+  // A single sample between two gaps is drawn as a dot.
   for (std::vector<Point>& line : lines) {
     if (line.size() == 1) line.push_back({line[0].x + 0.1, line[0].y});
   }
   return lines;
 }
 
-// The distance of round numbers, about `count` of which lie within `range`.
+// Returns a round step, about `count` of which fit in `range`.
 double round_step(double range, double count) {
   const double step = range / count, power = portable::pow(10.0, std::floor(portable::log10(step)));
   for (const double digit : {1.0, 2.0, 5.0}) {
@@ -110,7 +110,7 @@ double round_step(double range, double count) {
   return 10 * power;
 }
 
-// Level lines at round values.
+// Draws level lines at round values.
 void draw_levels(Svg& svg, const Panel& panel, const Span& span) {
   const double step = round_step(panel.high - panel.low, 4);
   svg.open_group(fmt::format("font-size=\"11\" fill=\"{}\" text-anchor=\"end\"", inks::quiet));
@@ -122,7 +122,7 @@ void draw_levels(Svg& svg, const Panel& panel, const Span& span) {
   svg.close_group();
 }
 
-// Frame numbers below the panels.
+// Draws frame numbers below the panels.
 void draw_frames(Svg& svg, const TrackCurves& curves, const Span& span, double y) {
   if (span.count == 0) return;
   const auto number = [&](std::size_t frame) { return frame_number(frame, curves.first_frame); };
@@ -143,7 +143,7 @@ void draw_bands(Svg& svg, const TrackCurves& curves, std::span<const ReportFindi
     const bool is_other = !finding.quantity.empty() && finding.quantity != curves.quantity;
     const bool is_here = !is_other && finding.track == curves.name &&
                          finding.last_frame >= span.first && finding.first_frame < last;
-    // What is smoothed all along would cover everything.
+    // Continuous smoothing would cover the whole drawing.
     if (!is_here || finding.kind == "noise") continue;
     const double from =
         span.x(static_cast<double>(std::max(finding.first_frame, span.first)) - 0.5);
@@ -191,7 +191,7 @@ std::string curves_svg(const TrackCurves& curves, std::span<const ReportFinding>
     svg.rectangle(left, y, style.width - left - right, style.panel_height, "fill=\"#f8f9fa\"");
   }
   draw_bands(svg, curves, findings, span, last_y);
-  // Curves that hardly move are not blown up to fill their panel. File units, or degrees. Chosen by
+  // Nearly constant curves are not magnified to fill their panel. File units, or degrees. Chosen by
   // hand.
   constexpr double least_range = 1e-6;
   for (std::size_t p = 0; p < panels; ++p) {

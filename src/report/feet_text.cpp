@@ -1,4 +1,4 @@
-// Says in text what `clean` did to the feet.
+// Writes the changes that `clean` made to the feet as text.
 #include <fmt/format.h>
 
 #include "kinemend/experimental/frame_numbers.hpp"
@@ -17,7 +17,7 @@ std::string contact_text(const FeetReport& report, const FootContact& contact,
                      frame_number(contact.last_frame, first_frame));
 }
 
-// Contacts that stand still already are no news.
+// Contacts that were already still are not listed.
 std::string left_alone_text(const FeetReport& report, std::int64_t first_frame, bool all_rows) {
   // Chosen by hand.
   constexpr std::size_t short_list = 8;
@@ -47,7 +47,7 @@ std::string feet_text(const FeetReport& report, std::int64_t first_frame, bool a
   const double scale = in_cm ? 100 * report.metres_per_unit : 1;
   const std::string unit = in_cm ? "cm" : "units";
   const FeetFigures &a = report.before, &b = report.after;
-  // What is left of a held slide is rounding.
+  // A held slide leaves rounding errors, which are shown as 0.
   const auto length = [&](double units) {
     // In the unit that is shown. Chosen by hand.
     constexpr double least = 1e-5;

@@ -1,4 +1,4 @@
-// The tables of all figures, with their units and how to get them.
+// The tables of all figures, with their units and the functions that read them.
 #include "report/figures.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 using Value = std::optional<double>;
 
-// None where no foot was found to stand.
+// Returns none if no foot has contact.
 Value slide_of(const FootSlide& slide) {
   return slide.contact_steps > 0 ? Value(slide.per_frame) : std::nullopt;
 }

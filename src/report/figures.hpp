@@ -11,18 +11,19 @@
 
 namespace kinemend {
 
-/// "rotation" or "position".
+/// Returns "rotation" or "position".
 std::string_view quantity_of(const TakeFacts& take, const GapOutcome& gap);
-/// Of the expected error; empty where it is not known.
+/// Returns the unit of the expected error; empty if the error is unknown.
 std::string unit_of(const TakeFacts& take, const GapOutcome& gap);
 
 struct CheckFigure {
   FigureRule rule;
-  std::array<FindingKind, 2> kinds;  ///< findings that the figure sums up; one may stand twice
+  std::array<FindingKind, 2> kinds;  ///< findings that the figure sums up; one may appear twice
   std::optional<double> (*get)(const CheckFigures& figures);
 };
 std::span<const CheckFigure> check_figure_table();
-/// Of a figure whose rule names no unit and that is no count, that of the tracks.
+/// Returns the rule's unit, or that of the tracks if the rule names none and the figure is not a
+/// count.
 std::string unit_of(const CheckFigure& figure, const CheckReport& report);
 
 template <class Figures>
@@ -33,7 +34,7 @@ struct FigureOf {
 using ComparisonFigure = FigureOf<Comparison>;
 std::span<const ComparisonFigure> comparison_figure_table();
 
-/// Of a rule that names no unit, that of the markers; "/s" is that unit a second.
+/// If the rule names no unit, the unit is that of the markers; "/s" is that unit per second.
 using MarkerComparisonFigure = FigureOf<MarkerComparison>;
 std::span<const MarkerComparisonFigure> marker_comparison_figure_table();
 std::string unit_of(const FigureRule& rule, const TakeFacts& take);

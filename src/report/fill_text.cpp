@@ -1,4 +1,4 @@
-// Says in text what `fill` did.
+// Writes the result of `fill` as text.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ std::string expected_text(const TakeFacts& take, const GapOutcome& gap) {
   return measure_text(gap.expected_error, unit_of(take, gap));
 }
 
-// Rows of the short report. Chosen by hand.
+// The number of rows in the short report. Chosen by hand.
 constexpr std::size_t most_filled = 10, most_refused = 8;
 
 std::vector<std::string> gap_cells(const TakeFacts& take, const GapOutcome& outcome) {
@@ -36,7 +36,7 @@ std::vector<std::string> gap_cells(const TakeFacts& take, const GapOutcome& outc
           grouped(gap.length()), fmt::format("{:.3f}", seconds_of(take, gap))};
 }
 
-// "3 by pca, 1 by pchip".
+// Returns the methods with their counts: "3 by pca, 1 by pchip".
 std::string methods_text(const FillReport& report) {
   std::map<std::string, std::size_t> counts;
   for (const GapOutcome& outcome : report.gaps) counts[outcome.method] += outcome.filled ? 1 : 0;
@@ -47,7 +47,7 @@ std::string methods_text(const FillReport& report) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-// The longest of those that were filled, or all, in the order of the report.
+// Lists the longest filled gaps, or all, in the order of the report.
 std::string filled_table(const TakeFacts& take, const FillReport& report, bool all) {
   std::vector<const GapOutcome*> filled;
   for (const GapOutcome& outcome : report.gaps) {

@@ -24,7 +24,7 @@ using Point = Svg::Point;
 // Chosen by hand.
 constexpr double strip_width = 960, height = 240, ground = 206, tallest = 176;  // pixels
 
-/// The plane that is drawn, and how large.
+/// The plane that is drawn, and its scale.
 struct View {
   std::size_t across = 0, up = 1;
   double floor = 0, scale = 1;
@@ -51,7 +51,7 @@ View view_of(const Poses& poses, std::size_t up, double slot) {
   return view;
 }
 
-// `middle`: of the pose, across.
+// `middle`: horizontal middle of the pose.
 Point drawn(Vec3 p, const View& view, double middle, double x) {
   return {x + view.scale * (component(p, view.across) - middle),
           ground - view.scale * (component(p, view.up) - view.floor)};

@@ -11,7 +11,7 @@ namespace kinemend {
 
 namespace {
 
-// What was wrong where something was done.
+// Returns the kind of fault that an action repaired.
 FindingKind kind_of(Action action) {
   switch (action) {
     case Action::despiked:
@@ -28,7 +28,7 @@ FindingKind kind_of(Action action) {
   return FindingKind::noise;
 }
 
-// A finding in some span of frames.
+// Returns a finding in a span of frames.
 ReportFinding finding_of(FindingKind kind, std::string_view verdict, std::string track,
                          std::size_t first_frame, std::size_t last_frame) {
   ReportFinding finding;
@@ -52,7 +52,7 @@ ReportFinding finding_of(const TakeFacts& take, const GapOutcome& outcome) {
 }
 
 ReportFinding finding_of(const TakeFacts& take, const ReportSpan& span) {
-  // The root position is that of joint 0.
+  // The root position belongs to joint 0.
   const bool is_root = span.joint < 0;
   const bool is_rotation = take.kind == TakeKind::joints && !is_root;
   ReportFinding finding =
@@ -66,8 +66,8 @@ ReportFinding finding_of(const TakeFacts& take, const ReportSpan& span) {
   return finding;
 }
 
-// A track is noisy as a whole, as in `check`: what was smoothed of it is one span, from the first
-// such frame to the last, however many repairs lie between.
+// Noise affects a whole track, as in `check`: the smoothed frames are one span, from the first to
+// the last, regardless of repairs between them.
 std::vector<ReportSpan> with_noise_merged(const std::vector<ReportSpan>& spans) {
   struct Noise {
     std::size_t place = 0;
@@ -104,7 +104,7 @@ std::vector<ReportFinding> findings_of(const TakeFacts& take, const CleanOutcome
                    take.tracks[swap.first_marker] + ", " + take.tracks[swap.second_marker],
                    swap.first_frame, swap.last_frame));
   }
-  // A gap that was filled is a span of samples that changed as well: one finding.
+  // A filled gap is also a span of changed samples; both are one finding.
   using Key = std::tuple<std::string, std::string, std::size_t, std::size_t>;
   std::map<Key, std::size_t> filled;
   for (const GapOutcome& gap : report.fill.gaps) {

@@ -1,4 +1,4 @@
-// Draws when each track of a take is missing.
+// Draws the missing spans of each track of a take.
 #include <fmt/format.h>
 
 #include <algorithm>

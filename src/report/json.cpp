@@ -50,7 +50,7 @@ Json json_of(const ReportFinding& finding, std::int64_t first_frame) {
                {"amount", number(finding.amount)},
                {"unit", text_or_null(finding.unit)},
                {"reason", text_or_null(finding.reason)}};
-  // What only some commands know.
+  // Only some commands have these values.
   if (finding.rms) json["rms"] = *finding.rms;
   if (!finding.quantity.empty()) json["quantity"] = finding.quantity;
   if (!finding.method.empty()) json["method"] = finding.method;
@@ -103,7 +103,7 @@ Json contacts_json(const FeetReport& report, std::int64_t first_frame) {
 }
 
 Json feet_json(const FeetReport& report, std::int64_t first_frame, bool with_contacts) {
-  // Feet that never stand neither slide nor sink.
+  // Without a contact, slide and sink are undefined.
   const bool has_contact = !report.contacts.empty();
   Json json = {{"metres_per_unit", positive_or_null(report.metres_per_unit)},
                {"held", contacts_held(report)},
@@ -136,7 +136,7 @@ Json leftovers_json(const std::vector<Leftover>& leftovers) {
 }
 
 Json noise_json(const std::vector<NoiseCharacter>& characters, double frame_rate_hz) {
-  // Quantiles of the figures, by definition.
+  // The quantiles of the figures. By definition.
   constexpr double half = 0.5, nearly_all = 0.9;
   Json list = Json::array();
   for (const NoiseCharacter& noise : characters) {
@@ -182,7 +182,7 @@ Json robot_json(const RobotFindings& robot, std::int64_t first_frame) {
   return {{"contacts", std::move(contacts)}};
 }
 
-// What only one command has, between the verdict and the figures.
+// Adds the entries of a single command, between the verdict and the figures.
 void add_own(const TakeFacts& take, const CleanOutcome& outcome, Depth depth, Json& json) {
   json["method"] = outcome.report.method;
   add_source(outcome.report.source, json);
@@ -222,7 +222,8 @@ const std::vector<std::string>* warnings_of(const Report& report) {
   return nullptr;
 }
 
-// The frames at the start that are no motion; none where the command does not look for them.
+// Returns the number of calibration frames at the start; none if the command does not look for
+// them.
 std::optional<std::size_t> calibration_frames(const Report& report) {
   if (const auto* clean = std::get_if<CleanOutcome>(&report.result))
     return clean->report.calibration_frames;
@@ -232,12 +233,12 @@ std::optional<std::size_t> calibration_frames(const Report& report) {
 }
 
 double metres_per_unit_of(const Report& report) {
-  // Where the file does not say, the check has found what makes the body a person.
+  // If the file states no unit, the check has found the one in which the body is of human size.
   const auto* check = std::get_if<CheckReport>(&report.result);
   return check != nullptr ? check->metres_per_unit : report.take.metres_per_unit;
 }
 
-// Puts a text of several lines a few blanks to the right. No string of JSON holds a line's end.
+// Indents every line of a text. A string in JSON contains no line break.
 void append_indented(std::string_view text, std::size_t blanks, std::string& result) {
   result.append(blanks, ' ');
   for (const char c : text) {
@@ -304,7 +305,7 @@ std::string report_document(std::string_view command, std::span<const std::strin
                                       {"command", command},
                                       {"takes", Json::array()}});
   if (takes.empty()) return document + "\n";
-  // The entries are texts already: a report of long takes is long.
+  // The entries are already text, and long for long takes: they are inserted without parsing.
   document.resize(document.rfind("[]"));
   document += "[\n";
   for (std::size_t i = 0; i < takes.size(); ++i) {

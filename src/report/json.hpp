@@ -1,4 +1,4 @@
-// JSON of reports, for the files of this room only.
+// JSON of reports, used only inside this folder.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,10 +11,10 @@ namespace kinemend {
 
 using Json = nlohmann::ordered_json;
 
-/// On one line for an `indent` of -1; bytes that are no UTF-8 are replaced.
+/// Returns the JSON as text, on one line for an `indent` of -1. Invalid UTF-8 is replaced.
 std::string text_of(const Json& json, int indent = 2);
 
-/// How much of a report is told: without lists, without what `clean` did to every span, all.
+/// The amount of detail of a report: without lists, without the changed spans of `clean`, or all.
 enum class Depth { row, summary, all };
 Json take_json(const Report& report, Depth depth);
 Json failure_entry(std::string_view input, std::string_view error, int exit_code);

@@ -16,7 +16,7 @@ const FigureLimit* limit_of(std::string_view figure, std::span<const FigureLimit
   return found == limits.end() ? nullptr : &*found;
 }
 
-// What a limit is called on the command line: "--max-gap-s".
+// Returns a limit's option on the command line: "--max-gap-s".
 std::string option_of(const FigureRule& rule) {
   std::string name(rule.limit);
   std::replace(name.begin(), name.end(), '_', '-');
@@ -45,7 +45,7 @@ std::vector<std::string> passed(const TakeFacts& take, const CheckReport& report
   return lines;
 }
 
-// Why a figure of a comparison is not known.
+// Returns why a figure of a comparison is unknown.
 std::string_view unknown_for(const FigureRule& rule, const CompareOutcome& outcome) {
   if (outcome.markers) return "the take is too short, or its rate too low";
   return rule.name.starts_with("foot_slide") ? "no foot has ground contact"

@@ -21,7 +21,7 @@ namespace {
 constexpr double picture_width = 960, between = 20;                                // pixels
 constexpr double tallest_body = 300, shortest_body = 120, above = 34, below = 26;  // pixels
 constexpr double shown_hz = 30;
-// A minute of motion is about 2 MB of text.
+// A minute of motion takes about 2 MB of text.
 constexpr std::size_t most_moments = 1800;
 
 struct Camera {
@@ -30,7 +30,7 @@ struct Camera {
   double scale = 1, height = shortest_body;
 };
 
-// A camera that stands still, so that a foot that slides is seen to slide.
+// Returns a fixed camera, so that a sliding foot is seen to slide.
 Camera camera_of(const Poses& poses, std::size_t up, double width) {
   Camera camera;
   camera.up = up;
@@ -58,7 +58,7 @@ struct MotionPanel {
   double left = 0, width = 0;
 };
 
-// Coordinates are whole tenths of a pixel, which keeps the text short.
+// Writes coordinates in whole tenths of a pixel, which keeps the text short.
 void append_point(std::string& text, char step, const Vec3& p, const Camera& camera,
                   const MotionPanel& panel) {
   const double x = panel.left + panel.width / 2 +
@@ -83,7 +83,7 @@ std::string pose_path(const Poses& poses, const std::vector<std::optional<Vec3>>
       text += "h0";
     }
   }
-  // An empty path is no value of an animation.
+  // An animation does not accept an empty path.
   return text.empty() ? "M0 0" : text;
 }
 
@@ -91,7 +91,7 @@ void draw_panel(Svg& svg, const Poses& poses, const Camera& camera, const Motion
                 double seconds, std::string_view ink, std::string_view name) {
   const double floor = above + camera.height + 3;
   svg.line({panel.left, floor}, {panel.left + panel.width, floor}, "stroke=\"#ced4da\"");
-  // Marks on the floor, a fifth of a body's height apart, show whether a foot stands.
+  // Marks on the floor, a fifth of the body's height apart, make foot slide visible.
   const double step = std::max(camera.heights.size() * camera.scale / 5, 8.0);
   for (double x = panel.left + step / 2; x < panel.left + panel.width; x += step)
     svg.line({x, floor}, {x, floor + 6}, "stroke=\"#ced4da\"");

@@ -9,7 +9,7 @@ namespace kinemend {
 
 namespace {
 
-// The correlation from which noise is called slow, and the share of it whose frequencies are said.
+// Noise is called slow from this correlation on; the frequencies are given for this share of it.
 // Chosen by hand, not swept.
 constexpr double slow_correlation = 0.7, shown_share = 0.9;
 

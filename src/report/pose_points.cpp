@@ -1,4 +1,4 @@
-// Points and bones of poses, as drawings of bodies need them.
+// Computes points and bones of poses for drawings of bodies.
 #include "report/pose_points.hpp"
 
 #include "kinemend/experimental/kinematics.hpp"

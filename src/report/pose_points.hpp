@@ -1,4 +1,4 @@
-// Points and bones of poses, as drawings of bodies need them.
+// Points and bones of poses, for drawings of bodies.
 #pragma once
 
 #include <algorithm>
@@ -12,17 +12,16 @@
 
 namespace kinemend {
 
-/// Points of a pose, none for one that is missing, and which of them are joined.
+/// Points of poses (none for a missing one), and the pairs that bones join.
 struct Poses {
   std::vector<std::vector<std::optional<Vec3>>> moments;
   std::vector<std::pair<std::size_t, std::size_t>> bones;
 };
 
-/// The joints with their end sites, or the markers, at these frames, in the take's unit.
+/// Returns the joints with their end sites, or the markers, at these frames, in the take's unit.
 Poses poses_of(const Take& clip, const std::vector<std::size_t>& frames);
 
-/// The lowest and the highest of the numbers that were added; without numbers, `low` is above
-/// `high`.
+/// The range of the added numbers; without numbers `low` is above `high`.
 struct Range {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
@@ -34,7 +33,7 @@ struct Range {
   double middle() const { return low <= high ? (low + high) / 2 : 0; }
 };
 
-/// How far the points of a pose reach along an axis, 0 to 2; missing points are left out.
+/// Returns the extent of a pose's points along an axis, 0 to 2; missing points are left out.
 Range range_of(const std::vector<std::optional<Vec3>>& points, std::size_t axis);
 
 }  // namespace kinemend

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t longest_window = 1024, shortest_window = 8;
 
-// Cooley and Tukey; the length is a power of two.
+// The transform of Cooley and Tukey; the length is a power of two.
 void transform(std::vector<std::complex<double>>& values) {
   const std::size_t size = values.size();
   if (size < 2) return;
@@ -39,7 +39,7 @@ void transform(std::vector<std::complex<double>>& values) {
   }
 }
 
-// Adds the power of a window; false where a sample is missing.
+// Adds the power of a window; returns false if a sample is missing.
 bool add_window(const std::vector<double>& axis, std::size_t start, double rate_hz,
                 std::size_t size, std::vector<double>& density) {
   const auto first = axis.begin() + static_cast<std::ptrdiff_t>(start);
@@ -98,7 +98,7 @@ Axes axes_of(const TrackSpectrum& spectrum, bool one_take) {
     }
   }
   if (low > high) low = high = 0;
-  // Nothing below a millionth of a millionth is motion.
+  // Power below 1e-12 of the largest is not motion.
   axes.high = std::ceil(high + 0.1);
   axes.low = std::floor(std::max(low, high - 12) - 0.1);
   if (!spectrum.hertz.empty()) axes.most_hz = spectrum.hertz.back();

@@ -13,7 +13,7 @@ namespace {
 
 long in_tenths(double value) { return std::lround(10 * value); }
 
-// How many bytes a character of UTF-8 that begins here has; 0 where none does.
+// Returns the bytes of the UTF-8 character that begins here; 0 if there is none.
 std::size_t character_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
@@ -26,7 +26,7 @@ std::size_t character_length(std::string_view text) {
   for (std::size_t i = 1; i < length; ++i) {
     if ((byte(i) & 0xC0) != 0x80) return 0;
   }
-  // Forms that are too long, halves of surrogate pairs, and what lies beyond the last character.
+  // Rejects overlong forms, surrogate halves, and code points beyond the last one.
   const bool is_odd = (first == 0xE0 && byte(1) < 0xA0) || (first == 0xED && byte(1) >= 0xA0) ||
                       (first == 0xF0 && byte(1) < 0x90) || (first == 0xF4 && byte(1) >= 0x90);
   return is_odd ? 0 : length;
@@ -96,7 +96,7 @@ void Svg::path(const std::vector<std::vector<Point>>& lines, std::string_view at
 
 std::string Svg::finish() && { return std::move(text_) + "</svg>\n"; }
 
-// As short as it gets: no zero before the point, none after it.
+// Writes the shortest form: no zero before the point, none after it.
 void Svg::append_number(long tenths) {
   if (tenths < 0) text_ += '-';
   const long size = std::labs(tenths);

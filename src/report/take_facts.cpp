@@ -1,4 +1,4 @@
-// Gathers the facts of a take for its report, and words for what its reader repaired.
+// Gathers the facts of a take for its report, and describes the repairs of its reader.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The text of each command's result, and the words that these share.
+// The text of each command's result, and the words shared by them.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +9,17 @@
 
 namespace kinemend {
 
-/// "joint" or "marker".
+/// Returns "joint" or "marker".
 const char* noun_of(TakeKind kind);
-/// The take's name for people, fit to print.
+/// Returns the take's name, fit to print.
 std::string shown_name(const TakeFacts& take);
-/// "1.5 deg per axis, slow, 90 % below 6.1 Hz; 30 Hz samples joined by lines". `unit`: of the
-/// tracks.
+/// Returns for example "1.5 deg per axis, slow, 90 % below 6.1 Hz; 30 Hz samples joined by lines".
+/// `unit`: of the tracks.
 std::string noise_words(const NoiseCharacter& noise, TakeKind kind, std::string_view unit,
                         double frame_rate_hz);
-/// "video (given)"; "not known".
+/// Returns for example "video (given)" or "not known".
 std::string source_words(const TakeSource& source);
-/// "; written to walk.clean.bvh"; nothing for standard output.
+/// Returns for example "; written to walk.clean.bvh"; empty for standard output.
 std::string written_text(const TakeFacts& take);
 
 std::string clean_verdict(const TakeFacts& take, const CleanOutcome& outcome);
@@ -29,17 +29,17 @@ std::string clean_text(const TakeFacts& take, const CleanOutcome& outcome,
 std::string check_verdict(const CheckReport& report);
 std::string check_text(const TakeFacts& take, const CheckReport& report,
                        const TextOptions& options);
-/// "frames 12-14: LTOE is missing (0.1 s)".
+/// Returns for example "frames 12-14: LTOE is missing (0.1 s)".
 std::string finding_sentence(const Finding& finding, const TakeFacts& take,
                              const CheckReport& report);
-/// A figure of `check` with its unit; a whole number without decimals.
+/// Returns a figure of `check` with its unit; a whole number has no decimals.
 std::string with_unit(double value, std::string_view unit);
 
 std::string fill_verdict(const FillOutcome& outcome);
 std::string fill_text(const TakeFacts& take, const FillOutcome& outcome,
                       const TextOptions& options);
 
-/// What `clean` says of feet. Frames count from `first_frame`.
+/// Returns the text of `clean` about feet. Frames count from `first_frame`.
 std::string feet_text(const FeetReport& report, std::int64_t first_frame, bool all);
 
 std::string comparison_text(const TakeFacts& take, const CompareOutcome& outcome,

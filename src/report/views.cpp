@@ -1,4 +1,4 @@
-// Answers the same questions about the result of any command: figures, tracks, verdict, text.
+// Gives figures, tracks, verdict and text for the result of any command.
 #include <fmt/format.h>
 
 #include <limits>
@@ -33,7 +33,7 @@ std::vector<ReportFigure> figures(const TakeFacts& take, const CleanOutcome& out
           count_figure("bursts", "bursts among them", count_bursts(report)),
           count_figure("gaps", "gaps filled", count_spans(report, Action::filled)),
           count_figure("gaps_refused", "gaps refused", report.fill.refused()),
-          // Files of joints mostly cannot tell a missing sample.
+          // Most files of joints cannot mark a sample as missing.
           {"gaps_left", "gaps left",
            is_joints ? std::nullopt : std::optional<double>(gaps_left(report)), true, ""},
           count_figure("swaps_undone", "swaps undone", outcome.swaps.size()),
@@ -80,7 +80,7 @@ std::vector<ReportFigure> figures(const TakeFacts& /*take*/, const FeetReport& r
           count_figure("held", "held", contacts_held(report))};
 }
 
-// A column of one member of every row.
+// Returns a column of one member of every row.
 template <class Row, class Member>
 ReportColumn column(std::string name, std::string label, const std::vector<Row>& rows,
                     Member Row::*member) {

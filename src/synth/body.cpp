@@ -1,5 +1,5 @@
-// Builds the humanoid from shares of its height, and bends its limbs to where wrists and ankles
-// belong.
+// Builds the humanoid from shares of its height, and bends its limbs to the places of wrists and
+// ankles.
 #include "synth/body.hpp"
 
 #include <algorithm>
@@ -16,12 +16,12 @@ constexpr std::size_t leg_joints = 4, arm_joints = 8;
 
 Quat mirrored(Quat q) { return {q.w, q.x, -q.y, -q.z}; }
 Vec3 mirrored(Vec3 v) { return {-v.x, v.y, v.z}; }
-// A share of body height in whole tenths of a millimetre.
+// Returns a share of body height, rounded to tenths of a millimetre.
 double share(double part, double height) { return std::round(100 * part * height) / 100; }
 
 Vec3 direction(Vec3 v) { return (1 / norm(v)) * v; }
 
-// The rotation that takes the axes x, y, z to these three (orthonormal, right-handed).
+// Returns the rotation that takes the axes x, y, z to these three (orthonormal, right-handed).
 Quat from_axes(Vec3 x, Vec3 y, Vec3 z) {
   const double trace = x.x + y.y + z.z;
   if (trace > 0) {
@@ -40,7 +40,7 @@ Quat from_axes(Vec3 x, Vec3 y, Vec3 z) {
   return normalized({(x.y - y.x) / s, (z.x + x.z) / s, (z.y + y.z) / s, s / 4});
 }
 
-// Two bones from the origin to `target`, the middle joint turned towards `pole`.
+// Two bones from the origin to `target`, with the middle joint turned towards `pole`.
 struct TwoBones {
   Vec3 first, second;  // directions
   Vec3 hinge;          // turning about it by `bend` takes the first direction to the second
@@ -103,7 +103,7 @@ Quat arm_rotation(const ArmAngles& a) {
   return about_x(-a.flexion) * about_z(a.abduction - 90) * about_x(a.rotation);
 }
 
-// The eight rotations of a left arm; `target` is in the frame of the upper spine joint.
+// Returns the eight rotations of a left arm; `target` is in the frame of the upper spine joint.
 std::array<Quat, arm_joints> left_arm_rotations(const Body& body, const ArmAngles& a,
                                                 const std::optional<ArmReach>& target) {
   std::array<Quat, arm_joints> q;
@@ -150,7 +150,7 @@ Quat bend(double flexion, double lateral, double twist, double share) {
 
 }  // namespace
 
-// Segment lengths as shares of body height: Drillis and Contini (1966), as given by Winter,
+// Segment lengths as shares of body height follow Drillis and Contini (1966), as given by Winter,
 // Biomechanics and Motor Control of Human Movement, figure 4.1; the split of trunk and hand into
 // joints follows common BVH skeletons.
 Body::Body(double height_cm)

@@ -53,14 +53,14 @@ struct Body {
   double straight_height() const { return ankle_height + leg() + hip_below_root; }
 };
 
-/// A whole pose, as a clip holds it.
+/// A whole pose in the form that a clip stores.
 struct BodyPose {
   Vec3 root;
   std::array<Quat, joint_total> rotations;
 };
 
-/// Degrees, of a left limb; a right limb is its mirror image. All zero but abduction: hanging
-/// straight, palm inwards.
+/// Degrees of a left limb; a right limb is its mirror image. With all zero except abduction the arm
+/// hangs straight, palm inwards.
 struct ArmAngles {
   double flexion = 0, abduction = 7,
          rotation = 0;  ///< of the shoulder; rotation inwards is positive
@@ -71,7 +71,7 @@ struct ArmAngles {
 };
 ArmAngles mix(const ArmAngles& a, const ArmAngles& b, double t);
 
-/// Puts a wrist at a place instead: in the frame of the upper spine joint, of a left arm.
+/// Puts the wrist of a left arm at a place, in the frame of the upper spine joint.
 struct ArmReach {
   Vec3 wrist;
   Vec3 elbow_towards;
@@ -86,7 +86,7 @@ struct FootPlace {
   double toe_deg = 0;    ///< extension of the toes
 };
 
-/// What the motions decide; `assemble` does the rest.
+/// The values that a motion decides; `assemble` derives the rest.
 struct Posture {
   Vec3 root;
   double heading_deg = 0;
@@ -105,11 +105,12 @@ Quat about_y(double degrees);
 Quat about_z(double degrees);
 
 Quat pelvis_rotation(const Posture& posture);
-/// Where a hip joint is (side 0 is the left).
+/// Returns the position of a hip joint (side 0 is the left).
 Vec3 hip_position(const Body& body, const Posture& posture, std::size_t side);
-/// Joint rotations with the wrists and ankles where the posture wants them, as far as limbs reach.
+/// Returns joint rotations that put wrists and ankles where the posture wants them, within reach.
 BodyPose assemble(const Body& body, const Posture& posture);
-/// Distance from hip to ankle over the length of the leg; past 1 the foot is out of reach.
+/// Returns the distance from hip to ankle relative to the length of the leg; above 1 the foot is
+/// out of reach.
 double leg_stretch(const Body& body, const Posture& posture, std::size_t side);
 
 }  // namespace kinemend::synth

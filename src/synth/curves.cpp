@@ -30,7 +30,7 @@ Row second_derivative_basis(double phase) {
   return row;
 }
 
-// Gaussian elimination with row exchanges, for a matrix that is symmetric and positive definite.
+// Solves by Gaussian elimination with row exchanges; the matrix is symmetric and positive definite.
 Row solve(std::array<Row, 5> matrix, Row right) {
   for (std::size_t i = 0; i < 5; ++i) {
     std::size_t best = i;
@@ -66,7 +66,7 @@ double ramp(double value, double from, double to) {
 double smooth_hinge(double x, double width) {
   if (x <= -width) return 0;
   if (x >= width) return x;
-  // The integral of smoothstep over [-width, x].
+  // This is the integral of smoothstep over [-width, x].
   const double u = (x + width) / (2 * width);
   return 2 * width * u * u * u * u * (2.5 + u * (-3 + u));
 }

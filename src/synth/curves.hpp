@@ -9,15 +9,15 @@
 
 namespace kinemend::synth {
 
-/// 0 below 0, 1 above 1, with two continuous derivatives: 6u^5 - 15u^4 + 10u^3.
+/// Returns 0 below 0 and 1 above 1, with two continuous derivatives: 6u^5 - 15u^4 + 10u^3.
 double smoothstep(double u);
-/// smoothstep over [from, to]; falls when to < from.
+/// Returns smoothstep over [from, to]; it falls if to < from.
 double ramp(double value, double from, double to);
-/// 0 below -width, x above width, with two continuous derivatives between.
+/// Returns 0 below -width and x above width, with two continuous derivatives between.
 double smooth_hinge(double x, double width);
 
-/// A periodic function through equally spaced samples of one cycle: the trigonometric
-/// interpolation, so that it has all derivatives.
+/// A periodic function through equally spaced samples of one cycle: their trigonometric
+/// interpolation, which has all derivatives.
 class PeriodicCurve {
  public:
   explicit PeriodicCurve(std::span<const double> samples);
@@ -29,13 +29,13 @@ class PeriodicCurve {
   std::vector<double> cosines_, sines_;
 };
 
-/// a0 + a1 cos(4 pi p) + b1 sin(4 pi p) + a2 cos(8 pi p) + b2 sin(8 pi p): a curve of a whole body
-/// whose two steps are alike, with p the phase of the stride.
+/// a0 + a1 cos(4 pi p) + b1 sin(4 pi p) + a2 cos(8 pi p) + b2 sin(8 pi p): a curve of the whole
+/// body, where p is the phase of the stride. Both steps of the stride are alike.
 struct StepCurve {
   std::array<double, 5> coefficients{};
 
   double operator()(double phase) const;
-  /// The integral from 0 without the mean's share, which grows.
+  /// Returns the integral from 0 without the mean, whose share grows.
   double periodic_integral(double phase) const;
   double mean() const { return coefficients[0]; }
 };
@@ -46,7 +46,7 @@ struct StepEquation {
   double phase = 0, value = 0, weight = 1;
   bool second_derivative = false;
 };
-/// `ridge` draws the four oscillating coefficients towards 0, as that many equations of weight 1
+/// `ridge` pulls the four oscillating coefficients towards 0, as that many equations of weight 1
 /// would.
 StepCurve fit_step_curve(std::span<const StepEquation> equations, double ridge = 0);
 
@@ -55,8 +55,8 @@ struct Key {
   double time = 0, value = 0, slope = 0, curvature = 0;
 };
 
-/// Quintic pieces between keys, two continuous derivatives; constant before the first and after the
-/// last key.
+/// Quintic pieces between keys with two continuous derivatives; constant before the first and after
+/// the last key.
 class KeyCurve {
  public:
   explicit KeyCurve(std::vector<Key> keys);
@@ -66,7 +66,7 @@ class KeyCurve {
   std::vector<Key> keys_;
 };
 
-/// The quintic through both keys at `time`.
+/// Returns the quintic through both keys at `time`.
 double quintic(const Key& from, const Key& to, double time);
 
 /// A slow, bounded wandering: a sum of sinusoids of random frequency and phase.

@@ -11,7 +11,7 @@ namespace kinemend::synth {
 
 namespace {
 
-// Standard gravity by definition; toes point out by a usual angle, chosen by hand.
+// Standard gravity, by definition. The toes point out by a usual angle, chosen by hand.
 constexpr double gravity_cm_s2 = 981;
 constexpr double toe_out_deg = 6;
 
@@ -25,7 +25,7 @@ Vec3 ball_offset(const Body& b) {
 }
 Vec3 heel_offset(const Body& b) { return {0, -b.ankle_height, -b.heel_behind_ankle}; }
 
-// How far the distance can run from 0: strides of 3 m are more than any gait here takes.
+// Bounds the distance from 0: strides of 3 m are longer than those of any gait here.
 double furthest(double strides) { return 300 * (strides + 4); }
 
 }  // namespace
@@ -60,7 +60,7 @@ Gait::Gait(const Body& body, const GaitData& data, std::function<double(double)>
   lay_footprints(random);
 }
 
-// Where the heel gives way to the ball as the place that stays.
+// Returns the phase at which the fixed place changes from the heel to the ball.
 double Gait::mid_stance() const { return 0.5 * (data_.flat_from + data_.flat_to); }
 
 double Gait::strides(double time_s) const {
@@ -71,7 +71,7 @@ double Gait::stride_number(std::size_t index) const {
   return static_cast<double>(first_stride_ + static_cast<std::int64_t>(index));
 }
 
-// The pitch of the foot that the joint angles give, made flat while the sole is on the ground.
+// Returns the pitch of the foot from the joint angles, made flat while the sole is on the ground.
 double Gait::foot_pitch(double phase) const {
   const double p = fraction(phase);
   const double pitch = hip_(p) - data_.pelvis_tilt - knee_(p) + ankle_(p);
@@ -90,7 +90,7 @@ double Gait::distance(double strides) const {
   return pace_.mean() * strides + pace_.periodic_integral(strides);
 }
 
-// The outer leg needs more length in a turn.
+// Lowers the pelvis in a turn, because the outer leg has to reach farther.
 double Gait::crouch_in_turn(double distance) const {
   // Chosen by hand, not swept.
   constexpr double deepest_cm = 2.4, radius_cm = 90, half_span_cm = 10;
@@ -130,15 +130,15 @@ Vec3 Gait::standing_ankle(const Footprint& print, double phase) const {
   return print.ball + rotate(flat, heel - ball) - rotate(sole, heel);
 }
 
-// Height and pace of the pelvis for which the standing foot rests, as curves that two like steps
-// share; between contacts the body falls freely.
+// Fits height and pace of the pelvis so that the standing foot rests, as curves with two like
+// steps; between contacts the body falls freely.
 void Gait::fit_pelvis() {
-  // Samples of a step, and the share of a stride over which slopes are taken. Chosen by hand, not
-  // swept.
+  // The samples of a step, and the share of a stride over which slopes are taken. Chosen by hand,
+  // not swept.
   constexpr int samples = 240;
   constexpr double step = 1e-4;
   std::vector<StepEquation> height, pace;
-  // The place on the foot that rests, seen from the pelvis.
+  // The resting place on the foot, relative to the pelvis.
   const auto contact = [&](double phase, bool heel) {
     Posture still = pelvis_posture(phase);
     still.heading_deg = 0;
@@ -156,14 +156,14 @@ void Gait::fit_pelvis() {
     const Vec3 later = contact(phase + step, heel);
     height.push_back({phase, (heel ? 0 : body_.ball_height) - at.y, weight, false});
     pace.push_back({phase, (at.z - later.z) / step, weight, false});
-    // In the air, both legs off the ground.
+    // In the air both legs are off the ground.
     const double other = fraction(phase + 0.5);
     const double air = ramp(std::min(phase, other), data_.stance - 0.01, data_.stance + 0.03);
     const double k = 16 * pi * pi;
     height.push_back({phase, -gravity_cm_s2 * stride_s_ * stride_s_, 0.5 * air / (k * k), true});
   }
   height_ = fit_step_curve(height);
-  // A flying body keeps its speed, so that a runner's varies little.
+  // A flying body keeps its speed, so a runner's speed varies little.
   pace_ = fit_step_curve(pace, data_.stance < 0.5 ? samples : 0);
   ball_ahead_ = contact(mid_stance(), false).z;
 }
@@ -181,7 +181,7 @@ Gait::Footprint Gait::footprint(std::size_t side, double stride, Random random) 
 }
 
 Gait::Correction Gait::correction(double strides, std::size_t side, std::size_t index) const {
-  // Of a stride, over which slopes are taken. Chosen by hand, not swept.
+  // The share of a stride over which slopes are taken. Chosen by hand, not swept.
   constexpr double step = 2e-3;
   const double contact = side_offset(side) + stride_number(index);
   const auto value = [&](double at) {
@@ -192,10 +192,10 @@ Gait::Correction Gait::correction(double strides, std::size_t side, std::size_t 
   return {at, (0.5 / step) * (after - before), (1 / (step * step)) * (after - 2 * at + before)};
 }
 
-// Between the corrections at either end, with transients that take up slope and curvature near the
+// Blends the corrections at either end, with transients that absorb slope and curvature near the
 // ends.
 Vec3 Gait::swing_correction(const Swing& swing, double phase) const {
-  // Of a stride: the time in which what is left goes before a contact. Chosen by hand, not swept.
+  // The share of a stride in which the transient fades before a contact. Chosen by hand, not swept.
   constexpr double arriving = 0.10;
   const double leaving = 0.27 * data_.stance;
   const double u = ramp(phase, data_.stance, 1);
@@ -249,8 +249,8 @@ FootPlace Gait::foot(double strides, std::size_t side, const Posture& pelvis) co
   return place;
 }
 
-// A stretched leg cannot hold its foot: the pelvis is lowered until both always reach on a straight
-// path.
+// An overstretched leg cannot hold its foot, so the pelvis is lowered until both legs always reach
+// on a straight path.
 void Gait::lower_pelvis_into_reach() {
   Gait straight = *this;
   straight.path_ = Path([](double) { return 0.0; }, -furthest(2), furthest(8));

@@ -13,20 +13,20 @@
 
 namespace kinemend::synth {
 
-/// Walking or running along a path. The normative angles place the feet relative to the pelvis; the
-/// pelvis moves so that the standing foot stays where it is, and what is left (a centimetre or two)
-/// is taken up by the legs: in stance the foot turns about the heel, rests flat, then turns about
-/// the ball, each at a fixed place; in swing the correction runs from one stance to the next with
-/// two continuous derivatives.
+/// Walking or running along a path. The normative angles place the feet relative to the pelvis, and
+/// the pelvis moves so that the standing foot stays in place. The legs absorb the rest (a
+/// centimetre or two). In stance the foot turns about the heel, rests flat, then turns about the
+/// ball, each at a fixed place. In swing the correction runs from one stance to the next with two
+/// continuous derivatives.
 class Gait {
  public:
-  /// `heading_deg` is a function of the distance in cm; `duration_s` says how far the path must be
-  /// laid.
+  /// `heading_deg`: function of the distance in cm. `duration_s`: determines the length of the
+  /// path.
   Gait(const Body& body, const GaitData& data, std::function<double(double)> heading_deg,
        double duration_s, Random random);
 
   Posture posture(double time_s) const;
-  /// Strides since time 0, counted from a contact of the left foot.
+  /// Returns the strides since time 0, counted from a contact of the left foot.
   double strides(double time_s) const;
 
  private:
@@ -34,7 +34,7 @@ class Gait {
     Vec3 ball;  // the ball joint, foot flat
     double yaw_deg = 0;
   };
-  // What the normative ankle is moved by at one end of a swing, with its derivatives by strides.
+  // The displacement of the normative ankle at one end of a swing, with its derivatives by strides.
   struct Correction {
     Vec3 value, slope, curvature;
   };
@@ -42,7 +42,7 @@ class Gait {
     Correction from, to;
   };
   struct Side {
-    std::vector<Footprint> footprints;  // of strides first_stride_, first_stride_ + 1, ...
+    std::vector<Footprint> footprints;  // for strides first_stride_, first_stride_ + 1, ...
     std::vector<Swing> swings;
   };
 
@@ -68,7 +68,7 @@ class Gait {
   const GaitData& data_;
   PeriodicCurve hip_, knee_, ankle_;
   StepCurve height_, pace_;  // cm; cm a stride
-  double ball_ahead_ = 0;    // of the pelvis at mid stance
+  double ball_ahead_ = 0;    // ahead of the pelvis at mid stance
   double drop_ = 0;
   double stride_s_;
   double first_strides_;  // at time 0

@@ -6,22 +6,21 @@
 namespace kinemend::synth {
 
 /// Mean joint angles of a gait at every 5 % of the stride, from one contact of a foot to its next,
-/// and what goes with them. Degrees; flexion, dorsiflexion and forward lean are positive.
+/// and related measures. Degrees; flexion, dorsiflexion and forward lean are positive.
 struct GaitData {
   std::span<const double> hip, knee, ankle;
   double stride_s;            ///< time of one stride
-  double stance;              ///< share of the stride that a foot is on the ground
+  double stance;              ///< share of the stride in which a foot is on the ground
   double flat_from, flat_to;  ///< phases between which the whole sole is on the ground
-  double heel_off_done;       ///< phase by which the foot turns about its ball as the angles say
+  double heel_off_done;       ///< phase by which the foot turns about its ball as the angles give
   double pelvis_tilt, pelvis_tilt_swing;
   double pelvis_obliquity, pelvis_rotation;  ///< amplitudes
   double pelvis_sway_cm;
   double trunk_lean, trunk_rotation;  ///< mean lean; amplitude against the pelvis
   double shoulder_mean, shoulder_swing, elbow_mean, elbow_swing;
-  double longest_leg;  ///< share of its length that a leg is stretched to at most, so that the knee
-                       ///< keeps a bend
+  double longest_leg;  ///< largest stretch relative to its length, which keeps the knee bent
   double step_width_cm;
-  double clearance_cm;  ///< that the swinging foot is raised by
+  double clearance_cm;  ///< by which the swinging foot is raised
   double arm_abduction;
 };
 

@@ -63,13 +63,13 @@ class Jump {
   }
 
  private:
-  // Shares of the length of the leg, and degrees of the foot where it leaves the floor and meets
-  // it. Chosen by hand, not swept.
+  // Shares of the leg's length, and degrees of the foot at take-off and landing. Chosen by hand,
+  // not swept.
   static constexpr double dip = 0.55, lift = 0.86;  // deepest, leaves the floor
   static constexpr double lift_pitch = -52, touch_pitch = -24;
 
-  // The root's height with the ball of the foot on the floor and the leg stretched to a share of
-  // its length.
+  // Returns the root's height with the ball of the foot on the floor and the leg stretched to a
+  // share of its length.
   double root_height(double stretch, double pitch_deg) const {
     const double a = -pitch_deg * radians_per_degree;
     return body_.ball_height + (body_.ankle_height - body_.ball_height) * portable::cos(a) +
@@ -97,7 +97,7 @@ class Jump {
     const double down = jump_gravity_cm_s2 * flight_ - up;
     const double depth = 0.16 * body_.height;
     const double give = 0.14 * body_.height + 0.10 * drop_;
-    // Even braking would take twice the distance over the speed.
+    // Uniform braking takes twice the distance over the speed.
     const double braking = 2.1 * (reach_at_touch_ - rest + give) / down;
     return KeyCurve({{0, drop_ + rest, 0, 0},
                      {dip, drop_ + rest - depth, 0, 700},
@@ -146,7 +146,7 @@ Motion jump(const Body& body, Random random) {
 
 Motion landing(const Body& body, Random random) {
   const Motion standing = still(body, random.fork(1));
-  // Drawn one by one: the order in which arguments are evaluated is the compiler's.
+  // The numbers are drawn one by one, because the evaluation order of arguments is unspecified.
   const double forward_cm = random.uniform(50, 65), rise_cm = random.uniform(4, 7);
   const Jump down(body, rise_cm, 40, forward_cm);
   return [standing, down](double t) {

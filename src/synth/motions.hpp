@@ -12,14 +12,14 @@ namespace kinemend::synth {
 /// A motion in continuous time, seconds from 0.
 using Motion = std::function<Posture(double)>;
 
-/// The motions of the table `synth_motions()` but `spin`. The motion does not depend on
-/// `duration_s`, which only says how far it must be prepared. `body` must outlive the motion.
+/// Returns a motion of the table `synth_motions()`, except `spin`. It does not depend on
+/// `duration_s`, which only sets how far the motion is prepared. `body` must outlive the motion.
 Motion make_motion(std::string_view name, const Body& body, double duration_s,
                    const Random& random);
 
 Motion walk(const Body& body, double duration_s, Random random);
 Motion run(const Body& body, double duration_s, Random random);
-/// Walks in circles: the heading passes 360 degrees within about 5 s and goes on.
+/// Walks in circles: the heading passes 360 degrees within about 5 s and continues.
 Motion turn(const Body& body, double duration_s, Random random);
 /// Walks, turns about and waves on the way back.
 Motion stroll(const Body& body, double duration_s, Random random);
@@ -33,7 +33,7 @@ Motion jump(const Body& body, Random random);
 /// A jump down from a box of 40 cm, once.
 Motion landing(const Body& body, Random random);
 
-/// The right arm from hanging to waving and back, at `weight` 0..1.
+/// Returns the right arm from hanging to waving and back, at `weight` 0..1.
 ArmAngles waving_arm(const ArmAngles& hanging, double time_s, double weight);
 
 }  // namespace kinemend::synth

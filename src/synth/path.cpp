@@ -12,7 +12,7 @@ namespace kinemend::synth {
 
 namespace {
 
-// Along the path, of its table. Chosen by hand, not swept.
+// The step of the table along the path. Chosen by hand, not swept.
 constexpr double step_cm = 2;
 
 }  // namespace
@@ -21,7 +21,8 @@ Path::Path(std::function<double(double)> heading_deg, double first, double last)
     : heading_(std::move(heading_deg)), first_(step_cm * std::floor(first / step_cm)) {
   const auto count = static_cast<std::size_t>(std::ceil((last - first_) / step_cm)) + 2;
   points_.resize(count);
-  // Simpson's rule between the points, then shifted so that distance 0 is the origin.
+  // Simpson's rule sums between the points, which are then shifted so that distance 0 is the
+  // origin.
   for (std::size_t i = 1; i < count; ++i) {
     const double at = first_ + step_cm * static_cast<double>(i - 1);
     points_[i] = points_[i - 1] + (step_cm / 6) * (forward(at) + 4 * forward(at + step_cm / 2) +
@@ -52,7 +53,7 @@ Vec3 Path::position(double distance) const {
     const double end = from + step_cm;
     return points_.back() + (distance - end) * forward(end);
   }
-  // Cubic Hermite with the known tangents.
+  // Interpolates by a cubic Hermite curve with the known tangents.
   const double u = place - cell;
   const double h = u * u * (3 - 2 * u);
   return points_[i] + h * (points_[i + 1] - points_[i]) +

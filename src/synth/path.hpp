@@ -1,4 +1,4 @@
-// The path on the floor that a person walks along.
+// The path of a walking person on the floor.
 #pragma once
 
 #include <functional>
@@ -12,12 +12,12 @@ namespace kinemend::synth {
 /// as a function of the distance walked in cm.
 class Path {
  public:
-  /// Covers distances from `first` (at most 0) to `last`; outside it goes straight on.
+  /// Covers distances from `first` (at most 0) to `last`; beyond them the path is straight.
   Path(std::function<double(double)> heading_deg, double first, double last);
 
   double heading_deg(double distance) const { return heading_(distance); }
   Vec3 position(double distance) const;
-  /// Unit vector to the left of the heading.
+  /// Returns the unit vector to the left of the heading.
   Vec3 left(double distance) const;
 
  private:

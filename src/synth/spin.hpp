@@ -7,9 +7,8 @@
 
 namespace kinemend::synth {
 
-/// A chain of five joints whose first Euler angle (yaw) goes round and round while the second
-/// (pitch) swings to 88 degrees either way: rotations that turn smoothly where Euler angles are
-/// nearly locked.
+/// Returns a chain of five joints whose first Euler angle (yaw) makes full turns while the second
+/// (pitch) swings to 88 degrees either way: smooth rotations near gimbal lock.
 Take spin(const SynthOptions& options, std::size_t frames);
 
 }  // namespace kinemend::synth

@@ -11,8 +11,8 @@ namespace kinemend::synth {
 
 namespace {
 
-// A person who stands, never quite still: the pelvis sways above planted feet, trunk, head and arms
-// drift.
+// A standing person who is never quite still: the pelvis sways above planted feet, and trunk, head
+// and arms drift.
 class Standing {
  public:
   Standing(const Body& body, Random& random, double width_cm, double stagger_cm, double knee_bend)
@@ -62,7 +62,7 @@ class Standing {
   std::array<FootPlace, 2> feet_;
 };
 
-// The time since the start of the stroke that `t` lies in, and its number.
+// The stroke that contains `t`: the time since its start, and its number.
 struct Beat {
   double time = 0;
   int number = 0;
@@ -73,7 +73,7 @@ Beat beat_at(double t, double first, double period) {
   return {t - first - n * period, static_cast<int>(n)};
 }
 
-// The left hand with its palm to the right, the fingers forwards and up.
+// Returns the left hand with its palm to the right, the fingers forwards and up.
 Quat clapping_hand() { return about_x(-32) * Quat{0.5, -0.5, -0.5, -0.5}; }
 
 }  // namespace
@@ -109,7 +109,7 @@ Motion wave(const Body& body, Random random) {
   };
 }
 
-// The palms meet: they close at speed, stop within a few milliseconds, rest on one another, part.
+// The palms close at speed, stop within a few milliseconds, rest on one another, and part.
 Motion clap(const Body& body, Random random) {
   const Standing standing(body, random, 0.115 * body.height, 0, 0.6);
   const double open = random.uniform(34, 40), speed = random.uniform(360, 430), cushion = 1.6;
@@ -150,7 +150,7 @@ Motion punch(const Body& body, Random random) {
   return [&body, standing, stroke, hips_lead, period](double t) {
     Posture p = standing.at(t);
     const Beat beat = beat_at(t, 0.45, period);
-    // The turn of the hips starts a little before its beat.
+    // The turn of the hips starts slightly before its beat.
     const Beat early = beat_at(t + 0.1, 0.45, period);
     const double h = body.height;
     for (std::size_t side = 0; side < 2; ++side) {

@@ -1,4 +1,4 @@
-// Makes a take from a motion: checks the options, and samples every frame.
+// Makes a take from a motion: checks the options and samples every frame.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -32,7 +32,7 @@ Motion turn(const Body& body, double duration_s, Random random) {
   const double radius = random.uniform(80, 95);
   const double direction = random.chance(0.5) ? 1 : -1;
   const double bend_cm = 80;
-  // The integral of a curvature that rises from 0 to 1 / radius over the bend's length.
+  // This is the integral of a curvature that rises from 0 to 1 / radius over the bend's length.
   const auto heading = [=](double s) {
     return direction * degrees_per_radian / radius * smooth_hinge(s - 60, bend_cm / 2);
   };

@@ -11,7 +11,7 @@ namespace kinemend {
 
 namespace {
 
-// As JSON has a text.
+// Returns the text as a JSON string.
 std::string quoted(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -21,7 +21,7 @@ std::string quoted(const std::string& text) {
 std::string batch_page(std::span<const BatchPageRow> rows, const BatchSums& sums,
                        const PageSettings& settings) {
   page::check_is_built();
-  // Rows and sums are JSON already.
+  // Rows and sums are already JSON.
   std::string text = "[";
   for (const BatchPageRow& entry : rows) {
     text += fmt::format("{}{{\"row\": {}, \"page\": {}, \"picture\": {}}}",

@@ -15,7 +15,7 @@ namespace kinemend::page {
 
 namespace {
 
-/// A value of each frame that is told.
+/// One value for each stored frame.
 using Values = std::vector<double>;
 
 double largest_of(const Values& values) {
@@ -57,7 +57,7 @@ std::array<Values, 3> positions(const Channels& channels, const PositionAt& at) 
   return axes;
 }
 
-// `after` is empty where there is one take.
+// `after` is empty if there is one take.
 void add_positions(const PositionAt& before, const PositionAt& after, double quantum,
                    Channels& channels) {
   const auto old_values = positions(channels, before);

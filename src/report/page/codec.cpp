@@ -1,4 +1,4 @@
-// Predicts each sample from those before it, and packs what the prediction leaves.
+// Predicts each sample from those before it, and packs the remainders.
 #include "report/page/codec.hpp"
 
 #include <algorithm>
@@ -14,12 +14,12 @@ namespace {
 
 using Words = std::vector<std::uint32_t>;
 
-// 0, 1, 2, ... for 0, -1, 1, ...
+// Maps 0, -1, 1, ... to 0, 1, 2, ...
 std::uint32_t folded(std::uint32_t remainder) {
   return (remainder << 1) ^ (0U - (remainder >> 31));
 }
 
-// How many bits the remainders need, about.
+// Returns the approximate number of bits of the remainders.
 double cost(const Words& remainders) {
   double bits = 0;
   for (const std::uint32_t word : remainders) bits += portable::log2(1.0 + word);
@@ -62,7 +62,7 @@ void append_first(const Words& samples, std::size_t stride, std::string& bytes) 
   append_coded(candidates, bytes);
 }
 
-// The sample on the line from `a` to `b`, `part` of `stride` on, rounded down.
+// Returns the sample `part` of `stride` steps along the line from `a` to `b`, rounded down.
 std::uint32_t between(std::uint32_t a, std::uint32_t b, std::size_t part, std::size_t stride) {
   const auto from = static_cast<std::int32_t>(a);
   const auto way = static_cast<std::int64_t>(static_cast<std::int32_t>(b)) - from;
@@ -86,7 +86,7 @@ void append_second(const Words& samples, std::size_t stride, std::string& bytes)
   append_coded(candidates, bytes);
 }
 
-// How rough a track is: the size of its second differences.
+// Returns the roughness of a track: the size of its second differences.
 double roughness(const std::vector<std::int32_t>& samples) {
   double sum = 0;
   for (std::size_t f = 2; f < samples.size(); ++f)
@@ -104,7 +104,7 @@ std::string part_of(std::span<const Quantised> channels, const Append& append) {
       append(before, bytes);
       continue;
     }
-    // Noise costs most: it is told once, in the difference.
+    // Noise costs most, so it is coded only once, in the difference.
     const bool before_first = roughness(channel.before) < roughness(channel.after);
     bytes += static_cast<char>(before_first ? 1 : 0);
     const Words& first = before_first ? before : after;
@@ -125,7 +125,7 @@ std::vector<std::int32_t> quantised(std::span<const double> values, double quant
 }
 
 double quantum_for(double quantum, double largest) {
-  // The 2^30 of channels.hpp, by definition.
+  // The limit of 2^30 in codec.hpp. By definition.
   constexpr double most = 1 << 30;
   return std::max(quantum, largest / most);
 }

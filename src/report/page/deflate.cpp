@@ -1,5 +1,4 @@
-// Deflates bytes by zlib. Where that is missing, as in a module for JavaScript, they are only
-// framed.
+// Deflates bytes by zlib. Without zlib, as in a module for JavaScript, they are only framed.
 #include "report/page/codec.hpp"
 
 #if __has_include(<zlib.h>)
@@ -21,7 +20,7 @@ std::string deflated(std::string_view bytes) {
   const int status =
       compress2(reinterpret_cast<Bytef*>(result.data()), &size,
                 reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()), 7);
-  // The room is enough for anything: only memory can be short.
+  // The buffer is always large enough, so the only possible error is lack of memory.
   if (status != Z_OK) throw std::bad_alloc();
   result.resize(size);
   return result;
@@ -36,7 +35,7 @@ void append_little(std::string& bytes, std::uint32_t value) {
   bytes += static_cast<char>(value >> 8 & 0xFF);
 }
 
-// RFC 1950, section 9.
+// Returns the checksum of RFC 1950, section 9.
 std::uint32_t adler32_of(std::string_view bytes) {
   // By definition.
   constexpr std::uint32_t prime = 65521;
@@ -50,7 +49,7 @@ std::uint32_t adler32_of(std::string_view bytes) {
 
 }  // namespace
 
-// Stored blocks (RFC 1951, section 3.2.4) in the frame of RFC 1950.
+// Writes stored blocks (RFC 1951, section 3.2.4) in the frame of RFC 1950.
 std::string deflated(std::string_view bytes) {
   // By definition.
   constexpr std::size_t most = 65535;

@@ -17,7 +17,7 @@ namespace page {
 
 namespace {
 
-// As they stand in a document.
+// Returns the parts as elements of a document.
 std::string elements_of(const Parts& parts) {
   std::string html;
   for (const auto& [name, bytes] : parts) {
@@ -53,7 +53,7 @@ std::string joined(const Parts& parts) {
 std::string document(std::string_view title, std::string_view summary, const Parts& parts,
                      bool is_served) {
   check_is_built();
-  // Nothing is fetched from anywhere else, whatever is in the data.
+  // The policy forbids loading from anywhere else, whatever the data contains.
   std::string html = fmt::format(
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"

@@ -13,15 +13,15 @@ namespace {
 
 // For speed, not swept.
 constexpr std::size_t most_frames = 120, fewest_frames = 24;
-// So many distances are measured at most, whatever the number of markers. For speed, not swept.
+// The most distances measured, whatever the number of markers. For speed, not swept.
 constexpr std::size_t most_distances = 4'000'000;
 constexpr std::size_t most_markers = 1000;
 // Share of the frames looked at in which both markers must be observed. Chosen by hand, not swept.
 constexpr double least_together = 0.2;
-// Limits: the longest line, of the body's height, and how much a distance may vary, of itself.
-// Chosen by hand, not swept.
+// Limits of a line: its length as a share of the body height, and the variation of the distance as
+// a share of itself. Chosen by hand, not swept.
 constexpr double longest_line = 0.4, largest_change = 0.35;
-// How much more distance counts as one unit of change: neighbours first where all is rigid. Chosen
+// The cost of distance relative to that of variation; on a rigid body it prefers neighbours. Chosen
 // by hand, not swept.
 constexpr double weight_of_length = 0.25;
 
@@ -30,13 +30,13 @@ struct Candidate {
   std::size_t a, b;
 };
 
-// Sets of markers that are connected already.
+// Sets of markers that are already connected.
 class Groups {
  public:
   explicit Groups(std::size_t count) : parents_(count) {
     std::iota(parents_.begin(), parents_.end(), std::size_t{0});
   }
-  // False where both are in one group already.
+  // Returns false if both are already in one group.
   bool join(std::size_t a, std::size_t b) {
     a = root(a);
     b = root(b);
@@ -55,7 +55,7 @@ class Groups {
 std::vector<std::size_t> linked_markers(const Take& clip) {
   std::vector<std::size_t> markers;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
-    // A name with a star is a piece of an unlabelled path.
+    // A name with a star is a piece of an unlabelled trajectory.
     if (clip.holds_positions(m) && !clip.names[m].starts_with('*')) markers.push_back(m);
   }
   return markers;
@@ -89,7 +89,7 @@ std::vector<std::array<std::size_t, 2>> marker_links(const Take& clip, double bo
           distances.push_back(norm(clip.position(f, a) - clip.position(f, b)));
       }
       if (distances.size() < fewest) continue;
-      // Swaps and spikes are no reason to leave a line out.
+      // Quantiles ignore swaps and spikes.
       const double usual = quantile_of(distances, 0.5);
       const double change = quantile_of(distances, 0.9) - quantile_of(distances, 0.1);
       if (!(usual > 0) || usual > longest_line * body_height || change > largest_change * usual)

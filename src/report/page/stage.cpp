@@ -15,10 +15,10 @@ namespace {
 
 using check::BodyPoints, feet::along, feet::Up;
 
-// The level that nearly all of the body stays above in nearly all frames looked at.
+// Returns the level above which nearly all of the body stays in nearly all inspected frames.
 template <class PointAt>
 double lowest_level(std::size_t frames, std::size_t points, Up up, const PointAt& at) {
-  // Frames, evenly over the take: for speed, not swept.
+  // Frames are spread evenly over the take: for speed, not swept.
   constexpr std::size_t looked_at = 500;
   std::vector<double> lowest;
   const std::size_t count = std::min(frames, looked_at);
@@ -33,8 +33,8 @@ double lowest_level(std::size_t frames, std::size_t points, Up up, const PointAt
   return quantile_of(lowest, 0.05);
 }
 
-// Contacts and the floor that they lie on, of a body in metres. `points`: what each of its points
-// is in the take.
+// Finds the contacts and their floor, for a body in metres. `points`: index in the take of each of
+// its points.
 void find_feet(const BodyPoints& body, const std::vector<std::size_t>& points,
                double metres_per_unit, Stage& stage) {
   if (body.feet.empty()) return;

@@ -1,4 +1,4 @@
-// The space in which a body moves: which way is up, the floor, and when feet stand on it.
+// The space in which a body moves: its up direction, the floor, and the ground contacts of feet.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,9 @@
 
 namespace kinemend::page {
 
-/// A time in which a foot stands.
+/// The time of a ground contact.
 struct StageContact {
-  std::vector<std::size_t> points;  ///< joints, then end sites, or markers, that touch the floor
+  std::vector<std::size_t> points;  ///< joints, then end sites, or markers, with ground contact
   std::size_t first_frame = 0;
   std::size_t last_frame = 0;  ///< inclusive
 };
@@ -27,7 +27,7 @@ struct Stage {
 };
 
 Stage stage_of(const Take& take);
-/// Those that `clean` worked with.
+/// Returns the contacts that `clean` used.
 std::vector<StageContact> contacts_of(const FeetReport& report, const Take& clip);
 
 }  // namespace kinemend::page

@@ -1,4 +1,4 @@
-// Data of a take that the page needs beside its channels.
+// Data of a take that the page needs besides its channels.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -12,7 +12,7 @@ namespace kinemend::page {
 
 using Json = nlohmann::ordered_json;
 
-/// Names, skeleton, gaps and stage. Frames count from 0 there.
+/// Returns names, skeleton, gaps and stage. Frames count from 0.
 Json take_json(const Take& before, const Take* after, const Channels& channels, const Stage& stage);
 
 }  // namespace kinemend::page

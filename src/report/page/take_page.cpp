@@ -36,12 +36,12 @@ Stage stage_for(const Take& take, const Report& report) {
   return stage;
 }
 
-// The motion in quanta as fine as they may be for a page of about two megabytes at most, of which
-// its program takes a third.
+// Returns the motion with the finest quanta for a page of about two megabytes at most, a third of
+// which is its program.
 Channels fine_channels(const Take& before, const Take* after, double body_height, bool is_served) {
   // Chosen by hand, not swept.
   constexpr double most_bytes = 1'000'000, least_share = 1.0 / 64, served_share = 1.0 / 16;
-  // Nobody mails what is served, and somebody waits for it.
+  // The size of a served page is not limited: it is not sent by mail, and the user is waiting.
   if (is_served) return page::channels_of(before, after, body_height, served_share);
   double share = 1;
   Channels channels = page::channels_of(before, after, body_height, share);
@@ -51,7 +51,7 @@ Channels fine_channels(const Take& before, const Take* after, double body_height
   while (share > least_share) {
     const auto size =
         static_cast<double>(page::deflated(page::first_part(channels.samples, 1)).size());
-    // A quarter of the quantum is two bits a sample at most.
+    // A quarter of the quantum adds two bits a sample at most.
     if (size + samples / 4 > most_bytes) break;
     share /= 4;
     channels = page::channels_of(before, after, body_height, share);
@@ -67,7 +67,7 @@ std::string dumped(const Json& json) {
 
 std::string report_page(const Report& report, const Take& before, const Take* after,
                         const PageSettings& settings) {
-  // What is served is shown by a page that is open already.
+  // A served take is shown by a page that is already open.
   if (!settings.is_served) page::check_is_built();
   if (after != nullptr) check_pair(before, *after);
   const auto check = [&] {
