@@ -1,5 +1,5 @@
-// Numbers of about 106 bits as sums of two doubles, by additions and multiplications of doubles
-// alone: the same on every system (Dekker 1971, Knuth 1969).
+// Numbers of about 106 bits as sums of two doubles, using additions and multiplications of doubles
+// only: the same on every system (Dekker 1971, Knuth 1969).
 #pragma once
 
 #include <cmath>
@@ -68,7 +68,7 @@ constexpr DoubleDouble quick_quotient(DoubleDouble a, DoubleDouble b) {
   return quick_sum(first, rest * inverse);
 }
 
-/// For a >= 0.
+/// The square root of a >= 0.
 inline DoubleDouble square_root(DoubleDouble a) {
   const double root = std::sqrt(a.hi);
   if (root == 0) return {};

@@ -13,7 +13,7 @@ using IndexWork = std::function<void(std::size_t)>;
 using RangeWork = std::function<void(std::size_t first, std::size_t last)>;
 
 /// Calls `work(i)` for each i below `count`, in parallel if `samples` (the total amount of work) is
-/// worth it. `work(i)` must write only to data of its own.
+/// large enough. `work(i)` must write only to its own data.
 void for_each_parallel(std::size_t count, std::size_t samples, const IndexWork& work);
 
 /// Calls `work(i)` for each i below `count`, in parallel. After the first exception, which is

@@ -84,7 +84,7 @@ DoubleDouble other_leg(double x) {
 
 constexpr double no_arc = std::numeric_limits<double>::quiet_NaN();
 
-// The power of two that brings the larger of two finite numbers to 1/2 to 1.
+// The power of two that scales the larger of two finite numbers to between 1/2 and 1.
 int exponent_of(double size) {
   int exponent = 0;
   std::frexp(size, &exponent);

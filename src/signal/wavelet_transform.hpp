@@ -24,8 +24,8 @@ WaveletTransform forward_transform(const PoseMatrix& matrix, std::span<const dou
 void inverse_transform(WaveletTransform transform, std::span<const double> scaling_filter,
                        PoseMatrix& matrix);
 
-/// The coefficients of one level whose filters lie inside the n input rows; all of them if there
-/// are none.
+/// The coefficients of one level whose filters lie inside the n input rows; all of them if no
+/// filter does.
 struct CoefficientRange {
   std::size_t first;
   std::size_t count;

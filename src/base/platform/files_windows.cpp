@@ -48,7 +48,7 @@ HANDLE handle_of(int file) { return reinterpret_cast<HANDLE>(::_get_osfhandle(fi
 
 std::wstring long_path(const fs::path& path) {
   // Chosen by hand.
-  constexpr std::size_t longest_plain = 240;  // of 260 with room for the name of a temporary file
+  constexpr std::size_t longest_plain = 240;  // of 260, less the name of a temporary file
   std::error_code error;
   const std::wstring text = path.native();
   if (text.starts_with(L"\\\\?\\")) return text;
@@ -145,7 +145,7 @@ int nameless_file(const std::string& folder) {
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     const fs::path path = fs::path(folder) / ("kinemend-" + std::to_string(::_getpid()) + "-" +
                                               std::to_string(counter++) + ".spool");
-    // Windows removes it once it is closed.
+    // Windows deletes the file once it is closed.
     const int file = ::_wopen(long_path(path).c_str(),
                               _O_RDWR | _O_CREAT | _O_EXCL | _O_TEMPORARY | for_bytes, 0600);
     if (file >= 0 || errno != EEXIST) return file;

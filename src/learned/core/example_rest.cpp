@@ -1,5 +1,5 @@
-// Measures how strange a take is to the bases, smooths the rest, and blends in what `auto` makes of
-// a part.
+// Measures how strange a take is to the bases, smooths the rest, and blends in `auto`'s
+// result.
 #include "learned/core/example_rest.hpp"
 
 #include <algorithm>

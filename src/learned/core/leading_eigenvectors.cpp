@@ -16,7 +16,8 @@ namespace kinemend {
 
 namespace {
 
-// An unknown number is doubled from here until the energy is reached. Chosen by hand, not swept.
+// An unknown number starts here and is doubled until the energy is reached. Chosen by hand, not
+// swept.
 constexpr Eigen::Index first_count = 32;
 // Beyond this share of all eigenvectors the full solver is faster. For speed; the rest are limits
 // by definition, and not swept.

@@ -10,7 +10,7 @@ namespace kinemend {
 struct LeadingEigenvectors {
   std::size_t size = 0;         ///< n
   std::vector<double> values;   ///< k, descending
-  std::vector<double> vectors;  ///< n x k, row-major: one vector a column, orthonormal
+  std::vector<double> vectors;  ///< n x k, row-major: one vector per column, orthonormal
 };
 
 struct EigenvectorLimits {

@@ -40,7 +40,7 @@ const Tensor& Model::tensor(std::string_view name, const std::vector<std::size_t
   return found;
 }
 
-// Without it `{3}` would be a count of dimensions.
+// Without this overload `{3}` would be a count of dimensions.
 const Tensor& Model::tensor(std::string_view name, std::initializer_list<std::size_t> shape) const {
   return tensor(name, std::vector<std::size_t>(shape));
 }

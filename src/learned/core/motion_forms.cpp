@@ -1,4 +1,4 @@
-// Finds which tracks change places in a mirror and turns values into that form.
+// Finds the tracks that change places in a mirror and converts values to a form.
 #include "learned/core/motion_forms.hpp"
 
 #include <algorithm>

@@ -8,7 +8,7 @@
 
 namespace kinemend {
 
-/// How tracks look in a mirror.
+/// The counterparts of tracks in a mirror.
 struct BodyMirror {
   std::vector<std::size_t> partners;  ///< each track's counterpart in the mirror (with the place)
   std::size_t turns = 0;              ///< number of tracks that turn; positions follow them

@@ -1,4 +1,4 @@
-// Reads numbers and weights of networks from a model and refuses those that do not fit.
+// Reads numbers and weights of networks from a model and rejects invalid ones.
 #include "learned/core/network_numbers.hpp"
 
 #include <fmt/format.h>

@@ -20,7 +20,7 @@ struct PartFallBack {
   std::vector<double> shares;  ///< D / 3: how much of each part, over frames (0..1)
 };
 
-/// A take as such a method sees it.
+/// A take as the input of such a method.
 struct PriorWork {
   const BodyMatch* match = nullptr;  ///< of the take's joints or markers with the model's parts
   /// Degrees. Samples that are missing, and those of parts that the take lacks, are not observed.

@@ -1,4 +1,4 @@
-// Decides how much of the filter each part needs and blends the rest with what `auto` makes of it.
+// Decides how much of the filter each part needs and blends the rest with `auto`'s result.
 #include "learned/core/prior_hold.hpp"
 
 #include <algorithm>

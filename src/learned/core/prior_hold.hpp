@@ -1,4 +1,4 @@
-// Holds a learned model back: it changes a part no further than the noise of the part asks for.
+// Holds a learned model back: it changes a part no further than its noise justifies.
 #pragma once
 
 #include <cstddef>

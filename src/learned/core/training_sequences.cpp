@@ -1,5 +1,5 @@
-// Learns the layout of the takes, encodes them, brings them to one rate, and hands the stretches
-// out again.
+// Learns the layout of the takes, encodes them, resamples them to one rate, and returns the
+// stretches.
 #include "learned/core/training_sequences.hpp"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ void report(const TrainSettings& settings, std::string_view stage, std::size_t d
     settings.progress(stage, static_cast<double>(done) / static_cast<double>(count));
 }
 
-// The take's rate over the model's where that is a whole number, else 0.
+// The take's rate over the model's if that is a whole number, else 0.
 std::size_t whole_ratio(double take_rate_hz, double rate_hz) {
   const double ratio = take_rate_hz / rate_hz;
   const double whole = std::round(ratio);

@@ -1,4 +1,4 @@
-// Writes and reads checkpoints of trainings, and refuses those of other takes or options.
+// Writes and reads checkpoints of trainings, and rejects those of other takes or options.
 #include "learned/core/training_stages.hpp"
 
 #include <fmt/format.h>

@@ -13,10 +13,10 @@ namespace kinemend {
 /// the rotation of joint j in the body's frame, the product of the rotations q along its ancestors,
 /// and M_j the same product of the layout's references. With the turns
 ///
-///   K_j = mean(G_j)^-1 M_j,    q'_j = K_p^-1 q_j K_j    (p the parent; no K of the root's)
+///   K_j = mean(G_j)^-1 M_j,    q'_j = K_p^-1 q_j K_j    (p the parent; the root has no K_p)
 ///
 /// every joint has the reference as its mean pose, and q' no longer depends on such constants: on
-/// another rig G_j is G_j A_j, mean(G_j) is mean(G_j) A_j, and G_j K_j stays.
+/// another rig G_j is G_j A_j, mean(G_j) is mean(G_j) A_j, and G_j K_j is unchanged.
 struct BodyCalibration {
   std::vector<Quat> turns;  ///< N: K
 };

@@ -34,7 +34,7 @@ class LiveMotionSteps {
   void push(std::span<const float> values, std::span<const std::uint8_t> missing);
   /// Called after the last frame: makes the remaining steps available.
   void end() { is_ended_ = true; }
-  /// The next step of C channels; false if there is none yet.
+  /// The next step of C channels; false if it is not available yet.
   bool next_step(MotionSteps& step);
   /// C: whether the channel has moved, as of the last step.
   const std::vector<std::uint8_t>& is_alive() const noexcept { return strengths_.is_alive; }

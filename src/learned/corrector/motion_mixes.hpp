@@ -1,4 +1,4 @@
-// Turns outputs of the network into weights of levels, corrections and expected errors.
+// Converts outputs of the network to weights of levels, corrections and expected errors.
 #pragma once
 
 #include <span>

@@ -52,7 +52,7 @@ Quat random_turn(Random& random);
 /// Rotates the vectors of a track to random axes.
 void turn_track(PoseMatrix& poses, std::size_t track, Random& random);
 
-/// `frames` frames from a random one on; all of them if there are no more.
+/// `frames` frames from a random one on; all frames of a shorter motion.
 PoseMatrix random_part(const PoseMatrix& motion, std::size_t frames, Random& random);
 
 /// A random index with probability in proportion to its weight.

@@ -32,7 +32,7 @@ inline constexpr double shortest_floor_s = 4;
 /// second, halved, exceeds this share of its mean square. White noise has 0.4, noise with a
 /// correlation of 0.8 at 120 Hz 0.14; a step, a flip and a fast move have less than 0.1.
 inline constexpr double least_burst_share = 0.2, burst_lag_s = 1.0 / 60;
-/// Below this rate changes within a 60th of a second cannot be seen, hertz.
+/// Below this rate changes within a 60th of a second cannot be measured, hertz.
 inline constexpr double lowest_burst_rate_hz = 50;
 /// A take is noisy when at least this share of its moving tracks has a floor: of 129 takes of
 /// cameras and markerless systems nine in ten have more than 0.76; of clean takes only dashes of

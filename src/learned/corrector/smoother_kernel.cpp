@@ -40,7 +40,7 @@ HWY_INLINE void sum_columns(const float* middle, std::size_t width, std::span<co
 void sum_rows_f32(const float* middle, std::size_t width, std::span<const float> taps,
                   float* result) {
   // For speed, not swept.
-  constexpr std::size_t block = 4;  // vectors of columns at once: as many sums stay in registers
+  constexpr std::size_t block = 4;  // vectors of columns at once, whose sums fit the registers
   const std::size_t lanes = hn::Lanes(Tag());
   std::size_t c = 0;
   for (; c + block * lanes <= width; c += block * lanes)

@@ -1,4 +1,4 @@
-// The method `example` (Lou & Chai 2010): its options, and what it does with a take.
+// The method `example` (Lou & Chai 2010): its options and its cleaner.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -23,7 +23,7 @@ namespace kinemend {
 
 namespace {
 
-// The weight below which a sample counts as rejected. Chosen by hand, not swept.
+// The weight below which a sample is rejected. Chosen by hand, not swept.
 constexpr double rejected_weight = 0.01;
 // Missing samples settle last, and weigh little in the objective. Chosen by hand;
 // docs/methods/example-details.md states what other tolerances do.

@@ -261,7 +261,7 @@ void put_rows(const PoseMatrix& rows, std::size_t first, std::size_t begin, std:
 PoseMatrix filter_linearly(const PoseMatrix& poses, WindowBases bases,
                            std::span<const double> mean) {
   if (poses.frames == 0) return poses;
-  // Kept memory is allocated first, which avoids fragmentation.
+  // Lasting memory is allocated first, which avoids fragmentation.
   PoseMatrix filtered(poses.frames, poses.channels);
   const Stretches stretches(bases, poses.frames, linear_margin);
   PatternPenalty patterns(std::move(bases), std::vector<double>(mean.size(), 1.0), {},

@@ -16,7 +16,7 @@ struct ExampleTuning {
   double rest_deviations = 1;
   /// Motion outside the bases is correlated: one frame in this number is independent.
   double rest_memory_frames = 3;
-  bool guesses_suspects = true;    ///< starts from what `auto` made of spikes
+  bool guesses_suspects = true;    ///< starts from `auto`'s values at spikes
   bool starts_expressible = true;  ///< starts from the part of that which the bases express
   bool knows_variances = true;     ///< v_k: the spread of the coefficients in training
   bool smooths_rest = true;        ///< keeps smooth motion outside the bases

@@ -1,6 +1,6 @@
 // Multi-channel singular spectrum analysis (Lou & Chai 2010, section 3.1). A window of M frames x L
-// channels is one vector of M L numbers, frame after frame: a stretch of a PoseMatrix as it lies in
-// memory. The paper orders its columns by channels instead, which changes only the order of a
+// channels is one vector of M L numbers, frame after frame: a contiguous part of a
+// PoseMatrix. The paper orders its columns by channels instead, which changes only the order of a
 // basis's entries.
 #pragma once
 

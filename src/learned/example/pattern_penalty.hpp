@@ -62,7 +62,7 @@ class PatternPenalty {
   std::size_t overlap_;     // hops in a window
   std::size_t windows_, groups_;
   std::vector<double> coefficients_;  // of all windows, with overlap - 1 rows of zeros at each
-                                      // end; or of those over the end, K x (overlap - 1)
+                                      // end; or of windows beyond the end, K x (overlap - 1)
   // By windows: G and, for each hop, overlap K x hop L.
   nn::PackedMatrix analysis_, synthesis_;
   // By frequencies: all windows of the periodic take, and G, M' L x K, for those that wrap around

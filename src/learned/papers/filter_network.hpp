@@ -16,7 +16,7 @@ namespace kinemend {
 /// A take as input of these networks: F frames of the C channels of all joints but the root.
 struct FilterTake {
   std::size_t frames = 0;
-  std::size_t channels = 0;    ///< C, three a joint
+  std::size_t channels = 0;    ///< C, three per joint
   std::vector<float> values;   ///< F x C, degrees; gaps are bridged
   std::vector<float> turning;  ///< F x 3, angular velocity of the root, degrees / s, its axes
   std::vector<std::uint8_t> missing;  ///< F x C / 3, 1 for unmeasured samples

@@ -74,7 +74,7 @@ std::vector<double> additions(const FilterNetwork& network, const FilterTake& ta
   return result;
 }
 
-// Adds to one channel in a gap, frames [first, last).
+// Adds the additions to one channel in a gap, frames [first, last).
 void fill_span(const std::vector<double>& added, std::size_t channels, std::size_t c,
                std::size_t first, std::size_t last, double joining_frames, PoseMatrix& poses) {
   const bool has_start = first > 0, has_end = last < poses.frames;

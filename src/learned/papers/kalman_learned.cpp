@@ -1,4 +1,4 @@
-// The method `kalman-learned`: its options, and what it does with a take.
+// The method `kalman-learned`: its options and its cleaner.
 #include <algorithm>
 #include <cmath>
 #include <utility>

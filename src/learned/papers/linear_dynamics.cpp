@@ -1,4 +1,4 @@
-// Fits the dynamics, brings them to another rate, and stores them in a model.
+// Fits the dynamics, converts them to another rate, and stores them in a model.
 #include "learned/papers/linear_dynamics.hpp"
 
 #include <Eigen/Cholesky>
@@ -27,7 +27,7 @@ constexpr double least_variance = 1e-6;    // square degrees: least measurement 
 
 MatrixXd symmetric(const MatrixXd& matrix) { return 0.5 * (matrix + matrix.transpose()); }
 
-// The nearest matrix that is a covariance.
+// The nearest covariance matrix.
 MatrixXd covariance_near(const MatrixXd& matrix) {
   const SymmetricEigen eigen = symmetric_eigen(symmetric(matrix));
   const VectorXd variances = eigen.values.cwiseMax(0.0);

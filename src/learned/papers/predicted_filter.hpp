@@ -25,7 +25,7 @@ enum class FilterHead : std::uint8_t {
   pose,      ///< y = m_c + s_c o_c: the decoder of EBD
 };
 
-/// C, 2 C, 31, C and C numbers a frame.
+/// Outputs per frame: C, 2 C, 31, C and C.
 std::size_t filter_output_count(FilterHead head, std::size_t channels);
 
 /// F x C. Deviations are clamped to between exp(-2.5) and exp(3) frames. Weights of frames beyond
@@ -52,7 +52,7 @@ class PredictedFilterRow {
  private:
   std::unique_ptr<Gaussian> gaussian_;
 };
-/// The derivative by the outputs (F x O) from that by the result (F x C).
+/// Computes the derivative by the outputs (F x O) from that by the result (F x C).
 void predicted_filter_adjoint(FilterHead head, const FilterSignal& signal,
                               std::span<const float> outputs, std::span<const float> derivative,
                               std::span<float> gradient);

@@ -1,4 +1,4 @@
-// Turns the joints of a stream into channels of the network and the filtered channels back.
+// Converts the joints of a stream to channels of the network and the filtered channels back.
 #include "learned/papers/recurrent_live.hpp"
 
 #include <fmt/format.h>

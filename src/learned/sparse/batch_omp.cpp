@@ -10,7 +10,7 @@ namespace kinemend::sparse {
 
 namespace {
 
-constexpr std::size_t block_signals = 128;  // a share of work
+constexpr std::size_t block_signals = 128;  // task size
 // Share of an atom's squared length outside the chosen atoms; less is rounding.
 constexpr float least_new_share = 1e-6F;
 constexpr float least_correlation = 1e-7F;  // of the signal's length

@@ -20,7 +20,7 @@ using Vector = Eigen::VectorXf;
 using Map = Eigen::Map<const Eigen::VectorXf>;
 
 // For speed, not swept.
-constexpr std::size_t batch_signals = 64;  // a share of work
+constexpr std::size_t batch_signals = 64;  // task size
 // For the absolute loss, residuals are at least this share of their median, so that weights stay
 // finite. Chosen by hand, not swept.
 constexpr float least_rest = 0.1F;

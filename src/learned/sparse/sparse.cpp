@@ -1,4 +1,4 @@
-// The method `sparse` (Xiao et al. 2015): its options, and what it does with a take.
+// The method `sparse` (Xiao et al. 2015): its options and its cleaner.
 #include <algorithm>
 #include <cmath>
 #include <memory>

@@ -1,4 +1,4 @@
-// The method `wiener`: its options, and what it does with a take.
+// The method `wiener`: its options and its cleaner.
 #include <algorithm>
 #include <cmath>
 #include <numeric>

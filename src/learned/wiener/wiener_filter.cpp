@@ -25,9 +25,9 @@ using Eigen::VectorXd;
 // Windows overlap by three quarters, so that neighbours are dependent. By definition; chunks are
 // for speed, not swept.
 constexpr double window_weight = 0.25;
-constexpr std::size_t chunk_windows = 16;  // a share of work
+constexpr std::size_t chunk_windows = 16;  // task size
 
-// sin^2, which sums to a constant where windows follow each other by a quarter.
+// sin^2, which sums to a constant for windows a quarter of their length apart.
 VectorXd taper(Index frames) {
   VectorXd weights(frames);
   for (Index i = 0; i < frames; ++i) {
@@ -44,7 +44,7 @@ nn::MatrixView transposed(const MatrixXd& matrix) {
   return {matrix.data(), static_cast<std::size_t>(matrix.cols()), rows, rows};
 }
 
-// a b for the transpose of a.
+// The product a b, given the transpose of a.
 MatrixXd product(const nn::MatrixView& a_transposed, const MatrixXd& b) {
   MatrixXd result(static_cast<Index>(a_transposed.columns), b.cols());
   nn::multiply(transposed(b), a_transposed,
@@ -86,7 +86,7 @@ class Filtering {
     return take_.observed.empty() || take_.observed[sample] != 0;
   }
 
-  // For windows [first, last).
+  // Calls `work` for chunks of the windows [first, last).
   template <class Work>
   static void for_each_chunk_of(std::size_t first, std::size_t last, const Work& work) {
     const std::size_t chunks = (last - first + chunk_windows - 1) / chunk_windows;
@@ -96,7 +96,7 @@ class Filtering {
     });
   }
 
-  // For all windows, with the number of the chunk.
+  // Calls `work` for chunks of all windows, with the number of the chunk.
   template <class Work>
   void for_each_chunk(const Work& work) const {
     for_each_chunk_of(0, windows_.starts().size(), [&](std::size_t first, std::size_t last) {
@@ -104,7 +104,7 @@ class Filtering {
     });
   }
 
-  // z_ of all windows.
+  // Computes z_ for all windows.
   void find_posteriors() {
     const auto count = static_cast<Index>(windows_.starts().size());
     MatrixXd information(prior_.rank(), count);
@@ -274,8 +274,8 @@ class Filtering {
 WienerResult wiener_filter(const WienerPrior& prior, const WienerTake& take,
                            const WienerSettings& settings) {
   if (take.poses.frames == 0) return {take.poses, {}};
-  // At high rates windows are no longer than the take, as their length in frames is the side of a
-  // matrix. Chosen by hand, not swept.
+  // At high rates windows are at most as long as the take, as their length in frames is the
+  // side of a matrix. Chosen by hand, not swept.
   constexpr double usual_rate_hz = 240;
   const double whole_take_hz = static_cast<double>(take.poses.frames) / prior.window_s;
   const double rate_hz = std::min(take.rate_hz, std::max(usual_rate_hz, whole_take_hz));

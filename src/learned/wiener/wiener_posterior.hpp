@@ -9,7 +9,7 @@
 namespace kinemend {
 
 /// The posterior of z given windows with the same precision J (R x R) and their information
-/// h = basis^T u (R x W, one column per window): of component c
+/// h = basis^T u (R x W, one column per window): for component c
 ///
 ///     P_c = (C_c^-1 + J)^-1,    z_c = P_c (C_c^-1 m_c + h),
 ///     log p(y | c) = 1/2 (log |P_c| - log |C_c| - m_c^T C_c^-1 m_c + b^T P_c b) + the same for all

@@ -42,8 +42,8 @@ WienerPrior with_coefficients(const WienerPrior& prior, Eigen::Index coefficient
 /// taken as independent.
 WienerPrior with_turned_channels(const WienerPrior& prior, std::span<const Eigen::Matrix3d> turns);
 
-/// To and from tensors of the model file. Covariances are stored as Cholesky factors, large tensors
-/// in 16 bits. Errors: `ErrorKind::unreadable_input` naming the inconsistent tensor.
+/// Convert to and from tensors of the model file. Covariances are stored as Cholesky factors, large
+/// tensors in 16 bits. Errors: `ErrorKind::unreadable_input` naming the inconsistent tensor.
 void store_wiener_prior(const WienerPrior& prior, Model& model);
 WienerPrior wiener_prior_of(const Model& model);
 

@@ -39,7 +39,7 @@ class WienerWindows {
   const WindowGroup& group_of(std::size_t window) const { return groups_[owner_[window]]; }
   Eigen::Index frames() const noexcept { return frames_; }
 
-  /// N x D: all coefficients of a window; frames behind the end of the take repeat the last.
+  /// N x D: all coefficients of a window; frames beyond the end of the take repeat the last.
   Eigen::MatrixXd coefficients(const PoseMatrix& poses, std::size_t window) const;
   /// D K: u = S^-1 (y - mean), where S is the covariance of noise and rest.
   Eigen::VectorXd information(const PoseMatrix& poses, std::size_t window,
