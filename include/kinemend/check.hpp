@@ -35,9 +35,9 @@ enum class FindingKind : std::uint8_t {
   zero_frames,      ///< whole frames of zeros
   calibration,      ///< a calibration pose at the start
   left_out,         ///< points that are angles or forces
-  no_contact,       ///< feet come near the floor, and hardly ever stand
+  no_contact,       ///< feet come near the floor but hardly ever rest on it
   expected_noise,   ///< the network of `learned` expects noise that the take does not show
-  // Those that follow are of `CheckSettings::robot`.
+  // The following kinds occur only with `CheckSettings::robot`.
   joint_speed,         ///< a joint turns faster than its limit
   joint_acceleration,  ///< a joint accelerates more than its limit
   penetration,         ///< a foot goes below the level on which it stands
@@ -73,14 +73,14 @@ struct TrackHealth {
   std::string name;
   std::size_t gaps = 0;
   std::size_t longest_gap = 0;     ///< frames
-  std::size_t missing_frames = 0;  ///< of all gaps
+  std::size_t missing_frames = 0;  ///< frames of all gaps
   std::size_t spikes = 0;          ///< runs of frames
   std::size_t frozen = 0;          ///< spans
   std::size_t bridged = 0;         ///< spans
   std::size_t swaps = 0;
   std::size_t flips = 0;
-  double peak_speed_deg_s = 0;          ///< only with `CheckSettings::robot`, of joints
-  double peak_acceleration_deg_s2 = 0;  ///< the same
+  double peak_speed_deg_s = 0;          ///< joints only, and only with `CheckSettings::robot`
+  double peak_acceleration_deg_s2 = 0;  ///< as `peak_speed_deg_s`
   double noise = 0;  ///< standard deviation per axis: degrees of joints, file units of markers
 };
 
@@ -103,22 +103,22 @@ struct CheckFigures {
   std::size_t spikes = 0;
   std::size_t swaps = 0;
   std::size_t frozen = 0;            ///< spans that are frozen or bridged
-  std::optional<double> slide_cm;    ///< largest of any contact; none without contact or scale
+  std::optional<double> slide_cm;    ///< largest of any contact; empty without contact or scale
   std::optional<double> sink_cm;     ///< largest depth
   double length_change_percent = 0;  ///< largest of any bone or rigid pair
   std::size_t flips = 0;
-  // Only with `CheckSettings::robot`; those of feet need feet, a direction that is up and a scale.
+  // Only with `CheckSettings::robot`; figures of feet need feet, an up direction and a scale.
   std::optional<double> joint_speed_deg_s, joint_acceleration_deg_s2;  ///< largest of any joint
   std::optional<std::size_t> jumps;
-  std::optional<std::size_t> flights;    ///< also those that do not fall
+  std::optional<std::size_t> flights;    ///< includes flights in which the body does not fall
   std::optional<double> penetration_cm;  ///< largest depth of a foot below its standing level
   std::optional<double> floating_cm;     ///< largest height above the floor of a foot that stands
   std::optional<double> floor_cm;        ///< distance of the floor from height 0
 };
 
-/// What a joint may do at most. The defaults are those of the knee of a Unitree G1, by its
-/// published description: its speed, and the acceleration that its torque gives to shank and foot
-/// (docs/check-robot.md).
+/// The largest speed and acceleration allowed for a joint. The defaults come from the published
+/// description of the knee of a Unitree G1: its speed, and the acceleration that its torque gives
+/// to shank and foot (docs/check-robot.md).
 struct JointLimits {
   double speed_deg_s = 1146;           ///< 20 rad/s (> 0)
   double acceleration_deg_s2 = 72700;  ///< 139 N m / 0.1096 kg m2 (> 0)
@@ -130,21 +130,21 @@ struct NamedJointLimits {
   JointLimits limits;
 };
 
-/// What a take has to keep to if a robot or a simulated body imitates it.
+/// Limits that a take must not exceed if a robot or a simulated body imitates it.
 struct RobotSettings {
-  JointLimits limits;                    ///< of joints that no pattern matches
-  std::vector<NamedJointLimits> joints;  ///< the last one that matches counts
+  JointLimits limits;                    ///< limits of joints that no pattern matches
+  std::vector<NamedJointLimits> joints;  ///< the last match is used
   /// Time over which speeds and accelerations are differences: a step of a controller at 50 Hz, or
   /// one frame where frames are longer (0.001 to 1).
   double step_s = 0.02;
   double penetration_cm = 5;  ///< depth of a foot below its standing level (>= 0)
   double floating_cm = 5;     ///< height of a standing foot above the floor (>= 0)
-  double jump_deg = 30;       ///< of a joint within one frame (> 0)
-  double jump_cm = 10;        ///< of the root or a marker within one frame (> 0)
+  double jump_deg = 30;       ///< change of a joint within one frame (> 0)
+  double jump_cm = 10;        ///< change of the root or a marker within one frame (> 0)
   double floor_cm = 5;        ///< distance of the floor from height 0 (>= 0)
 };
 
-/// When something becomes a finding.
+/// The limits above which a fault becomes a finding.
 struct CheckSettings {
   double noise_deg = 0.35;            ///< jitter of a joint; cleaning starts about here (>= 0)
   double noise_cm = 0.1;              ///< jitter of a marker (>= 0)
@@ -154,12 +154,13 @@ struct CheckSettings {
   double sink_cm = 3;                 ///< depth of a foot below the floor (>= 0)
   double length_change_percent = 10;  ///< of a bone or a rigid pair (>= 0)
   std::optional<Axis> up;             ///< empty: found from the feet and the body above them
-  /// Metres in a file unit. Empty: what the take says, else what makes the body a person.
+  /// Metres in a file unit. Empty: the unit of the take, else the unit that gives the body the size
+  /// of a person.
   std::optional<double> metres_per_unit;
-  KnownNames names;  ///< what joints or markers of feet are called where names do not tell
-  std::optional<RobotSettings> robot;  ///< none: these checks are left out
-  /// What recorded the take, as `CleanSettings::source`: noise and spikes that cleaning would take
-  /// out are found.
+  KnownNames names;  ///< names of the joints or markers of feet, if they are not recognised
+  std::optional<RobotSettings> robot;  ///< empty: these checks are left out
+  /// The system that recorded the take, as `CleanSettings::source`. It decides which noise and
+  /// spikes cleaning would remove; these are the findings.
   Source source = Source::unknown;
 };
 
@@ -170,26 +171,28 @@ struct SubjectHealth {
   std::optional<double> slide_cm, sink_cm;  ///< as in `CheckFigures`
 };
 
-/// What only `CheckSettings::robot` finds.
+/// Findings that only `CheckSettings::robot` produces.
 struct RobotFindings {
-  std::vector<std::string> sides;     ///< of the legs: "left", "right"
-  std::vector<FootContact> contacts;  ///< of heels and toes, of joints; frames of the take
+  std::vector<std::string> sides;  ///< sides of the legs: "left", "right"
+  /// Contacts of heels and toes of joints, in frames of the take.
+  std::vector<FootContact> contacts;
 };
 
 struct CheckReport {
   bool is_markers = false;
   std::size_t frames = 0;
   double frame_rate_hz = 0;
-  std::size_t calibration_frames = 0;  ///< at the start; only `calibration` speaks of them
-  double metres_per_unit = 0;          ///< as used; 0: unknown
-  std::string noise_unit;              ///< "deg", or the markers' unit
-  std::vector<NoiseCharacter> noise;   ///< what `auto` finds; none of a space without noise
-  TakeSource source;                   ///< what counted as the source of the take, and why
+  /// At the start; only findings of kind `calibration` include them.
+  std::size_t calibration_frames = 0;
+  double metres_per_unit = 0;         ///< as used; 0: unknown
+  std::string noise_unit;             ///< "deg", or the markers' unit
+  std::vector<NoiseCharacter> noise;  ///< as `auto` measures it; a space without noise has no entry
+  TakeSource source;                  ///< the source that was used for the take, and why
   CheckFigures figures;
-  std::vector<TrackHealth> tracks;      ///< J, or the markers that are positions
-  std::vector<SubjectHealth> subjects;  ///< of a take of several people; feet, lengths and size
-                                        ///< are checked for each person
-  std::vector<Finding> findings;        ///< worst first
+  std::vector<TrackHealth> tracks;  ///< J, or the markers that are positions
+  /// The people of a take of several people. Feet, lengths and size are checked for each person.
+  std::vector<SubjectHealth> subjects;
+  std::vector<Finding> findings;  ///< worst first
   std::vector<MarkerSwap> swaps;
   std::optional<RobotFindings> robot;
   std::vector<NamedGap> stale;  ///< frozen and bridged spans, by track, then frame, for a side
@@ -200,16 +203,16 @@ struct CheckReport {
 /// setting out of range.
 CheckReport check_take(const Take& take, const CheckSettings& settings = {});
 
-/// The findings that cleaning does not mend: the serious ones among gaps, swaps, frames and the
-/// unit, and all frozen and bridged spans. Leaves out the checks that take as long as cleaning.
-/// Ordered as `CheckReport::findings`. Errors: those of `check_take`.
+/// Returns the findings that cleaning does not repair: serious findings about gaps, swaps, frames
+/// and the unit, and all frozen and bridged spans. Leaves out the checks that take as long as
+/// cleaning. Sorted as `CheckReport::findings`. Errors: as for `check_take`.
 std::vector<Finding> find_beyond_cleaning(const Take& take);
 
-/// The spans in which two labels are exchanged, as far as the take itself proves it. At both ends,
-/// exchanging the labels makes both tracks continuous in position and velocity. Between the ends it
-/// restores the distances to the other markers. A swap may begin or end inside a gap of the two.
-/// After a single exchange no take can prove which side is wrong: the shorter one is reported. By
-/// frame.
+/// Returns the spans in which two labels are exchanged, as far as the take itself proves it, sorted
+/// by frame. At both ends, exchanging the labels makes both tracks continuous in position and
+/// velocity. Between the ends it restores the distances to the other markers. A swap may begin or
+/// end inside a gap of the two. After a single exchange no take can prove which side is wrong: the
+/// shorter one is reported.
 std::vector<MarkerSwap> find_swaps(const Take& clip);
 /// Exchanges the samples of each span between the two markers, in place: positions, `observed` and
 /// residuals. Spans that overlap are undone from the last to the first. Errors:

@@ -19,15 +19,15 @@
 
 namespace kinemend {
 
-/// The noise of a capture system, measured on another take of it.
+/// The noise of a capture system, measured on another take of the same system.
 struct KnownNoise {
   double correlation = 0;  ///< from one measurement to the next (0 to 0.99); 0: white
-  /// By name of joint or marker, per axis: degrees, or file units (> 0). The noise of all others is
-  /// measured.
+  /// Noise per axis by name of joint or marker: degrees, or file units (> 0). The noise of all
+  /// other tracks is measured.
   std::map<std::string, double> strengths;
 };
 
-/// What the user asks for besides the method.
+/// The user's settings besides the method.
 struct CleanSettings {
   /// 0..1: geodesic blend from the input (0) to the cleaned rotation (1). It scales smoothing and
   /// the correction of feet. Spikes are repaired and gaps are filled in full at any value above 0.
@@ -45,20 +45,20 @@ struct CleanSettings {
   /// Frames [first, last] that may change, counted from 0. The method sees the whole take; the
   /// result is blended in over 0.1 s at each end that is not an end of the take.
   std::optional<std::pair<std::size_t, std::size_t>> range;
-  /// The noise, for `auto` and the learned methods; not set: they measure it. Other methods ignore
-  /// it.
+  /// The noise, for `auto` and the learned methods; if it is not set, they measure it. Other
+  /// methods ignore it.
   std::optional<KnownNoise> noise;
-  /// What recorded the take, for `auto` and `learned`; `unknown`: what the file says (`source_of`).
-  /// Other methods ignore it.
+  /// The system that recorded the take, for `auto` and `learned`; `unknown`: the file decides
+  /// (`source_of`). Other methods ignore it.
   Source source = Source::unknown;
   double peak_loss_limit = 0.10;  ///< a larger loss of a peak speed is a warning (0..1)
   /// Fills gaps after the method has run, from the cleaned samples, without spikes that the method
-  /// left there; not set: gaps stay. Gaps outside the selection and the range stay. Its own list of
-  /// names must be empty.
+  /// left in them; if it is not set, gaps stay. Gaps outside the selection and the range stay. Its
+  /// own list of names must be empty.
   std::optional<FillSettings> fill;
-  /// Stops feet in contact from sliding, as the last step; not set: no. A leg keeps its slide
-  /// unless all its joints are selected. Contacts are given in frames of the whole take. Markers
-  /// are measured points and are not moved: a warning says so.
+  /// Stops feet in contact from sliding, as the last step; if it is not set, feet are not changed.
+  /// A leg keeps its slide unless all its joints are selected. Contacts are given in frames of the
+  /// whole take. Markers are measured points and are not moved; a warning says so.
   std::optional<FeetSettings> feet;
   /// Receives the current stage and its progress (0..1, never decreasing), from one thread at a
   /// time. Stages are "cleaning", then "filling" and "feet" if asked for; each runs once from 0 to
@@ -66,7 +66,7 @@ struct CleanSettings {
   std::function<void(std::string_view stage, double done)> progress;
 };
 
-/// What the tracks of a take are.
+/// Whether the tracks of a take are joints or markers.
 enum class TakeKind { joints, markers };
 
 /// A run of frames in which one thing was done to one joint or marker.
@@ -75,7 +75,7 @@ struct ReportSpan {
   std::size_t first_frame = 0;
   std::size_t last_frame = 0;  ///< inclusive
   Action action = Action::kept;
-  /// Degrees; file units for the root position and for markers, of which a filled one has none.
+  /// Degrees; file units for the root position and for markers. 0 for filled markers.
   double max_change = 0;
   double rms_change = 0;
 };
@@ -83,23 +83,25 @@ struct ReportSpan {
 /// One joint or marker over the whole take: degrees for joints, file units for markers.
 struct TrackSummary {
   std::string name;
-  bool is_position = true;  ///< false for a point that is an angle or a force: no count has it
-  /// Noise per axis before cleaning, measured as `auto` measures it, whatever the method; for takes
-  /// of fewer than 4 frames as white noise. 0 for tracks that may not change.
+  /// False for a point that is an angle or a force, which no count includes.
+  bool is_position = true;
+  /// Noise per axis before cleaning. It is measured as `auto` measures it, whatever the method; in
+  /// takes of fewer than 4 frames it is measured as white noise. 0 for tracks that may not change.
   double noise = 0;
-  /// Noise per axis that a model expects and takes out, also where it cannot be measured; 0: the
-  /// method has no such model or expects none.
+  /// Noise per axis that a model expects and removes, also where it cannot be measured; 0: the
+  /// method has no such model or expects no noise.
   double expected_noise = 0;
-  double left = 0;        ///< how far the result is expected to be off, per axis; 0: not said
-  double rms_change = 0;  ///< of a marker over the samples that were observed
+  double left = 0;        ///< expected error of the result per axis; 0: unknown
+  double rms_change = 0;  ///< for markers over observed samples only
   double max_change = 0;
   std::size_t frames_changed = 0;
   std::size_t frames_repaired = 0;  ///< despiked or filled
   std::size_t gaps_left = 0;        ///< markers only
-  std::size_t frames_missing = 0;   ///< in the gaps that are left; markers only
-  /// Largest speed in degrees or file units per second, without spikes and missing samples, as they
-  /// were before cleaning: the distance within `peak_frames` frames, the shortest time (one frame
-  /// to 50 ms) in which `noise` adds less than a tenth. The same for every method.
+  std::size_t frames_missing = 0;   ///< frames in these gaps; markers only
+  /// Largest speed in degrees or file units per second, without the samples that were spikes or
+  /// missing before cleaning: the distance within `peak_frames` frames, which is the shortest time
+  /// (one frame to 50 ms) in which `noise` adds less than a tenth. It does not depend on the
+  /// method.
   double peak_speed_before = 0;
   double peak_speed_after = 0;
   std::size_t peak_frames = 1;
@@ -109,24 +111,25 @@ struct TrackSummary {
 struct CleanReport {
   TakeKind kind = TakeKind::joints;
   std::string method;  ///< `Cleaner::name`
-  TakeSource source;   ///< what counted as the source of the take, and why
+  TakeSource source;   ///< the source that was used for the take, and why
   std::string unit;  ///< of the tracks: "deg" for joints; the file's for markers, empty if unknown
   std::size_t frames = 0;
   std::size_t calibration_frames = 0;  ///< at the start, left alone; joints only
   double frame_rate_hz = 0;
-  double body_height = 0;            ///< file units: what degrees were measured by; markers only
-  std::vector<TrackSummary> tracks;  ///< J or M, also points that are no positions
-  /// Measured before cleaning, the same for every method; then what the method's model expects of
-  /// a space without measured noise, or beside it (`is_expected`).
+  /// File units: the scale that converts marker distances to degrees; markers only.
+  double body_height = 0;
+  std::vector<TrackSummary> tracks;  ///< J or M, including points that are not positions
+  /// Noise measured before cleaning, the same for every method. Noise that the method's model
+  /// expects follows, where none was measured or in addition to it (`is_expected`).
   std::vector<NoiseCharacter> noise;
   double root_rms_change = 0;  ///< file units; joints only
   double root_max_change = 0;
-  std::vector<ReportSpan> spans;  ///< by track, then frame; without spans of `kept`
-  FillReport fill;                ///< of `CleanSettings::fill`
-  /// Of `CleanSettings::feet`, for joints. `before` is the take after the method, `after` the
-  /// result; `changed` and `root_changed` say what the step did before blending.
+  std::vector<ReportSpan> spans;  ///< sorted by track, then frame; spans of `kept` are left out
+  FillReport fill;                ///< result of `CleanSettings::fill`
+  /// Result of `CleanSettings::feet`, for joints. `before` is the take after the method, `after`
+  /// the result; `changed` and `root_changed` mark the changes of this step before blending.
   std::optional<FeetReport> feet;
-  std::vector<FallBack> fall_backs;  ///< of the method
+  std::vector<FallBack> fall_backs;  ///< fall-backs of the method
   std::vector<std::string> notes;    ///< `CleanTrace::notes`
   std::vector<std::string> warnings;
   double seconds = 0;  ///< time the cleaning took
@@ -141,7 +144,7 @@ struct CleanResult {
 /// filling), holds feet if asked, blends by strength, range and largest change, and reports.
 /// Samples outside the selection and samples whose change is below rounding keep their exact value.
 /// Joints: calibration frames are set aside; joints without rotation channels keep their exact
-/// value; joints with one or two get rotations that these channels can hold.
+/// value; joints with one or two get rotations that these channels can express.
 /// Markers: missing samples that are not filled stay missing; points that are angles or forces keep
 /// their exact value; residuals are kept, and are 0 for filled samples; `max_change_deg` and
 /// `root_position` are ignored.
@@ -149,7 +152,7 @@ struct CleanResult {
 /// markers with a method that works on joints only.
 CleanResult clean_take(const Take& take, const Cleaner& cleaner,
                        const CleanSettings& settings = {});
-/// The same, but consumes the take; halves peak memory for long takes.
+/// Consumes the take; halves peak memory for long takes.
 CleanResult clean_take(Take&& take, const Cleaner& cleaner, const CleanSettings& settings = {});
 
 }  // namespace kinemend

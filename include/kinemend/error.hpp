@@ -9,17 +9,18 @@
 
 namespace kinemend {
 
-/// What went wrong, as a program's exit code sees it.
+/// The kind of an error; its value is the exit code of a program.
 enum class ErrorKind {
-  quality_limit = 1,     ///< a quality limit was passed, or a repair was needed under `strict`
+  quality_limit = 1,     ///< a quality limit was exceeded, or a repair was needed under `strict`
   usage = 2,             ///< an option, name or argument that makes no sense
-  unreadable_input = 3,  ///< a file that cannot be opened or does not hold what its format demands
-  cannot_write = 4,      ///< an output that cannot be made, or that exists and may not be replaced
+  unreadable_input = 3,  ///< a file that cannot be opened or violates its format
+  cannot_write = 4,  ///< an output that cannot be written, or that exists and may not be replaced
 };
 
 /// The one exception of the library. `what()` is a whole line for the user:
-/// `walk.bvh:212: expected 63 channel values, found 62`. What it quotes from files and command
-/// lines is escaped and bounded (`printable`), so that it can go to a terminal, a log or a page.
+/// `walk.bvh:212: expected 63 channel values, found 62`. Text quoted from files and command lines
+/// is escaped and bounded (`printable`), so that the line can be shown on a terminal, in a log or
+/// on a page.
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& message);
@@ -39,20 +40,20 @@ class Error : public std::runtime_error {
 struct Diagnostic {
   std::string name;     ///< stable, for programs: `frame_count_mismatch`
   std::string message;  ///< for people, of the first occurrence
-  std::size_t first_line =
-      0;  ///< line (from 1) or byte offset of the first occurrence; 0 is unknown
+  /// Line (from 1) or byte offset of the first occurrence; 0: unknown.
+  std::size_t first_line = 0;
   std::size_t count = 0;
 };
 
-/// What a reader repaired, in order of first occurrence.
+/// The repairs that a reader made, in order of first occurrence.
 class Diagnostics {
  public:
-  /// The message is escaped and bounded as that of an `Error` is.
+  /// Escapes and bounds the message as `Error` does.
   void add(std::string_view name, std::string_view message, std::size_t line = 0);
 
   const std::vector<Diagnostic>& entries() const noexcept { return entries_; }
   bool empty() const noexcept { return entries_.empty(); }
-  /// Occurrences of the repair called `name`; 0 when there was none.
+  /// Number of occurrences of the repair called `name`.
   std::size_t count(std::string_view name) const noexcept;
 
  private:

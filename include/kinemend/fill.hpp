@@ -1,4 +1,4 @@
-// Fills gaps from the take itself and, where one is given, by a trained model.
+// Fills gaps from the take itself and, if one is given, with a trained model.
 #pragma once
 
 #include <cstddef>
@@ -15,51 +15,52 @@
 
 namespace kinemend {
 
-/// How a trained model fills the gaps of a take of joints.
+/// The result of a trained model that fills the gaps of a take of joints.
 struct LearnedFilling {
   std::vector<Quat> rotations;  ///< F x J, local; entries for observed samples are ignored
-  std::vector<std::string>
-      left_out;  ///< J: why the model does not fill gaps of the joint; empty: it does
-  /// What the model makes of observed samples stands among `rotations`, too: its fillings do not
-  /// meet the ends of their gaps yet, and are moved to.
+  /// J: why the model does not fill the gaps of a joint; empty: it does.
+  std::vector<std::string> left_out;
+  /// `rotations` also holds the model's estimates of observed samples. The fillings do not meet the
+  /// ends of their gaps yet; they are moved to meet them.
   bool is_guess = false;
 };
-/// Such a model. It gets a take without its calibration pose and is called from several threads at
-/// once.
+/// Runs such a model. The take has no calibration pose. Called from several threads at once.
 using LearnedFill = std::function<LearnedFilling(const Take& clip)>;
 
-/// The models of the learned methods, by the method's name; an empty one is not there.
+/// The models of the learned methods, by the method's name; empty: the model is not available.
 struct FillModels {
-  LearnedFill recurrent = {};  ///< `make_recurrent_fill` (kinemend/methods.hpp) makes it
-  LearnedFill learned = {};    ///< `make_learned_fill` makes it
+  LearnedFill recurrent = {};  ///< made by `make_recurrent_fill` (kinemend/methods.hpp)
+  LearnedFill learned = {};    ///< made by `make_learned_fill`
 };
 
 struct FillSettings {
   std::string method = "auto";     ///< an entry of `fill_methods()`
   std::vector<std::string> names;  ///< joints or markers, or shell patterns; empty: all
-  std::string donor;               ///< of `pattern`: the marker whose movement is copied
-  double longest_gap_s = 0;        ///< longer gaps are refused; 0: what the method's rules say
-  bool fill_all = false;           ///< also where the rules refuse: the best guess there is
-  /// Gaps whose expected error is above this, or not known, are refused: of positions in file
-  /// units, of rotations in degrees; 0: no limit. Not together with `fill_all`.
+  std::string donor;               ///< for `pattern`: the marker whose movement is copied
+  double longest_gap_s = 0;        ///< longer gaps are refused; 0: the method's rules decide
+  bool fill_all = false;           ///< fill gaps that the rules refuse with the best guess
+  /// Gaps whose expected error is above this, or not known, are refused: `max_error` for positions
+  /// in file units, `max_error_deg` for rotations; 0: no limit. Cannot be combined with `fill_all`.
   double max_error = 0, max_error_deg = 0;
-  /// Markers whose name is a number that the capture system gave (`*52`, `U_12`) are filled, and
-  /// used as evidence for others. They change from one marker to another within a take.
+  /// Fills markers whose name is a number given by the capture system (`*52`, `U_12`), and uses
+  /// them as evidence for other markers. Such a name changes from one marker to another within a
+  /// take.
   bool unlabelled = false;
-  /// First and last frame, from 0: gaps that do not lie within stay, and are not listed.
+  /// First and last frame, counted from 0: gaps that are not completely inside stay and are not
+  /// listed.
   std::optional<std::pair<std::size_t, std::size_t>> range;
-  FillModels models = {};  ///< a learned method needs its own
+  FillModels models = {};  ///< a learned method needs its model
 };
 
-/// What became of one gap.
+/// The result for one gap.
 struct GapOutcome {
   Gap gap;
-  std::string method;  ///< that filled it, or was tried last
+  std::string method;  ///< the method that filled it, or that was tried last
   bool filled = false;
   std::string reason;  ///< why it was refused; empty where filled
-  double expected_error =
-      0;  ///< file units (degrees for rotations) as the method judged; 0: unknown
-  bool is_position = false;  ///< of a joint's position, not of its rotation
+  /// The method's estimate in file units (degrees for rotations); 0: unknown.
+  double expected_error = 0;
+  bool is_position = false;  ///< a gap of a joint's position, not of its rotation
 };
 
 struct FillReport {
@@ -71,7 +72,7 @@ struct FillReport {
   std::size_t refused() const;
 };
 
-/// A way to fill, for help texts.
+/// A fill method, for help texts.
 struct FillMethod {
   std::string_view name;     ///< "rigid-body"
   std::string_view summary;  ///< one line
@@ -79,10 +80,10 @@ struct FillMethod {
   std::string_view rules;  ///< which gaps it accepts, in words
   bool markers = false;
   bool joints = false;
-  bool learned = false;  ///< needs a model, and leaves to `auto` what that does not know
+  bool learned = false;  ///< needs a model; `auto` fills the tracks that the model does not know
 };
 
-/// `auto` first.
+/// All fill methods, `auto` first.
 std::span<const FillMethod> fill_methods();
 
 /// Fills the missing samples in place: a filled sample is observed, and its residual is 0. A filled
@@ -90,7 +91,7 @@ std::span<const FillMethod> fill_methods();
 /// Gaps that the method's rules refuse stay missing and are listed. Gaps that a model cannot fill
 /// are filled by `auto` under its own rules, with a warning. Errors: `ErrorKind::usage` for an
 /// unknown method, name or donor, and for a learned method without its model. A joint with one or
-/// two rotation channels gets rotations that these can hold.
+/// two rotation channels gets rotations that these channels can express.
 FillReport fill_gaps(Take& clip, const FillSettings& settings = {});
 
 }  // namespace kinemend

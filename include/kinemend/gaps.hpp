@@ -14,8 +14,8 @@ namespace kinemend {
 
 /// A run of consecutive missing samples of one joint or marker.
 struct Gap {
-  std::size_t track = 0;  ///< joint or marker; for positions of joints 0 is joint 0 and k + 1 is
-                          ///< translated joint k
+  /// Joint or marker; for positions of joints 0 is joint 0 and k + 1 is translated joint k.
+  std::size_t track = 0;
   std::size_t first_frame = 0;
   std::size_t last_frame = 0;  ///< inclusive
 
@@ -23,15 +23,15 @@ struct Gap {
   friend bool operator==(const Gap&, const Gap&) = default;
 };
 
-/// The runs of samples that are not observed, by track, then frame. Points of a marker clip that
-/// are not positions have no gaps.
+/// Returns the runs of samples that are not observed, sorted by track, then frame. Points of a
+/// marker clip that are not positions have no gaps.
 std::vector<Gap> find_gaps(const Take& take);
-/// The same for `Take::observed_positions`.
+/// Returns the gaps of `Take::observed_positions`.
 std::vector<Gap> find_position_gaps(const Take& clip);
 
 /// A gap as a side file states it, for formats that cannot store gaps.
 struct NamedGap {
-  std::string name;  ///< of a joint or marker, or a shell pattern (`*` matches all)
+  std::string name;  ///< a joint or marker, or a shell pattern (`*` matches all)
   std::size_t first_frame = 0;
   std::size_t last_frame = 0;  ///< inclusive, counted from 0
 };
@@ -41,14 +41,13 @@ struct NamedGap {
 /// `ErrorKind::usage` for a name or a frame that the take does not have.
 void mark_gaps(Take& take, std::span<const NamedGap> gaps);
 
-/// Reads a side file: lines `name,first,last`, where a frame has the number that its take gives it
-/// and the last frame is inclusive. `first_frame` is the number of the take's first frame
-/// (`first_frame_number(clip)`). A heading line, `#` comments, blank lines and quoted names are
-/// allowed. `name` appears in messages. Errors: `unreadable_input` with the line, also for a number
-/// below `first_frame`.
+/// Reads a side file: lines `name,first,last`, in the frame numbers of the take, last frame
+/// inclusive. `first_frame` is the number of the take's first frame (`first_frame_number(clip)`). A
+/// heading line, `#` comments, blank lines and quoted names are allowed. `name` appears in
+/// messages. Errors: `unreadable_input` with the line, also for a number below `first_frame`.
 std::vector<NamedGap> parse_gaps(std::string_view text, std::string_view name,
                                  std::int64_t first_frame);
-/// The text of such a side file.
+/// Returns the text of such a side file.
 std::string gaps_text(std::span<const NamedGap> gaps, std::int64_t first_frame);
 
 }  // namespace kinemend

@@ -20,17 +20,18 @@ struct ReadOptions {
   bool strict = false;          ///< every repair is an error of kind `quality_limit`
   std::size_t max_depth = 512;  ///< deeper nesting of joints is an error
   /// The ASF file of an AMC file. Empty: the ASF that the AMC file names, else one of the same stem
-  /// beside it, else that of the subject (`35.asf` for `35_01.amc`), else the only one there.
+  /// beside it, else the ASF of the subject (`35.asf` for `35_01.amc`), else the only ASF in the
+  /// folder.
   std::filesystem::path skeleton;
-  /// Frame rate in hertz, 0.1 to 100,000, for a file that states none (AMC, CSV without times) or
-  /// an unusable one; 0: the usual rate of the format (120 for AMC), with a diagnostic
+  /// Frame rate in hertz, 0.1 to 100,000, for a file that states no rate (AMC, CSV without times)
+  /// or an unusable one; 0: the usual rate of the format (120 for AMC), with a diagnostic
   /// `frame_rate_assumed`. A file that states a usable rate keeps it.
   double frame_rate_hz = 0;
-  /// Called with the share of the file that is read (0 to 1). Readers of small formats never call
-  /// it.
+  /// Called with the share of the file that has been read (0 to 1). Readers of small formats never
+  /// call it.
   std::function<void(double done)> progress;
-  /// The take of a file that holds several (FBX, glTF), by its name; one without a name is called
-  /// `#2`, by its place. Empty: the active one, else the first that moves a joint. Errors: `usage`
+  /// Name of the take to read from a file that holds several (FBX, glTF); `#2` is the second take
+  /// if it has no name. Empty: the active take, else the first that moves a joint. Errors: `usage`
   /// for a name that the file does not have.
   std::string animation;
 };
@@ -42,34 +43,34 @@ struct TakeResult {
 
 /// Reads a take of any format. The content decides the format; a file whose extension belongs to
 /// another format gets the diagnostic `extension_mismatch`. A value that is not finite (nan, inf)
-/// is missing: a marker has no position there; a joint holds the value of the frame before, else of
-/// the next, and is not `observed`. A text file that ends in the middle of a line is read up to
-/// there (`file_cut`). The page of each format in docs/formats lists its repairs, each a named
-/// diagnostic. Errors: `ErrorKind::unreadable_input` with the name of the file and the line or
-/// byte, also for a file that would need far more memory than it has bytes; `usage` for an unknown
-/// format; `quality_limit` for a repair when `strict`.
+/// is missing: a marker has no position in that frame; a joint holds the value of the frame before,
+/// else of the next, and is not `observed`. A text file that ends in the middle of a line is read
+/// up to that line (`file_cut`). The page of each format in docs/formats lists its repairs, each a
+/// named diagnostic. Errors: `ErrorKind::unreadable_input` with the name of the file and the line
+/// or byte, also for a file that would need far more memory than it has bytes; `usage` for an
+/// unknown format; `quality_limit` for a repair when `strict`.
 TakeResult read_take(const std::filesystem::path& path, const ReadOptions& options = {});
-/// The same from memory. `name` appears in messages and helps to find the format and the files
+/// Reads a take from memory. `name` appears in messages and helps to find the format and the files
 /// beside it. The source document of the take keeps the bytes (moved, not copied).
 TakeResult read_take(std::string bytes, std::string_view name, const ReadOptions& options = {});
 /// `read_take` for joints only. Errors: also `usage` for a file of markers.
 TakeResult read_joints(const std::filesystem::path& path, const ReadOptions& options = {});
 TakeResult read_joints(std::string bytes, std::string_view name, const ReadOptions& options = {});
 
-/// The bytes of a file in `format`; empty: the format that the take was read from, else BVH for
-/// joints and C3D for markers. In the clip's own format the layout of the source is kept, and every
-/// unchanged sample keeps its digits: an unchanged clip is written byte for byte. The exception is
-/// a value that was not finite: the value that replaced it is written, because no output holds a
-/// number that is not finite. A changed rotation is written in the rotation order of its joint and
-/// continues the angles of the frame before. A joint with fewer than three channels gets the
-/// nearest rotation that they can express. A clip with other frames than its source keeps the text
-/// of the hierarchy. A clip with another skeleton, or made in memory, gets a plain layout. Errors:
-/// `usage` when the format cannot hold the clip. Markers: a missing sample is written in the way of
-/// the format, and points that are not positions are written to C3D only.
+/// Returns the bytes of a file in `format`; empty: the format that the take was read from, else BVH
+/// for joints and C3D for markers. In the clip's own format the layout of the source is kept, and
+/// every unchanged sample keeps its digits: an unchanged clip is written byte for byte. The
+/// exception is a value that was not finite: the value that replaced it is written, because no
+/// output holds a number that is not finite. A changed rotation is written in the rotation order of
+/// its joint and continues the angles of the frame before. A joint with fewer than three channels
+/// gets the nearest rotation that its channels can express. A clip whose frames differ from its
+/// source's keeps the text of the hierarchy. A clip with another skeleton, or made in memory, gets
+/// a plain layout. Errors: `usage` when the format cannot hold the clip. Markers: a missing sample
+/// is written as the format defines it, and points that are not positions are written to C3D only.
 std::string write_take(const Take& take, std::string_view format = {});
-/// What is lost when `write_take` writes the take in `format`: analog samples, force plates,
-/// events, subjects, parameters, rotations. Empty where nothing is lost. Names are stable
-/// (`not_kept`). Errors: `usage` for an unknown format.
+/// Lists the data that `write_take` loses when it writes the take in `format`: analog samples,
+/// force plates, events, subjects, parameters, rotations. Empty if nothing is lost. Names are
+/// stable (`not_kept`). Errors: `usage` for an unknown format.
 Diagnostics lost_in_writing(const Take& take, std::string_view format);
 
 /// A file that another file needs in the same folder.
@@ -77,10 +78,10 @@ struct SideFile {
   std::filesystem::path path;
   std::string bytes;
 };
-/// The file that `bytes`, the take as written in `format`, needs in the folder of `output` to be
-/// read again: the skeleton of an AMC file. It has the name of the source's skeleton where a reader
-/// would look for that name, else the name of the take. Empty for other formats, and where a reader
-/// already finds the same skeleton.
+/// Returns the file that a reader of `output` needs beside it: the skeleton of an AMC file. `bytes`
+/// is the take as written in `format`. The file is named after the source's skeleton if a reader
+/// looks for that name, else after the take. Empty for other formats, and if a reader already finds
+/// the same skeleton.
 std::optional<SideFile> side_file(const Take& take, std::string_view bytes, std::string_view format,
                                   const std::filesystem::path& output);
 
@@ -89,19 +90,19 @@ struct TakeFiles {
   std::string bytes;
   std::vector<SideFile> beside;
 };
-/// `write_take` and `side_file` at once, for an output whose place is known. A glTF text whose
-/// buffers stand beside it writes a changed buffer there as well, under the name of the output:
-/// `walk.gltf` and `walk.bin`. In another folder than the source's it brings the files along that
-/// it names.
+/// Combines `write_take` and `side_file` for an output whose path is known. If the buffers of a
+/// glTF text are separate files, a changed buffer is also a separate file, named after the output:
+/// `walk.gltf` and `walk.bin`. If the output is not in the source's folder, the files that the glTF
+/// text names are included.
 TakeFiles files_of_take(const Take& take, std::string_view format,
                         const std::filesystem::path& output);
 
 /// Writes `bytes` to a temporary file beside `path`, flushes it to the disk and renames it, so that
-/// `path` always holds either its old content or all of the new. A replaced file keeps its
+/// `path` always holds either its old content or all of the new content. A replaced file keeps its
 /// permissions. Symlinks are followed, not replaced. Devices and pipes are written directly; "-" is
 /// standard output. Errors: `cannot_write`, also when the file exists and `overwrite` is false.
 void write_file(const std::filesystem::path& path, std::string_view bytes, bool overwrite);
-/// The bytes of a file, or of standard input for "-". Errors: `unreadable_input`.
+/// Returns the bytes of a file, or of standard input for "-". Errors: `unreadable_input`.
 std::string read_file(const std::filesystem::path& path);
 
 /// One file format, for help texts and detection.
@@ -114,14 +115,14 @@ struct Format {
   /// nullptr for a format that is only written.
   TakeResult (*read)(std::string bytes, std::string_view name, const ReadOptions& options);
   std::string (*write)(const Take& clip);          ///< nullptr for a format without joints
-  std::string (*write_markers)(const Take& clip);  ///< nullptr for one without markers
+  std::string (*write_markers)(const Take& clip);  ///< nullptr for a format without markers
 };
 
 std::span<const Format> formats();
-/// The format of a file by its extension alone; nullptr for an unknown extension.
+/// Finds the format of a file by its extension alone; nullptr for an unknown extension.
 const Format* format_of_path(const std::filesystem::path& path);
-/// The format of a file by its first bytes (`head`, at most 4096); nullptr when no format claims
-/// it.
+/// Finds the format of a file by its first bytes (`head`, at most 4096); nullptr if no format
+/// matches.
 const Format* format_of_content(std::string_view head);
 
 }  // namespace kinemend

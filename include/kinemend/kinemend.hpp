@@ -1,4 +1,4 @@
-// The stable surface in one header: read, clean, fill, check, compare, report, stream and write
+// The whole stable API in one header: read, clean, fill, check, compare, report, stream and write
 // takes.
 #pragma once
 

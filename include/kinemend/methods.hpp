@@ -42,7 +42,7 @@ std::unique_ptr<Cleaner> make_median(const MedianOptions& options = {});
 struct HampelOptions {
   double window_s = 0.10;    ///< length of the whole window
   double threshold = 5;      ///< in robust standard deviations per axis
-  double minimum_deg = 1.0;  ///< smallest distance from the median that counts as a spike
+  double minimum_deg = 1.0;  ///< smallest distance from the median of a spike
 };
 std::unique_ptr<Cleaner> make_hampel(const HampelOptions& options = {});
 
@@ -105,36 +105,36 @@ struct NonlocalOptions {
 std::unique_ptr<Cleaner> make_nonlocal(const NonlocalOptions& options = {});
 
 /// Measures the noise of each joint or marker, repairs spikes, smooths by the measured noise, and
-/// leaves clean takes unchanged. Of a take that is keyframed (`TakeView::source`) only gaps change.
-/// The default of the program is `learned`.
+/// leaves clean takes unchanged. In a keyframed take (`TakeView::source`) only gaps change. The
+/// default method of the program is `learned`.
 struct AutoOptions {
   double sensitivity = 1;  ///< factor on the estimated noise: above 1 smooths more, below 1 less
   bool despike = true;
 };
 std::unique_ptr<Cleaner> make_auto(const AutoOptions& options = {});
 
-// Methods with a learned model. `model` is the path of a model file; empty: the model that ships.
+// Methods with a learned model. `model` is the path of a model file; empty: the shipped model.
 // `map` is the path of a file that maps names (`parse_name_map`); empty: joints are matched by name
-// and topology. A model that is passed to the function replaces the path. Errors, beside values out
-// of range: those of `model_for` and `parse_name_map`; of `clean`: `ErrorKind::usage` for a body
-// that the model does not know. Parts that the model does not know are cleaned by `auto`. Gaps of
-// parts that it knows are filled with `fill`, those of markers that are never seen included.
+// and topology. A model that is passed to the function replaces the path. Errors, besides values
+// out of range: as for `model_for` and `parse_name_map`; `clean` throws `ErrorKind::usage` for a
+// body that the model does not know. Parts that the model does not know are cleaned by `auto`. With
+// `fill`, gaps of parts that it knows are filled, including markers that are never seen.
 
 /// Example-based denoising (Lou & Chai 2010): keeps the motion that the model's filter bases can
 /// express (eq. 11 and 16).
 struct ExampleOptions {
   std::string model;
   std::string map;
-  /// quick; or paper: its alternation (eq. 13 to 15) from what was measured, with its p = 3 and
-  /// lambda = 0.1 where these are 0, and nothing after it.
+  /// quick; or paper: the alternation of the paper (eq. 13 to 15), started from the measured data,
+  /// with p = 3 and lambda = 0.1 if these options are 0, and without later steps.
   std::string solver = "quick";
-  bool robust = true;              ///< off: the linear filter of eq. 7
-  double welsch_deg = 0;           ///< p of eq. 9 (the paper: 3); 0: from the estimated noise
-  double lambda = 0;               ///< of eq. 10 (the paper: 0.1); 0: from the noise and the model
-  std::int64_t bases = 0;          ///< number of filter bases; 0: all of the model
-  std::int64_t iterations = 1000;  ///< at most
-  /// Stop where an iteration gains less than this share of the objective; with gaps, which weigh
-  /// little in it and settle last, less than a thousandth of that.
+  bool robust = true;      ///< off: the linear filter of eq. 7
+  double welsch_deg = 0;   ///< p of eq. 9 (the paper: 3); 0: from the estimated noise
+  double lambda = 0;       ///< lambda of eq. 10 (the paper: 0.1); 0: from the noise and the model
+  std::int64_t bases = 0;  ///< number of filter bases; 0: all bases of the model
+  std::int64_t iterations = 1000;  ///< maximum number of iterations
+  /// Stops when an iteration gains less than this share of the objective. With gaps, which have
+  /// little weight in it and converge last, the limit is a thousandth of this.
   double tolerance = 1e-2;
   bool fill = true;
 };
@@ -142,8 +142,8 @@ std::unique_ptr<Cleaner> make_example(const ExampleOptions& options = {},
                                       std::shared_ptr<const Model> model = nullptr);
 
 /// Posterior mean under a mixture of Gaussians over windows of half a second, in a temporal DCT:
-/// each window is explained by the kinds of motion that its evidence speaks for, or by nothing but
-/// smoothness.
+/// each window is explained by the kinds of motion that its samples support, or by smoothness
+/// alone.
 struct WienerOptions {
   std::string model;
   std::string map;
@@ -161,7 +161,8 @@ struct SparseOptions {
   std::string model;
   std::string map;
   std::string loss = "mixed";  ///< mixed, l2 (eq. 4) or l1 (eq. 5)
-  /// Of eq. 4 and 5, relative to the largest correlation that noise alone has with the atoms.
+  /// Lambda of eq. 4 and 5, relative to the largest correlation that noise alone has with the
+  /// atoms.
   double lambda = 0.1;
   std::int64_t hops = 4;  ///< number of overlapping windows that are averaged in each frame
   /// quick: adds the motion of markers that the atoms cannot express, smoothed, and takes the
@@ -172,66 +173,68 @@ struct SparseOptions {
 std::unique_ptr<Cleaner> make_sparse(const SparseOptions& options = {},
                                      std::shared_ptr<const Model> model = nullptr);
 
-/// A neural network predicts a filter for each joint and frame (Mall et al. 2017). It is not told
-/// the noise. The root, and takes at another rate than the network's, are cleaned by `auto`. Errors
-/// of `clean`, beside those above: a take of markers. Errors: `ErrorKind::usage` for a model that
-/// fills gaps, for a gap model together with `live`, and for a gap model of another body.
+/// A neural network predicts a filter for each joint and frame (Mall et al. 2017). It does not use
+/// the noise level. The root, and takes at another rate than the network's, are cleaned by `auto`.
+/// `clean` also throws for a take of markers. Errors: `ErrorKind::usage` for a model that fills
+/// gaps, for a gap model together with `live`, and for a gap model of another body.
 struct RecurrentOptions {
   std::string model{};
   std::string map{};
   bool fill = true;
-  /// A file of a network that fills gaps (EBD), beside a `model` that filters (EBF): the gaps that
-  /// the filter sees are filled by it, as in the paper. Empty: by the lines that `auto` lays.
+  /// A file of a network that fills gaps (EBD), in addition to a `model` that filters (EBF): it
+  /// fills the gaps in the filter's input, as in the paper. Empty: these gaps are filled with the
+  /// lines of `auto`.
   std::string gap_model{};
-  /// The form of a filter network that runs live: what a frame becomes depends on the past and on
-  /// 15 frames ahead. Only joints that the model knows change; `auto` has no part in it, and gaps
-  /// are held, or bridged where they end within those frames.
+  /// The form of a filter network that runs live: a frame depends on the past and on 15 frames
+  /// ahead. Only joints that the model knows change; `auto` is not used. Gaps hold the last value,
+  /// or are bridged if they end within those frames.
   bool live = false;
 };
-/// `gap_model` takes the place of its option.
+/// Makes the cleaner. `gap_model` replaces the option of that name.
 std::unique_ptr<Cleaner> make_recurrent(const RecurrentOptions& options = {},
                                         std::shared_ptr<const Model> model = nullptr,
                                         std::shared_ptr<const Model> gap_model = nullptr);
 
-/// A network that has seen much clean motion, damaged in every way that systems and pipelines
-/// damage it, and takes that two systems saw: it mixes smoothers of all widths per channel and
-/// moment, and corrects what the body tells. Any skeleton, and markers; it knows bodies better
-/// whose joints it recognises. Takes that are shorter than half a second, or slower than 20 Hz, are
-/// cleaned by `auto`. The source of the take (`TakeView::source`) decides what becomes of slow
-/// noise that the take does not show: of video, depth cameras and suits all is taken out that the
-/// network expects to be wrong. Otherwise, within half a second, no more changes than twice what
-/// the quieter quarter of the take shows, or than the measured noise asks for, so that clean motion
-/// stays. Errors: `ErrorKind::usage` for a model of another method.
+/// A network trained on clean motion with the damage that systems and pipelines cause, and on takes
+/// recorded by two systems at once. For each channel and moment it mixes smoothers of all widths,
+/// and it adds a correction based on the whole body. It works on any skeleton and on markers, and
+/// is more accurate if it recognises the joints. Takes shorter than half a second, or slower than
+/// 20 Hz, are cleaned by `auto`. The source of the take (`TakeView::source`) decides how slow noise
+/// that the take does not show is treated: for video, depth cameras and suits, all error that the
+/// network expects is removed. For other sources, the change within half a second is limited to
+/// twice the level of the quieter quarter of the take, or to the measured noise, so that clean
+/// motion is kept. Errors: `ErrorKind::usage` for a model of another method.
 struct LearnedOptions {
-  std::string model{};  ///< a file made by `kinemend-train learned`; empty: what ships
+  std::string model{};  ///< a file made by `kinemend-train learned`; empty: the shipped model
   std::string map{};    ///< file that maps names in the take to names in the model
-  /// Frame by frame, 0.117 s behind (at most 14 frames up to 390 Hz): no rules of spikes, no noise
-  /// that is measured first. A take is then cleaned as a stream of its frames would be.
+  /// Cleans frame by frame with a delay of 0.117 s (at most 14 frames up to 390 Hz), without spike
+  /// rules and without measuring the noise first. A take is then cleaned like a stream of its
+  /// frames.
   bool live = false;
 };
 std::unique_ptr<Cleaner> make_learned(const LearnedOptions& options = {},
                                       std::shared_ptr<const Model> model = nullptr);
 
-/// The way to fill gaps of joints by a network of Mall et al. 2017 (their EBD), for
-/// `FillModels::recurrent`. None ships: `kinemend-train paper --network ebd --head pose` makes
-/// one. The root, joints that the model does not know, joints that turn farther from its mean than
-/// rotation vectors can say, and takes at another rate than the model's are left out. Errors:
-/// `ErrorKind::usage` for a model that fills no gaps, and, of a call, for a take with too few of
-/// the model's joints; of files that cannot be read, theirs.
+/// Fills gaps of joints with a network of Mall et al. 2017 (their EBD), for
+/// `FillModels::recurrent`. No model ships; `kinemend-train paper --network ebd --head pose` makes
+/// one. It leaves out the root, joints that the model does not know, joints that turn farther from
+/// the model's mean than rotation vectors can express, and takes at another rate than the model's.
+/// Errors: `ErrorKind::usage` for a model that does not fill gaps, and the errors of reading the
+/// files; the result throws `ErrorKind::usage` for a take with too few of the model's joints.
 struct RecurrentFillOptions {
   std::string model;  ///< a file; empty: `model`
-  std::string map;    ///< a file of names in the take for those of the model, or empty
+  std::string map;    ///< a file that maps names in the take to names in the model, or empty
 };
 LearnedFill make_recurrent_fill(const RecurrentFillOptions& options,
                                 std::shared_ptr<const Model> model = nullptr);
 
-/// The same by the network of `make_learned`, for `FillModels::learned`. It fills rotations of any
-/// skeleton. Takes that are shorter than half a second, or slower than 20 Hz, are left out.
+/// Fills gaps of joints with the network of `make_learned`, for `FillModels::learned`. It fills
+/// rotations of any skeleton. Takes shorter than half a second, or slower than 20 Hz, are left out.
 LearnedFill make_learned_fill(const LearnedOptions& options = {},
                               std::shared_ptr<const Model> model = nullptr);
 
 /// Kalman filter or smoother with system matrices learned from clips (Lou & Chai 2010, section
-/// 4.2). No model ships.
+/// 4.2). No model ships with the program.
 struct KalmanLearnedOptions {
   std::string model;
   std::string map;

@@ -14,9 +14,9 @@
 namespace kinemend {
 
 // A figure compares `other` with `reference`, from `first_frame` on: pass
-// `leading_calibration_frames(reference)` to leave a calibration pose out. Both clips have the same
-// joints (number and names) and the same number of frames, and `first_frame` lies inside; otherwise
-// `ErrorKind::usage`. Where both are the same the figure is 0.
+// `leading_calibration_frames(reference)` to leave a calibration pose out. Both clips must have the
+// same joints (number and names) and the same number of frames, and `first_frame` must be one of
+// them; otherwise the function throws `ErrorKind::usage`. The figure of two equal clips is 0.
 
 /// Mean and standard deviation (divided by n, as in NumPy) over frames.
 struct MeanAndDeviation {
@@ -26,27 +26,28 @@ struct MeanAndDeviation {
 
 /// Mall et al. 2017: per frame the root mean square, over joint-angle channels, of the wrapped
 /// difference in degrees; averaged over frames. The channels are the Euler angles of each joint's
-/// own rotation channels in the reference; those that move in the reference (by more than 0.001
-/// degrees in all) count, roots are left out. The other clip's angles are those nearest to the
-/// reference's in the same frame, so that no branch or whole turn is mistaken for a difference.
-/// Over a set of clips the figure is the mean of the clips' figures. 0 when no channel moves.
+/// own rotation channels in the reference; only channels that move in the reference (by more than
+/// 0.001 degrees in all) are included, and roots are left out. The other clip's angles are the ones
+/// nearest to the reference's in the same frame, so that no branch or whole turn is mistaken for a
+/// difference. Over a set of clips the figure is the mean of the clips' figures. 0 when no channel
+/// moves.
 double rms_deg(const Take& reference, const Take& other, std::size_t first_frame = 0);
-/// The figure of each frame from `first_frame` on, whose mean is `rms_deg`.
+/// Returns the figure of each frame from `first_frame` on; their mean is `rms_deg`.
 std::vector<double> rms_deg_per_frame(const Take& reference, const Take& other,
                                       std::size_t first_frame = 0);
 
 /// Root mean square, over all joints and frames, of the angle between local rotations, in degrees.
 double geodesic_rms_deg(const Take& reference, const Take& other, std::size_t first_frame = 0);
-/// The same joint by joint, J values.
+/// `geodesic_rms_deg` of each joint, J values.
 std::vector<double> geodesic_rms_deg_per_joint(const Take& reference, const Take& other,
                                                std::size_t first_frame = 0);
-/// A percentile (0 to 100, linear interpolation between order statistics as in NumPy) of the same
-/// angles, degrees.
+/// A percentile (0 to 100, linear interpolation between order statistics as in NumPy) of the angles
+/// between local rotations, in degrees.
 double geodesic_percentile_deg(const Take& reference, const Take& other, double percentile = 99,
                                std::size_t first_frame = 0);
 
-/// Mean distance of joint positions (end sites left out), in file units times `scale`: pass the
-/// centimetres a file unit has for centimetres.
+/// Mean distance of joint positions (end sites left out), in file units times `scale`: for a result
+/// in centimetres pass the centimetres in a file unit.
 double mpjpe(const Take& reference, const Take& other, std::size_t first_frame = 0,
              double scale = 1.0);
 
@@ -57,8 +58,8 @@ double accel_error(const Take& reference, const Take& other, std::size_t first_f
 
 /// Dean 2016: 10 log10(peak^2 / MSE), the mean squared error taken over frames, joints and the
 /// three channels of the logarithm of the quaternion (half the rotation vector) of reference^-1
-/// other, radians. He does not state his peak. Default pi / 2: the largest value that a channel of
-/// that logarithm takes. Infinity when the clips are the same.
+/// other, radians. The paper does not state its peak. Default pi / 2: the largest value that a
+/// channel of that logarithm takes. Infinity when the clips are the same.
 double psnr_db(const Take& reference, const Take& other, std::size_t first_frame = 0,
                double peak = pi / 2);
 
@@ -66,9 +67,9 @@ double psnr_db(const Take& reference, const Take& other, std::size_t first_frame
 /// positions, in metres.
 MeanAndDeviation rmse_per_marker_m(const Take& reference, const Take& other, double metres_per_unit,
                                    std::size_t first_frame = 0);
-/// The same of F x M positions in any unit. `noisy` (F x M, empty: all) is 1 where the damaged
-/// input was damaged: the paper divides by the number of noisy markers of the frame. Frames without
-/// any are left out.
+/// `rmse_per_marker_m` for F x M positions in any unit. `noisy` (F x M, empty: all) is 1 for each
+/// sample that was damaged: the paper divides by the number of noisy markers in the frame. Frames
+/// without noisy markers are left out.
 MeanAndDeviation rmse_per_marker(std::span<const Vec3> reference, std::span<const Vec3> other,
                                  std::size_t markers, std::span<const std::uint8_t> noisy = {});
 
@@ -78,37 +79,37 @@ MeanAndDeviation rmse_per_marker(std::span<const Vec3> reference, std::span<cons
 /// + 1 terms is divided by N. A signal of one orientation is divided by 1. Errors:
 /// `ErrorKind::usage` when the lengths differ.
 double mse_rad2(std::span<const Quat> reference, std::span<const Quat> other);
-/// The mean over joints.
+/// Returns the mean of `mse_rad2` over joints.
 double mse_rad2(const Take& reference, const Take& other, std::size_t first_frame = 0);
 
 /// Largest angular speed of each local rotation from a frame to the next, degrees / s, noise and
 /// spikes included; 0 for fewer than two frames. J values.
 std::vector<double> peak_angular_speed_deg_s(const Take& clip, std::size_t first_frame = 0);
 
-/// Joints whose travel on the floor is slide: heel (`foot`, `ankle`, `heel`) and toe (`toe`,
-/// `ball`), by parts of their names, case ignored.
+/// The joints whose travel on the floor is foot slide: heel (`foot`, `ankle`, `heel`) and toe
+/// (`toe`, `ball`), found by parts of their names; case is ignored.
 std::vector<std::size_t> foot_joints(const Skeleton& skeleton);
 
 struct FootSlideSettings {
   Axis up = Axis::y;
   std::vector<std::size_t> joints;  ///< empty: `foot_joints`
-  /// In contact is a joint that is less than this above its own floor (the 2nd percentile of its
-  /// height in the reference) at both ends of a step, as a share of the skeleton's height: 0.03 is
-  /// 5 cm of 1.7 m.
+  /// A joint is in contact if at both ends of a step it is less than this above its own floor (the
+  /// 2nd percentile of its height in the reference), as a share of the skeleton's height: 0.03 is 5
+  /// cm of 1.7 m.
   double contact_height = 0.03;
-  /// ... and whose reference moves slower than this, in skeleton heights per second: 0.25 is 0.4
-  /// m/s of 1.7 m.
+  /// A joint is in contact only if its reference also moves slower than this, in skeleton heights
+  /// per second: 0.25 is 0.4 m/s for 1.7 m.
   double contact_speed = 0.25;
 };
 
 struct FootSlide {
-  double per_frame =
-      0;  ///< mean horizontal travel of a joint in contact from a frame to the next, file units
+  /// Mean horizontal travel of a joint in contact from a frame to the next, file units.
+  double per_frame = 0;
   std::size_t contact_steps = 0;  ///< joints x steps in contact, over which the mean is taken
 };
 
 /// Horizontal travel of toes and heels in `other` while the reference is in contact with the floor.
-/// Zero for no contact.
+/// Zero without contact.
 FootSlide foot_slide(const Take& reference, const Take& other,
                      const FootSlideSettings& settings = {}, std::size_t first_frame = 0);
 
@@ -123,8 +124,9 @@ struct ComparisonSettings {
 struct JointComparison {
   double geodesic_rms_deg = 0;
   double geodesic_max_deg = 0;
-  /// Largest angular speeds, as in the report of `clean`: the turn within `peak_frames` frames, the
-  /// shortest time (one frame to 50 ms) in which noise adds less than a tenth; spikes left out.
+  /// Largest angular speeds, as in the report of `clean`: the turn within `peak_frames` frames,
+  /// which is the shortest time (one frame to 50 ms) in which noise adds less than a tenth. Spikes
+  /// are left out.
   double peak_speed_reference_deg_s = 0;
   double peak_speed_other_deg_s = 0;
   std::size_t peak_frames = 1;
@@ -153,35 +155,36 @@ struct Comparison {
 Comparison compare_clips(const Take& reference, const Take& other,
                          const ComparisonSettings& settings = {});
 
-/// How a reference is brought to what another system shows of the same motion.
+/// How a reference is fitted to a recording of the same motion by another system.
 enum class MarkerFit : std::uint8_t {
   none,
   rigid,        ///< one turn and one shift of the whole take (Kabsch 1976)
-  gain_offset,  ///< a gain and an offset of each channel: what calibration would mend is no noise
+  gain_offset,  ///< a gain and an offset for each channel, so that calibration errors do not appear
+                ///< as noise
 };
 
 struct MarkerComparisonSettings {
   MarkerFit fit = MarkerFit::none;
-  /// The take that the reference is fitted to; null: `other`. A fit to each of several cleaned
-  /// takes flatters the one that stands still: fit to the take before cleaning.
+  /// The take that the reference is fitted to; null: `other`. Fit to the take before cleaning: a
+  /// separate fit to each of several cleaned takes favours a take that barely moves.
   const Take* fit_to = nullptr;
-  /// Frames by which the takes that are compared come behind the reference.
+  /// Number of frames by which the compared takes lag behind the reference.
   std::int64_t lag_frames = 0;
-  /// Channels whose reference has a smaller standard deviation do not count, file units (>= 0).
+  /// Channels whose reference has a smaller standard deviation are ignored, file units (>= 0).
   double least_motion = 0;
 };
 
-/// Errors of a marker, or of a whole take: file units of the reference. Root mean squares are over
-/// samples that both takes have.
+/// Errors of a marker, or of a whole take, in file units of the reference. Root mean squares are
+/// taken over samples that both takes have.
 struct MarkerErrors {
   std::size_t samples = 0;  ///< of markers
   double rms_distance = 0;  ///< of positions
   double max_distance = 0;
-  double rms = 0;           ///< along an axis, over the channels that count
-  double velocity_rms = 0;  ///< the same of velocities by central differences, a second
-  /// The same of the error's parts below 2 Hz, from 2 to 6, 6 to 15 and above 15 Hz: differences of
-  /// fourth-order Butterworth filters, forward and backward. None of a cut at or above half the
-  /// rate, or for under 16 frames.
+  double rms = 0;           ///< along an axis, over the channels that are compared
+  double velocity_rms = 0;  ///< `rms` of velocities by central differences, per second
+  /// `rms` of the error's parts below 2 Hz, from 2 to 6, 6 to 15 and above 15 Hz: differences of
+  /// fourth-order Butterworth filters, forward and backward. A band is empty if its cutoff is at or
+  /// above half the rate, or for under 16 frames.
   std::array<std::optional<double>, 4> bands;
   std::optional<double> above_6_hz;  ///< jitter
 };
@@ -190,17 +193,18 @@ struct MarkerComparison {
   std::size_t frames = 0;  ///< compared
   MarkerErrors all;
   double p99_distance = 0;
-  /// By how much the other take comes behind the reference, seconds, where their velocities agree
-  /// best within half a second; not applied. 0 where they hardly move.
+  /// Lag of the other take behind the reference in seconds: the shift within half a second at which
+  /// their velocities agree best. It is not applied. 0 if they hardly move.
   double lag_s = 0;
-  std::vector<std::string> names;  ///< of the markers that both have, as the reference spells them
-  std::vector<MarkerErrors> markers;   ///< of each of these
-  std::vector<std::string> unmatched;  ///< of the reference, without a counterpart
+  std::vector<std::string> names;  ///< markers that both takes have, as the reference spells them
+  std::vector<MarkerErrors> markers;   ///< errors of each marker in `names`
+  std::vector<std::string> unmatched;  ///< markers of the reference without a counterpart
 };
 
-/// Markers are paired by name, with or without their subject; lengths of `other` are brought to the
-/// reference's unit where both files state theirs. Errors: `ErrorKind::usage` where numbers of
-/// frames or rates differ, no marker is in both, or too few frames are left behind the lag.
+/// Compares two takes of markers. Markers are paired by name, with or without their subject;
+/// lengths of `other` are converted to the reference's unit if both files state theirs. Errors:
+/// `ErrorKind::usage` if numbers of frames or rates differ, no marker is in both, or too few frames
+/// remain after the lag.
 MarkerComparison compare_markers(const Take& reference, const Take& other,
                                  const MarkerComparisonSettings& settings = {});
 

@@ -21,28 +21,28 @@ using OptionValues = std::map<std::string, OptionValue, std::less<>>;
 /// One option of a method, defined once: parser, help, configuration files, shell completion and
 /// manual page are derived from it.
 struct OptionSpec {
-  std::string
-      name;  ///< snake_case with the unit in it: `cutoff_hz`. On a command line: `--cutoff-hz`.
+  /// snake_case and including the unit: `cutoff_hz`. On a command line: `--cutoff-hz`.
+  std::string name;
   std::string unit;  ///< "s", "Hz", "deg", ...; empty for a pure number
   OptionValue default_value;
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
-  std::vector<std::string> choices;  ///< of a text option that takes one of a list
+  std::vector<std::string> choices;  ///< the allowed values of a text option; empty: any
   std::string help;                  ///< one line
 };
 
-/// The value as text, in the form that `parse_option` reads.
+/// Returns the value as text, in the form that `parse_option` reads.
 std::string to_string(const OptionValue& value);
 /// Converts text to the type of the option's default. Errors: `ErrorKind::usage`, naming the option
-/// and what it takes.
+/// and the values that it accepts.
 OptionValue parse_option(const OptionSpec& spec, std::string_view text);
 /// Checks type, range and choice; an integer is accepted for a number. Returns the value in the
 /// option's own type. Errors: `ErrorKind::usage`: `cutoff_hz: 900 is outside 0.1 to 120 Hz`.
 OptionValue check_option(const OptionSpec& spec, const OptionValue& value);
 
-/// The candidate most similar to `name`, for messages; empty if none is similar.
+/// Returns the candidate most similar to `name`, for messages; empty if no candidate is similar.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
-/// The same as part of a message: `; did you mean walk?`, or empty.
+/// Returns the nearest name as part of a message: `; did you mean walk?`, or empty.
 std::string suggestion(std::string_view name, const std::vector<std::string>& candidates);
 
 /// Binds option names to the members of a plain options struct, whose initialisers are the
@@ -79,7 +79,7 @@ class OptionTable {
                {std::move(name), "", Options{}.*member, 0, 0, std::move(choices), std::move(help)});
   }
 
-  /// A path or another free text; empty by default.
+  /// A path or other free text; empty by default.
   OptionTable& text(std::string Options::*member, std::string name, std::string help) {
     return add(member, {std::move(name), "", Options{}.*member, 0, 0, {}, std::move(help)});
   }
@@ -102,7 +102,7 @@ class OptionTable {
     for (std::size_t i = 0; i < specs_.size(); ++i) result[specs_[i].name] = getters_[i](options);
     return result;
   }
-  /// Throws what `parse` would for these values: for constructors that take the struct.
+  /// Throws the same errors as `parse` for these values; used by constructors that take the struct.
   void validate(const Options& options) const { parse(values(options)); }
 
  private:

@@ -20,60 +20,62 @@
 
 namespace kinemend {
 
-/// Name and version of the JSON; docs/report.md describes it, docs/report.schema.json states it.
+/// Name and version of the JSON; docs/report.md describes it and docs/report.schema.json defines
+/// it.
 inline constexpr std::string_view report_schema = "kinemend.report/1";
 
-/// What a report says of the take itself.
+/// The facts about the take itself in a report.
 struct TakeFacts {
-  std::string input;      ///< as it was named; "-" is standard input
-  std::string output;     ///< where the result was written; empty for none
-  std::string animation;  ///< which take of a file that holds several; else empty
+  std::string input;      ///< the path as given; "-" is standard input
+  std::string output;     ///< path of the result; empty if nothing was written
+  std::string animation;  ///< name of the take in a file that holds several; else empty
   TakeKind kind = TakeKind::joints;
   std::string format;               ///< "bvh"
-  std::string unit;                 ///< of lengths; empty if the file does not state it
+  std::string unit;                 ///< unit of lengths; empty if the file does not state it
   double metres_per_unit = 0;       ///< 0 if the file does not state it
   std::vector<std::string> tracks;  ///< names of all joints or markers
   std::size_t frames = 0;
-  std::int64_t first_frame = 1;  ///< the number that the file gives to the first
+  std::int64_t first_frame = 1;  ///< the number that the file gives to the first frame
   double frame_rate_hz = 0;
-  /// "4,564 analog frames, no points": what a marker file without markers holds; else empty.
+  /// The contents of a marker file without markers: "4,564 analog frames, no points"; else empty.
   std::string contents;
-  Diagnostics diagnostics;  ///< what the reader repaired
+  Diagnostics diagnostics;  ///< the reader's repairs
 };
-/// Without `input`, `output` and `diagnostics`, which a take does not know.
+/// Returns the facts except `input`, `output` and `diagnostics`, which a take does not contain.
 TakeFacts take_facts(const Take& take);
-/// `TakeFacts::contents`.
+/// Returns `TakeFacts::contents`.
 std::string contents_without_markers(const Take& clip);
 
-/// Something wrong with a take that cleaning left as it was.
+/// A fault of a take that cleaning left unchanged.
 struct Leftover {
   std::string what;  ///< "34 frozen or bridged spans left"
-  std::string mend;  ///< the command or option that mends it, or why it was left
+  std::string mend;  ///< the command or option that repairs it, or why it was left
 };
 
-/// What `clean` did.
+/// The result of `clean`.
 struct CleanOutcome {
   CleanReport report;
-  OptionValues options;           ///< of the method
-  std::vector<MarkerSwap> swaps;  ///< undone
+  OptionValues options;           ///< options of the method
+  std::vector<MarkerSwap> swaps;  ///< swaps that were undone
   std::vector<Leftover> leftovers;
 };
-/// What `fill` did.
+/// The result of `fill`.
 struct FillOutcome {
   FillReport report;
   std::size_t not_within_range = 0;  ///< gaps outside `FillSettings::range`
 };
-/// What `compare` measured. The take is the other one.
+/// The result of `compare`. `Report::take` is the take that is compared with the reference.
 struct CompareOutcome {
-  std::string reference;                      ///< as it was named
-  Comparison comparison;                      ///< of joints
-  std::optional<MarkerComparison> markers{};  ///< of markers, in place of it
-  MarkerFit fit = MarkerFit::none;            ///< of the reference to the other; markers only
+  std::string reference;  ///< path of the reference as given
+  Comparison comparison;  ///< comparison of joints
+  /// Comparison of markers, which replaces `comparison`.
+  std::optional<MarkerComparison> markers{};
+  MarkerFit fit = MarkerFit::none;  ///< fit of the reference to the other take; markers only
 };
 /// "none", "rigid", "gain-offset".
 std::string_view to_string(MarkerFit fit);
 
-/// One take and what a command made of it. `FeetReport`: of `contacts`.
+/// One take and the result of a command. `FeetReport` is the result of `contacts`.
 struct Report {
   TakeFacts take;
   std::variant<CleanOutcome, CheckReport, FillOutcome, CompareOutcome, FeetReport> result;
@@ -87,19 +89,19 @@ std::string verdict_of(const Report& report);
 struct ReportFigure {
   std::string name;             ///< for programs: "longest_gap_s"
   std::string label;            ///< for people: "longest gap"
-  std::optional<double> value;  ///< none if the take does not have it
+  std::optional<double> value;  ///< empty if the take does not have it
   bool is_count = false;
   std::string unit;  ///< "deg", "mm"; empty for counts and unknown units
 };
 std::vector<ReportFigure> figures_of(const Report& report);
 
-/// A span in which something was wrong with a track, and what was done about it. `check` and
-/// `clean` count alike: a spike is a run of frames, and noise is one finding for each track.
+/// A span in which a track has a fault, and how the fault was treated. `check` and `clean` count in
+/// the same way: a spike is a run of frames, and noise is one finding for each track.
 struct ReportFinding {
   /// As `to_string(FindingKind)`, for every command: "noise" was smoothed, "spike" repaired, "gap"
   /// filled or refused, "slide" held.
   std::string kind;
-  /// For `check` the severity, else what was done: "denoised", "despiked", "filled",
+  /// For `check` the severity, else the treatment: "denoised", "despiked", "filled",
   /// "foot_adjusted", "refused", "undone".
   std::string verdict;
   std::string track;     ///< joint or marker; "A, B" for two; empty for the whole take
@@ -107,13 +109,13 @@ struct ReportFinding {
   std::size_t first_frame = 0;
   std::size_t last_frame = 0;    ///< inclusive, counted from 0
   std::optional<double> amount;  ///< the largest change, or the size of the fault
-  std::optional<double> rms;     ///< of the change over the frames
-  std::string unit;              ///< of both
-  std::string method;            ///< that filled the gap or refused to
+  std::optional<double> rms;     ///< root mean square of the change over the frames
+  std::string unit;              ///< unit of `amount` and `rms`
+  std::string method;            ///< the method that filled or refused the gap
   std::string reason;            ///< in words
 };
-/// For `check` worst first, else by track, then frame. `with_spans`: also what `clean` smoothed and
-/// repaired.
+/// Returns the findings of a report: worst first for `check`, else by track, then frame.
+/// `with_spans` includes the spans that `clean` smoothed and repaired.
 std::vector<ReportFinding> findings_of(const Report& report, bool with_spans = true);
 
 /// One figure of every track.
@@ -121,21 +123,23 @@ struct ReportColumn {
   std::string name;   ///< for programs: "rms_change"
   std::string label;  ///< for people: "change rms"
   bool is_count = false;
-  std::vector<double> values;  ///< one a track
+  std::vector<double> values;  ///< one value per track
 };
 struct ReportTracks {
-  std::string unit;  ///< of figures whose name states none: "deg" for joints, the markers' unit
+  std::string unit;  ///< unit of figures whose name states none: "deg" for joints, else the unit of
+                     ///< the markers
   std::vector<std::string> names;
   std::vector<ReportColumn> columns;
 };
-/// Empty for a command without figures of tracks. Points that are angles or forces are left out.
+/// Returns the figures of each track; empty for a command without such figures. Points that are
+/// angles or forces are left out.
 ReportTracks tracks_of(const Report& report);
 
-/// A figure of `check` or `compare` (those of joints first) that can have a limit.
+/// A figure of `check` or `compare` (figures of joints first) that can have a limit.
 struct FigureRule {
   std::string_view name;   ///< as in `ReportFigure`
   std::string_view label;  ///< for people
-  std::string_view unit;   ///< empty: a count, or that of the tracks
+  std::string_view unit;   ///< empty: a count, or the unit of the tracks
   std::string_view limit;  ///< name of the limit: "max_gap_s"
   bool is_count = false;
   bool more_is_better = false;  ///< the limit is a minimum
@@ -148,31 +152,31 @@ struct FigureLimit {
   std::string_view figure;  ///< its name
   double value = 0;
 };
-/// A line for each limit that is exceeded, for `check` with the worst finding. A figure that the
-/// take does not have exceeds no limit of `check`, and every limit of `compare`.
+/// Returns a line for each limit that is exceeded, for `check` with the worst finding. A figure
+/// that the take does not have exceeds no limit of `check` and every limit of `compare`.
 std::vector<std::string> passed_limits(const Report& report, std::span<const FigureLimit> limits);
 
 struct TextOptions {
-  bool details = true;   ///< of `clean`: also the lines after the first
-  bool all = false;      ///< every row, not only the first few of each kind
+  bool details = true;   ///< for `clean`: print the lines after the first
+  bool all = false;      ///< print every row, not only the first few of each kind
   bool colours = false;  ///< escape codes for a terminal
 };
-/// Lines for people. A shortened list says that --verbose lists all.
+/// Returns lines for people. A shortened list ends with a hint to use --verbose.
 std::string to_text(const Report& report, const TextOptions& options = {});
 
-/// The entry of one take in the document, indented by two spaces. A figure that is not finite is
-/// null; bytes that are not UTF-8 are replaced. `with_spans`: as in `findings_of`.
+/// Returns the entry of one take in the document, indented by two spaces. A figure that is not
+/// finite is null; bytes that are not UTF-8 are replaced. `with_spans`: as for `findings_of`.
 std::string to_json(const Report& report, bool with_spans = true);
-/// The entry of a take that failed.
+/// Returns the entry of a take that failed.
 std::string failure_json(std::string_view input, std::string_view error, int exit_code);
-/// The whole document of a command: `takes` are entries, in order.
+/// Returns the whole document of a command; `takes` are its entries in order.
 std::string report_document(std::string_view command, std::span<const std::string> takes);
-/// The list `diagnostics` of an entry. Positions are bytes in binary formats, else lines.
+/// Returns the list `diagnostics` of an entry. Positions are bytes in binary formats, else lines.
 std::string diagnostics_json(const Diagnostics& diagnostics, std::string_view format);
 
 /// "walk.bvh:12: ...", or "walk.c3d: byte 12: ..." for a format whose positions are bytes.
 std::string diagnostic_line(const SourceInfo& source, const Diagnostic& diagnostic);
-/// The same without the name of the take: "line 12: ...", "byte 12: ...".
+/// Returns `diagnostic_line` without the name of the take: "line 12: ...", "byte 12: ...".
 std::string diagnostic_text(std::string_view format, const Diagnostic& diagnostic);
 
 }  // namespace kinemend

@@ -44,16 +44,16 @@ struct Skeleton {
   std::vector<std::string> names;
   std::vector<std::int32_t> parents;  ///< -1 for a root
   std::vector<Vec3> offsets;          ///< from the parent joint, in its frame, file units
-  std::vector<Quat>
-      rest_rotations;  ///< the joint's frame in its parent's when its local rotation is identity
-  std::vector<std::vector<Channel>>
-      channels;  ///< in the order of the file; empty for a fixed joint
+  /// The joint's frame in its parent's when its local rotation is identity.
+  std::vector<Quat> rest_rotations;
+  /// In the order of the file; empty for a fixed joint.
+  std::vector<std::vector<Channel>> channels;
   std::vector<EndSite> end_sites;
-  /// J, one a channel where the file states them (ASF); empty where it states none.
+  /// J, one limit per channel if the file states them (ASF); else empty.
   std::vector<std::vector<ChannelLimit>> limits;
 
   std::size_t joint_count() const noexcept { return names.size(); }
-  /// Index of the first joint of that name; -1 when there is none.
+  /// Returns the index of the first joint of that name, or -1.
   std::int32_t find(std::string_view name) const noexcept;
   /// The rotation channels of a joint in file order.
   RotationOrder rotation_order(std::size_t joint) const;
@@ -62,16 +62,16 @@ struct Skeleton {
   std::int32_t add_joint(std::string name, std::int32_t parent, Vec3 offset,
                          std::vector<Channel> joint_channels);
 
-  /// The rules: arrays of one length; every parent precedes its child; joint 0 is a root; offsets
-  /// finite; rest rotations of unit norm (1e-9); no channel twice in a joint save a rotation axis
-  /// that is not a neighbour of itself (at most 3 rotation channels); end sites hang on joints that
-  /// exist. Names may repeat and may be empty. Errors: `ErrorKind::usage` naming the first joint
-  /// that breaks a rule.
+  /// Checks the rules: all arrays have one length; every parent precedes its child; joint 0 is a
+  /// root; offsets are finite; rest rotations have unit norm (1e-9); no channel occurs twice in a
+  /// joint, except a rotation axis that does not follow itself directly (at most 3 rotation
+  /// channels); end sites have joints that exist. Names may repeat and may be empty. Errors:
+  /// `ErrorKind::usage` naming the first joint that breaks a rule.
   void validate() const;
 };
 
 /// Largest extent of the rest pose along an axis (end sites included), file units: the height, or
-/// the arm span of a T-pose, which is about the same.
+/// the arm span of a T-pose, which is nearly equal.
 double body_height(const Skeleton& skeleton);
 
 /// A length unit that files are written in.
@@ -79,20 +79,21 @@ struct LengthUnit {
   std::string_view name;  ///< "cm"
   double metres = 1;
 };
-/// The unit in which a skeleton of this height is a person of 1.2 to 2.5 m: m, mm, cm, inch, or
-/// that of the CMU files (1 / 0.45 inch); none when no unit fits.
+/// The unit in which a skeleton of this height is a person of 1.2 to 2.5 m: m, mm, cm, inch, or the
+/// unit of the CMU files (1 / 0.45 inch); empty if no unit fits.
 std::optional<LengthUnit> guess_length_unit(const Skeleton& skeleton);
 
-/// Position channels in the order x, y, z where asked for, then rotations in the given order.
+/// Returns position channels in the order x, y, z if asked for, then rotations in the given order.
 std::vector<Channel> make_channels(bool with_position, RotationOrder order);
 
-/// Names that are known ("LeftFoot", "LTOE") to names in a take ("bone_17", "M3"); an empty one:
-/// the take has no such part. What `parse_name_map` reads.
+/// Maps known names ("LeftFoot", "LTOE") to names in a take ("bone_17", "M3"); empty: the take has
+/// no such part. `parse_name_map` reads it.
 using KnownNames = std::map<std::string, std::string, std::less<>>;
 
-/// The names of a take, those of the map by what they are known as. A subject stays: "Ann:M3" of
-/// "LTOE" is "Ann:LTOE". What bears a name of the map and is another part loses it. Errors:
-/// `ErrorKind::usage` for a name that the take does not have, or that several of it have.
+/// Returns the names of a take with the mapped names replaced by the known names. The subject is
+/// kept: if "LTOE" is mapped to "M3", "Ann:M3" becomes "Ann:LTOE". Another part whose name is a
+/// known name of the map becomes "part 3", by its place. Errors: `ErrorKind::usage` for a name that
+/// the take does not have, or that occurs more than once.
 std::vector<std::string> known_names(const std::vector<std::string>& names, const KnownNames& map);
 
 }  // namespace kinemend

@@ -1,4 +1,4 @@
-// Shows a take of joints or of markers as one kind of thing: a set of tracks.
+// Presents takes of joints and takes of markers in the same form: a set of tracks.
 #pragma once
 
 #include <cstddef>
@@ -12,35 +12,36 @@
 
 namespace kinemend {
 
-/// Where the samples of a track live: SO(3), unit quaternions; or R^3, file units.
+/// The space of a track's samples: SO(3), unit quaternions; or R^3, file units.
 enum class Space : std::uint8_t { rotation, position };
 
-/// What becomes of samples that were not measured.
+/// How samples that were not measured are treated.
 enum class GapTreatment : std::uint8_t {
-  /// Joints: every frame needs a value, so that gaps of any length are bridged (rotations along the
-  /// geodesic, positions along the line, at the ends the nearest sample).
+  /// Joints: every frame needs a value, so gaps of any length are bridged (rotations along the
+  /// geodesic, positions along the line, at the ends by the nearest sample).
   bridge,
-  /// Markers: gaps up to 0.25 s are bridged while a track is filtered, none is filtered across that
-  /// is longer, and what is missing stays missing.
+  /// Markers: gaps up to 0.25 s are bridged while a track is filtered, longer gaps separate the
+  /// track into parts that are filtered alone, and missing samples stay missing.
   cut,
 };
 
-/// Noise that is known, in place of what a method finds. `auto` and the learned methods go by it.
+/// Known noise, which `auto` and the learned methods use instead of measuring it.
 struct TakeNoise {
   std::optional<double> correlation;  ///< from one measurement to the next, 0 to 0.99; 0: white
-  /// J or M, per axis: degrees of joints, file units of markers; 0: as measured. Empty: all so.
+  /// J or M, per axis: degrees for joints, file units for markers; 0: measured. Empty: all are
+  /// measured.
   std::vector<double> strengths;
 };
 
-/// What may change. A joint's rotation, or a marker's position, and what becomes of positions of
+/// The tracks that may change: rotations of joints or positions of markers, and positions of
 /// joints.
 struct Selection {
-  std::vector<std::uint8_t> owners{};  ///< J or M, 1 where it may change; empty: all
+  std::vector<std::uint8_t> owners{};  ///< J or M, 1 if it may change; empty: all
   bool root_position = true;           ///< position of joint 0
   bool translations = true;            ///< positions of translated joints that are selected
-  double body_height = 0;  ///< of the person, file units, by which markers are measured; 0: found
+  double body_height = 0;  ///< of the person, file units, the scale for markers; 0: estimated
   TakeNoise noise{};
-  Source source = Source::unknown;  ///< what recorded the take
+  Source source = Source::unknown;  ///< the system that recorded the take
 
   bool includes(std::size_t owner) const { return owners.empty() || owners[owner] != 0; }
 };
@@ -50,16 +51,16 @@ struct Track {
   Space space = Space::position;
   std::int32_t owner = -1;  ///< joint or marker; -1: the root position
   std::size_t frames = 0;
-  const Quat* rotations = nullptr;  ///< of `Space::rotation`: that of frame f is [f * stride]
-  const Vec3* positions = nullptr;  ///< of `Space::position`
+  const Quat* rotations = nullptr;  ///< for `Space::rotation`: frame f is at [f * stride]
+  const Vec3* positions = nullptr;  ///< for `Space::position`
   std::size_t stride = 1;
-  const std::uint8_t* observed = nullptr;  ///< that of frame f is [f * observed_stride]; null: all
+  const std::uint8_t* observed = nullptr;  ///< frame f is at [f * observed_stride]; null: all
   std::size_t observed_stride = 1;
-  /// The distance that counts as one radian: 1 of rotations; the mean length of the bones of
-  /// joints' positions; a quarter of the body height of markers, about the length of a limb's
-  /// segment.
+  /// The distance that is equivalent to one radian: 1 for rotations; the mean bone length for
+  /// joints' positions; a quarter of the body height for markers, which is about the length of a
+  /// limb segment.
   double radian = 1;
-  double noise = 0;  ///< of each axis, where it is known: degrees or file units; 0: not known
+  double noise = 0;  ///< known noise per axis: degrees or file units; 0: not known
   bool selected = true;
 
   Quat rotation(std::size_t frame) const { return rotations[frame * stride]; }
@@ -73,44 +74,45 @@ struct Track {
 /// root position, then the positions of the translated joints. Markers: M positions.
 struct TakeView {
   const Take* joints = nullptr;   ///< the clip of a take of joints, else null
-  const Take* markers = nullptr;  ///< that of a take of markers, else null
+  const Take* markers = nullptr;  ///< the clip of a take of markers, else null
   std::vector<Track> tracks;
-  std::size_t owners = 0;  ///< J or M: track n < owners is that of joint or marker n
+  std::size_t owners = 0;  ///< J or M: track n < owners belongs to joint or marker n
   std::size_t frames = 0;
   double frame_rate_hz = 0;
   GapTreatment gaps = GapTreatment::bridge;
-  /// Of markers: file units, by which distances are measured. That of joints is their skeleton's.
+  /// The scale of distances in file units; for joints it comes from the skeleton.
   double body_height = 1;
   std::optional<double> noise_correlation;  ///< `TakeNoise::correlation`
   Source source = Source::unknown;          ///< `Selection::source`
 
-  /// The track of the root position; of joints only.
+  /// Index of the track of the root position; joints only.
   std::size_t root_track() const noexcept { return owners; }
 };
 
-/// Markers that are no positions are never selected.
+/// Makes the view of a take. Markers that are not positions are never selected.
 TakeView view_of(const Take& take, const Selection& selection = {});
 
-/// `Track::radian` of the positions of a take, which is the same for all of them.
+/// Returns `Track::radian` of the positions of a take, which is the same for all of them.
 double radian_of_positions(const TakeView& take);
 
-/// Whether a track of rotations has two samples that differ, observed or not; true of positions.
+/// Whether a track of rotations has two samples that differ, observed or not; always true for
+/// positions.
 bool moves(const Track& track);
-/// The tracks that are selected, were observed at all and, of rotations, have two samples that
-/// differ, in their order.
+/// Returns, in order, the selected tracks that have an observed sample and, for rotations, two
+/// samples that differ.
 std::vector<std::size_t> changeable_tracks(const TakeView& take);
 
-/// Samples of a track as they stand; none of a track of the other space.
+/// Returns the samples of a track unchanged; empty for a track of the other space.
 std::vector<Quat> rotations_of(const Track& track);
 std::vector<Vec3> positions_of(const Track& track);
-/// One mark a frame; empty where all were observed.
+/// Returns one mark per frame; empty if all were observed.
 std::vector<std::uint8_t> observed_of(const Track& track);
 
-/// Writes samples of track `track` of the clip that a view was made of, from frame `first` on.
+/// Writes samples to track `track` of the clip that a view refers to, from frame `first` on.
 void set_track(Take& take, std::size_t track, std::span<const Quat> samples, std::size_t first = 0);
 void set_track(Take& take, std::size_t track, std::span<const Vec3> samples, std::size_t first = 0);
 
-/// Mean length of the bones (offsets that are not zero), file units; 1 when there are none. It puts
+/// Mean length of the bones (offsets that are not zero), file units; 1 if there are none. It puts
 /// positions and rotations on one scale: a turn of one radian moves a bone's end by about this.
 double typical_bone_length(const Skeleton& skeleton);
 

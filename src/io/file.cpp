@@ -1,4 +1,4 @@
-// Reads whole files, and writes them so that an output is complete or not there at all.
+// Reads whole files, and writes them so that an output is either complete or absent.
 #include <cerrno>
 #include <system_error>
 
@@ -16,9 +16,9 @@ namespace fs = std::filesystem;
 
 using platform::fail_writing;
 
-// A symbolic link stays one; what it points to is replaced, or made where it is not there.
+// Follows symlinks: the target is replaced, or created if it does not exist.
 fs::path without_links(fs::path path) {
-  constexpr int most_links = 40;  // as the kernel has it
+  constexpr int most_links = 40;  // the limit of the Linux kernel
   std::error_code error;
   for (int links = 0; fs::is_symlink(path, error); ++links) {
     if (links == most_links) fail_writing(path, ELOOP);
@@ -29,7 +29,7 @@ fs::path without_links(fs::path path) {
   return path;
 }
 
-// A pipe, a terminal or /dev/null is written to, not replaced.
+// Writes directly to a pipe, a terminal or /dev/null, which must not be replaced.
 void write_through(const fs::path& path, std::string_view bytes) {
   const Descriptor file(platform::open_to_write(path));
   if (file.get() < 0 || !platform::write_all(file.get(), bytes)) fail_writing(path, errno);
@@ -56,7 +56,7 @@ void write_file(const fs::path& path, std::string_view bytes, bool overwrite) {
   platform::TemporaryFile file(target);
   if (exists) file.take_permissions(old);
   file.fill(bytes);
-  // What may be replaced may also have come a moment ago.
+  // With `overwrite`, the target may also have been created a moment ago.
   if (overwrite) {
     file.replace_target();
   } else {

@@ -9,8 +9,8 @@
 
 namespace kinemend {
 
-/// Calls `work(i)` for each i below `count`, in parallel. Where several throw, the exception of the
-/// lowest i is thrown again, after all pieces have ended.
+/// Calls `work(i)` for each i below `count`, in parallel. If several calls throw, the exception of
+/// the lowest i is rethrown after all calls have ended.
 inline void for_each_first_error(std::size_t count, const IndexWork& work) {
   std::vector<std::exception_ptr> errors(count);
   for_each_index(count, [&](std::size_t i) {

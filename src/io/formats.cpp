@@ -1,4 +1,4 @@
-// The table of file formats, and how a take is read and written by them.
+// The table of file formats, and the functions that read and write takes with it.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -23,7 +23,7 @@ namespace kinemend {
 
 namespace {
 
-// Chosen by hand: more than any head that is looked for.
+// Chosen by hand: more than any format needs to be recognised.
 constexpr std::size_t sniffed_bytes = 4096;
 
 std::string known_formats(bool only_readable) {
@@ -52,12 +52,12 @@ const Format& format_of(std::string_view bytes, std::string_view name) {
       name, 1, fmt::format("not a motion file of a known format ({})", known_formats(true)));
 }
 
-// A table with tabs may be called .tsv whichever program wrote it.
+// A table with tabs may have the extension .tsv, whichever program wrote it.
 bool may_be_called(const Format& format, const Format& by_name) {
   return &format == &by_name || (format.name == "csv" && by_name.name == "tsv");
 }
 
-// Says that the name promises another format than the content is.
+// Notes that the extension belongs to another format than the content.
 void note_extension(const Format& format, std::string_view name, bool strict,
                     Diagnostics& diagnostics) {
   const std::filesystem::path path(name);
@@ -70,7 +70,7 @@ void note_extension(const Format& format, std::string_view name, bool strict,
   diagnostics.add("extension_mismatch", message);
 }
 
-// Of what a C3D file can hold, in a format that has a place for points only.
+// Lists the contents of a C3D file that a format for points only cannot store.
 Diagnostics lost_beside_points(const Take& clip, std::string_view format) {
   std::vector<std::string> parts = c3d_beside_points(clip.source);
   if (!clip.events.empty() && format != "tsv") {
@@ -94,7 +94,7 @@ Diagnostics lost_beside_points(const Take& clip, std::string_view format) {
   return losses;
 }
 
-// The format that is asked for, else that of the source, else `usual`.
+// Returns the requested format, else the source's, else `usual`.
 const Format& format_to_write(const SourceInfo& source, std::string_view asked,
                               std::string_view usual) {
   if (!asked.empty()) return format_called(asked);
@@ -107,7 +107,7 @@ TakeResult with_joints(TakeResult result) {
                                             result.take.source.name));
 }
 
-// Of a scene that cannot be written in place.
+// Lists the contents of a scene that are lost because its file cannot be rewritten.
 std::vector<std::string> lost_of_scene(const Take& take, std::string_view format) {
   if (format == "glb" || format == "gltf") return lost_beside_gltf(take);
   if (format == "npz") return lost_beside_npz(take);

@@ -1,4 +1,4 @@
-// Missing samples of joints that formats without gaps mark by NaN: how they are told and held.
+// Recognises and holds missing samples of joints, which formats without gaps mark by NaN.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace kinemend {
 inline bool is_missing(Vec3 v) { return std::isnan(v.x + v.y + v.z); }
 inline bool is_missing(Quat q) { return std::isnan(q.w); }
 
-/// The rotation of four values of a file: NaN where one is missing or all are zero; of unit norm.
+/// Returns the unit rotation of four values of a file; NaN if one is missing or all are zero.
 inline Quat rotation_of_values(double w, double x, double y, double z) {
   const Quat raw{w, x, y, z};
   const double length = norm(raw);
@@ -21,16 +21,17 @@ inline Quat rotation_of_values(double w, double x, double y, double z) {
     constexpr double missing = std::numeric_limits<double>::quiet_NaN();
     return {missing, missing, missing, missing};
   }
-  // Digits that stand for a unit quaternion exactly come back as they are.
+  // A quaternion that is already of unit norm keeps its digits.
   constexpr double tolerance = 1e-12;
   return std::fabs(length - 1) <= tolerance ? raw : normalized(raw);
 }
 
-/// Beyond this a quaternion of a file is not of length 1 by rounding; it is scaled with a repair.
+/// A quaternion whose length differs from 1 by more than this is not just rounded; scaling it is a
+/// repair.
 inline constexpr double unit_length_tolerance = 1e-3;
 
 /// Replaces each missing sample of a track by the last one before it. Missing samples at the start
-/// get the first one that is there; a track without samples gets `otherwise`.
+/// get the first sample; a track without samples gets `otherwise`.
 template <class Sample>
 void hold_missing(std::vector<Sample>& samples, std::size_t track, std::size_t stride,
                   Sample otherwise) {

@@ -7,12 +7,12 @@
 
 namespace kinemend {
 
-/// The rate that a file states, if a take can have it (`frame_rate.hpp`), else 0 for unknown. A
-/// rate out of range is the repair `frame_rate_unusable`; a missing one is not.
+/// Returns the rate that a file states if a take can have it (`frame_rate.hpp`), else 0 for
+/// unknown. A rate out of range is the repair `frame_rate_unusable`; a missing rate is not.
 double usable_rate(const SourceText& text, Diagnostics& diagnostics, double stated_hz,
                    std::size_t place);
 
-/// The words of that repair.
+/// Returns the message of that repair.
 std::string unusable_rate_text(double stated_hz);
 
 }  // namespace kinemend

@@ -1,4 +1,4 @@
-// Guesses which axis points up, and turns a take so that another one does.
+// Guesses which axis points up, and rotates a take so that another axis points up.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,7 +18,7 @@ Vec3 unit_vector(Axis axis) {
   return {axis == Axis::x ? 1.0 : 0.0, axis == Axis::y ? 1.0 : 0.0, axis == Axis::z ? 1.0 : 0.0};
 }
 
-// The quarter turn that takes one axis to another.
+// The rotation by 90 degrees that moves one axis to another.
 struct QuarterTurn {
   Quat rotation;
 
@@ -26,7 +26,7 @@ struct QuarterTurn {
     constexpr double quarter = 0.5 * pi;
     rotation = from == to ? Quat{} : exp(quarter * cross(unit_vector(from), unit_vector(to)));
   }
-  // Exactly, so that coordinates keep their digits.
+  // Rotates by exchanging components, so that coordinates keep their digits.
   Vec3 operator()(Vec3 v) const {
     const Vec3 ex = axis_after(Axis::x), ey = axis_after(Axis::y), ez = axis_after(Axis::z);
     const auto row = [&](std::size_t i) {
@@ -73,7 +73,7 @@ struct Wandering {
 // `visit(frame, use)` calls `use` with every point of a frame.
 template <class Visit>
 Axis up_axis(std::size_t frames, Axis fallback, Visit visit) {
-  // Frames, evenly over the take: for speed, not swept.
+  // Number of frames, spread evenly over the take: for speed, not swept.
   constexpr std::size_t looked_at = 400;
   std::array<Wandering, 3> axes;
   for (std::size_t f = 0; f < frames; f += 1 + frames / looked_at) {

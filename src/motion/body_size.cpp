@@ -39,8 +39,8 @@ std::optional<LengthUnit> guess_length_unit(const Skeleton& skeleton) {
 }
 
 double body_height(const Take& clip) {
-  // Frames, evenly over the take, for speed; the body height over the quartile of the distances,
-  // and heights of people. Chosen by hand, not swept.
+  // Frames spread evenly over the take, for speed; ratio of the body height to the quartile of the
+  // distances; heights of people. Chosen by hand, not swept.
   constexpr std::size_t most_frames = 64;
   constexpr double heights_per_quartile = 4.2;
   constexpr double usual_m = 1.75, tallest_m = 2.2;

@@ -1,4 +1,4 @@
-// Finds the calibration pose at the start of a take, and sets it aside while work is done on the
+// Finds the calibration pose at the start of a take, and removes it while work is done on the
 // motion.
 #include "motion/calibration.hpp"
 
@@ -33,7 +33,7 @@ void put_front(std::vector<T>& values, const std::vector<T>& front) {
   values.insert(values.begin(), front.begin(), front.end());
 }
 
-// No mask at all means that everything is observed.
+// Puts the mask of the front frames back. An empty mask means that all samples are observed.
 void put_mask(std::vector<std::uint8_t>& mask, std::size_t samples,
               const std::vector<std::uint8_t>& front, std::size_t front_samples) {
   if (mask.empty() && std::find(front.begin(), front.end(), 0) == front.end()) return;
@@ -71,7 +71,7 @@ Turn turn_between(const Take& clip, std::size_t first, std::size_t second) {
 // The pose of a calibration frame: roots may be turned, joints are nearly at rest. The T-pose
 // of the CMU files turns hips and feet by up to 21 degrees, 3.5 on average.
 bool is_near_rest(const Take& clip, std::size_t frame) {
-  // Chosen by hand, above what these files have; not swept.
+  // Chosen by hand, above the angles in these files; not swept.
   constexpr double largest = 25 * radians_per_degree, largest_mean = 6 * radians_per_degree;
   double sum = 0;
   std::size_t joints = 0;
@@ -111,8 +111,8 @@ const Take& frames_from(const Take& clip, std::size_t first, std::optional<Take>
 }
 
 std::size_t leading_calibration_frames(const Take& clip) {
-  // Frames of a calibration pose at most, and those that are compared; the jump to the motion, and
-  // how it must exceed those within the motion. Chosen by hand, not swept.
+  // Limits for the frames of a calibration pose and for the compared frames; the least jump to the
+  // motion, and its least ratio to the jumps within the motion. Chosen by hand, not swept.
   constexpr std::size_t most_frames = 10, compared_frames = 240;
   constexpr double clear_jump = 25 * radians_per_degree, clear_ratio = 1.5;
   const std::size_t frames = std::min(clip.frame_count(), compared_frames);

@@ -9,13 +9,13 @@
 
 namespace kinemend {
 
-/// Calls `work` with the clip without its first `frames` frames, and puts these back as they were,
-/// also where `work` throws. It may change any sample and add masks, but not the number of frames.
+/// Calls `work` with the clip without its first `frames` frames, and puts these back unchanged,
+/// also if `work` throws. `work` may change any sample and add masks, but not the number of frames.
 /// In a mask that it adds, the frames put back are observed.
 void on_motion(Take& clip, std::size_t frames, const std::function<void(Take&)>& work);
 
-/// The clip from frame `first` on, for reading: the clip itself where that is 0, which avoids a
-/// copy; else a slice stored in `sliced`.
+/// Returns the clip from frame `first` on, for reading: the clip itself if `first` is 0, which
+/// avoids a copy; else a slice stored in `sliced`.
 const Take& frames_from(const Take& clip, std::size_t first, std::optional<Take>& sliced);
 
 }  // namespace kinemend

@@ -19,7 +19,7 @@ constexpr std::string_view first_frame_fact = "first frame";
 }  // namespace
 
 void note_first_frame(Take& clip, double number) {
-  // Whole numbers beyond are not exact; a round number below 2^53, by definition.
+  // Larger whole numbers are not exact; a round number below 2^53, by definition.
   constexpr double most = 9e15;
   if (number == 1 || number != std::floor(number) || !(std::fabs(number) < most)) return;
   clip.source.facts.push_back({std::string(first_frame_fact), fmt::format("{:.0f}", number)});

@@ -44,7 +44,7 @@ void for_each_named(std::span<const NamedGap> gaps, const std::vector<std::strin
                       kind, gap.name, number(gap.first_frame), number(gap.last_frame), first_number,
                       number(frames) - 1));
     }
-    // The exact name first: a marker without a label may be called *12.
+    // The exact name is tried first, because an unlabelled marker may be called *12.
     const bool has_name = std::find(names.begin(), names.end(), gap.name) != names.end();
     const std::vector<std::uint8_t> meant =
         has_name ? std::vector<std::uint8_t>{} : names_meant(names, gap.name);
@@ -62,7 +62,7 @@ void for_each_named(std::span<const NamedGap> gaps, const std::vector<std::strin
   }
 }
 
-// Column of the joint in `Take::observed_positions`; one past the last for a joint without.
+// Returns the column of the joint in `Take::observed_positions`; one past the last if it has none.
 std::size_t position_track(const Take& clip, std::size_t joint) {
   const std::size_t none = 1 + clip.translated_joints.size();
   if (joint == 0) return clip.skeleton.has_position_channels(0) ? 0 : none;

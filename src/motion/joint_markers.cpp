@@ -10,8 +10,8 @@ namespace kinemend {
 
 namespace {
 
-// One row of marks: 1 where the joint's own rotation and all above it are observed; a joint's
-// position does not depend on its own.
+// Marks one frame: `turned` is 1 if the joint's own rotation and all above it are observed.
+// `placed` omits the joint's own rotation, because its position does not depend on it.
 void mark_frame(const Take& clip, std::size_t frame, std::vector<std::uint8_t>& placed,
                 std::vector<std::uint8_t>& turned) {
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
@@ -90,7 +90,7 @@ Take without_rest_rotations(const Take& clip) {
   result.source.document.reset();
   Skeleton& skeleton = result.skeleton;
   const std::size_t joints = clip.joint_count();
-  std::vector<Quat> rest(joints);  // of each joint in the world, the skeleton at rest
+  std::vector<Quat> rest(joints);  // global rotation of each joint at rest
   const auto rest_of = [&](std::int32_t joint) {
     return joint < 0 ? Quat{} : rest[static_cast<std::size_t>(joint)];
   };

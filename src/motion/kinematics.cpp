@@ -1,11 +1,11 @@
-// Computes where the joints and end sites are in the world (forward kinematics).
+// Computes the global positions of joints and end sites (forward kinematics).
 #include "kinemend/experimental/kinematics.hpp"
 
 namespace kinemend {
 
 namespace {
 
-// A joint's offset from its parent in one frame.
+// Returns a joint's offset from its parent in one frame.
 Vec3 offset_of(const Take& clip, std::size_t frame, std::size_t joint,
                std::size_t& next_translated) {
   if (joint == 0) return clip.root_position(frame);

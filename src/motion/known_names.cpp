@@ -30,7 +30,7 @@ std::size_t part_called(const std::vector<std::string>& names, const std::string
                                        printable_name(name), count));
 }
 
-/// With the subject of the joint or marker, unless it has its own.
+/// Adds the subject of the joint or marker, unless the known name has its own.
 std::string with_subject(const std::string& known, const std::string& name) {
   const std::size_t subject = name.size() - without_subject(name).size();
   return known.find(':') == known.npos ? name.substr(0, subject) + known : known;

@@ -1,4 +1,4 @@
-// Makes takes of markers, selects the points that are positions, and knows units by name.
+// Makes takes of markers, selects the points that are positions, and finds units by name.
 #include "kinemend/take.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Compares the rotations of a joint with its first one.
+// Compares the rotations of a joint with its first rotation.
 #include "motion/moving_joints.hpp"
 
 namespace kinemend {

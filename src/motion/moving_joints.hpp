@@ -10,7 +10,7 @@ namespace kinemend {
 
 /// Whether a joint has two rotations that differ at all, observed or not.
 bool joint_moves(const Take& clip, std::size_t joint);
-/// All joints that do, in the skeleton's order.
+/// Returns all joints that move, in the skeleton's order.
 std::vector<std::size_t> moving_joints(const Take& clip);
 
 }  // namespace kinemend

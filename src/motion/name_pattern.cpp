@@ -1,5 +1,5 @@
-// Matches names with patterns: with or without the subject, and without regard to case where no
-// name fits exactly.
+// Matches names with patterns: with or without the subject, ignoring case if no name matches
+// exactly.
 #include "motion/name_pattern.hpp"
 
 #include <fmt/format.h>

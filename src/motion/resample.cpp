@@ -1,4 +1,4 @@
-// Brings a take to another frame rate by cubic interpolation.
+// Converts a take to another frame rate by cubic interpolation.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 // Limits memory; chosen by hand.
 constexpr double most_samples = 1e8;
 
-// Position of a new frame among the old ones: `share` of the way from `before` to `before + 1`.
+// Position of a new frame among the old frames: `share` (0 to 1) from `before` to `before + 1`.
 struct Place {
   std::size_t before = 0;
   double share = 0;
@@ -27,7 +27,7 @@ std::vector<Place> places(std::size_t frames, std::size_t tracks, double old_rat
   check_frame_rate(rate);
   if (frames == 0) return {};
   // Not swept.
-  constexpr double rounding = 1e-6;  // of a frame: rounding of the rates
+  constexpr double rounding = 1e-6;  // share of a frame that the rates may be off by rounding
   const double step = old_rate / rate, last = static_cast<double>(frames - 1);
   const double count = std::floor(last / step + rounding) + 1;
   if (count * static_cast<double>(std::max<std::size_t>(tracks, 1)) > most_samples) {
@@ -51,8 +51,8 @@ std::array<double, 4> cubic_weights(double u) {
           0.5 * u3 - 0.5 * u2};
 }
 
-// The four frames about a place; the outer ones are missing where the take ends or a sample is not
-// observed, and are then extrapolated linearly.
+// The four frames around a place. An outer frame is missing if the take ends or its sample is not
+// observed; it is then extrapolated linearly.
 struct Neighbours {
   std::size_t outer_before, before, after, outer_after;
   bool has_outer_before, has_outer_after;
@@ -88,11 +88,11 @@ Quat interpolate_rotation(const Neighbours& n, double u, At at) {
 
 bool always(std::size_t) { return true; }
 
-// With six digits.
+// Compares two rates to six digits.
 bool is_own_rate(double own, double rate) { return std::fabs(rate - own) <= 5e-6 * own; }
 
-// The number that the new first frame has in a trial whose frame 1 stays where it is, rounded;
-// events are timed from there, and keep their moment of the motion.
+// Renumbers the first frame. Frame 1 of the trial keeps its time, and the number is rounded. Events
+// are timed from frame 1 and keep their moment in the motion.
 void renumber(const Take& clip, Take& result) {
   const double before_s = static_cast<double>(clip.first_frame - 1) / clip.frame_rate_hz;
   result.first_frame = clip.first_frame;
@@ -153,7 +153,7 @@ Take resample_joints(const Take& clip, double frame_rate_hz) {
 Take resample_markers(const Take& clip, double frame_rate_hz) {
   const std::size_t markers = clip.marker_count(), frames = clip.frame_count();
   const std::vector<Place> at = places(frames, markers, clip.frame_rate_hz, frame_rate_hz);
-  // A file of analog samples alone has no motion to bring to another rate.
+  // A file with only analog samples has no motion to convert.
   if (markers == 0 || is_own_rate(clip.frame_rate_hz, frame_rate_hz)) return clip;
   Take result = make_marker_take(clip.names, at.size(), frame_rate_hz);
   result.is_position = clip.is_position;

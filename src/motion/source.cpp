@@ -1,4 +1,4 @@
-// Names of sources, and the programs by whose names a file says what recorded its motion.
+// Names of sources, and of the programs whose name in a file shows what recorded its motion.
 #include "kinemend/source.hpp"
 
 #include <fmt/format.h>
@@ -34,8 +34,8 @@ const std::array<NamedSource, 6>& named_sources() {
 }
 
 // Makers and programs that record with one kind of system only, in lower case. Editors (Blender,
-// Maya, MotionBuilder) and programs for several kinds of system are left out: their names say
-// nothing certain.
+// Maya, MotionBuilder) and programs for several kinds of system are left out: their names are not
+// certain evidence.
 constexpr std::array<std::pair<std::string_view, Source>, 33> recorders = {{
     {"vicon", Source::optical},
     {"oxford metrics", Source::optical},
@@ -72,7 +72,7 @@ constexpr std::array<std::pair<std::string_view, Source>, 33> recorders = {{
     {"nuitrack", Source::depth},
 }};
 
-// Whether a text has these words, and not as a part of longer ones.
+// Whether a text contains these words, not as parts of longer words.
 bool has_words(std::string_view text, std::string_view words) {
   const auto is_letter = [&](std::size_t at) {
     return at < text.size() && std::isalnum(static_cast<unsigned char>(text[at])) != 0;
@@ -83,7 +83,8 @@ bool has_words(std::string_view text, std::string_view words) {
   return false;
 }
 
-// Nothing where no recorder is named, or two that contradict each other.
+// Returns the source of the recorder that the text names; empty if it names none, or two that
+// contradict each other.
 std::optional<Source> source_named_in(std::string_view text) {
   const std::string lower = lower_case(text);
   std::optional<Source> found;

@@ -1,4 +1,4 @@
-// Sorts markers by the person that their names state.
+// Groups markers by the subject in their names.
 #include "kinemend/experimental/subjects.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Composes conversions, and passes them on to the document that a take comes from.
+// Composes conversions, and applies them to the source document of a take.
 #include "motion/take_change.hpp"
 
 #include "kinemend/experimental/convert.hpp"

@@ -15,7 +15,7 @@ inline bool is_finite(Vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Errors: `ErrorKind::usage`, with `what` and both lengths.
+/// Throws `ErrorKind::usage` with `what` and both lengths if they differ.
 inline void check_length(std::size_t actual, std::size_t expected, const char* what) {
   if (actual == expected) return;
   throw Error(ErrorKind::usage, fmt::format("{}: {} values, expected {}", what, actual, expected));

@@ -7,7 +7,7 @@ namespace kinemend {
 
 namespace {
 
-// Of an array that may be empty.
+// Returns null for an empty array.
 template <class T>
 const T* column(const std::vector<T>& values, std::size_t offset) {
   return values.empty() ? nullptr : values.data() + offset;
@@ -40,7 +40,7 @@ Track rotation_track(const Take& clip, std::size_t joint) {
   return track;
 }
 
-// As `Take::is_position_observed` counts them.
+// `number` is a point as in `Take::is_position_observed`.
 Track track_of_positions(const Take& clip, std::size_t number) {
   Track track;
   track.frames = clip.frame_count();

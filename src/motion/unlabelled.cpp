@@ -10,7 +10,7 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-// Lower case, without the number at the end.
+// Returns the name in lower case, without the number at its end.
 std::string stem_of(std::string_view name) {
   while (!name.empty() && is_digit(name.back())) name.remove_suffix(1);
   return lower_case(name);

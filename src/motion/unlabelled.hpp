@@ -5,7 +5,7 @@
 
 namespace kinemend {
 
-/// Whether a marker bears no label but a number that the capture system gave it, with or without a
+/// Whether the name of a marker is only a number given by the capture system, with or without a
 /// subject: `*52`, `U_12`, `uname*3`, `Unlabeled 1234`, or no name at all. Such a point changes
 /// from one marker to another within a take.
 bool is_unlabelled(std::string_view name);

@@ -28,7 +28,7 @@ double nearest_turn(double angle, double previous) {
   return previous + wrap_angle(angle - previous, pi);
 }
 
-// Largest change of a channel once each is moved by whole turns to be nearest to `previous`.
+// Moves each angle by whole turns to be nearest to `previous`; returns the largest change.
 double continue_from(Angles& angles, const Angles& previous, std::size_t count) {
   double largest = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -46,7 +46,7 @@ Angles nearer(Angles first, Angles second, const Angles& previous, std::size_t c
   return change_second < change_first ? second : first;
 }
 
-// One axis: the turn nearest to q keeps the component about the axis and drops the others.
+// One axis: the nearest rotation to q keeps the component about the axis and drops the others.
 Angles hinge_angles(Quat q, RotationOrder order, const Angles& previous) {
   const double angle = 2 * portable::atan2(component(q, order.axes[0]), q.w);
   return {nearest_turn(angle, previous[0]), 0, 0};
@@ -66,7 +66,7 @@ Angles saddle_angles(Quat q, RotationOrder order, const Angles& previous) {
   const double difference = portable::atan2(m10 - m01, m00 + m11);
   const Angles first{sum + difference, sum - difference, 0};
   const Angles second{first[0] + 2 * pi, first[1],
-                      0};  // the other sign of q, the same after whole turns
+                      0};  // for the other sign of q, equal after whole turns
   return nearer(first, second, previous, 2);
 }
 
@@ -144,8 +144,8 @@ Angles to_euler_near(Quat q, RotationOrder order, const Angles& previous) {
   const double plus = portable::atan2(b, a);
   const double minus = portable::atan2(d, c);
 
-  // Nearer to the lock than this, rounding decides between first and last; what is lost is twice
-  // this. Chosen by hand, not swept.
+  // Closer to gimbal lock than this, rounding decides between the first and last angle; the error
+  // is twice this. Chosen by hand, not swept.
   constexpr double locked = 1e-9;
   Angles angles;
   angles[1] = middle;

@@ -22,7 +22,7 @@ Quat leading_eigenvector(Matrix4 matrix, Quat fallback) {
     for (std::size_t r = 0; r < 4; ++r) {
       for (std::size_t c = r; c < 4; ++c) matrix[r][c] = matrix[c][r] = scale * square[r][c];
     }
-    if (trace > 1 - 1e-15) break;  // of rank one
+    if (trace > 1 - 1e-15) break;  // the matrix has rank one
   }
   std::size_t largest = 0;
   for (std::size_t r = 1; r < 4; ++r) {

@@ -9,8 +9,9 @@ namespace kinemend::rotation {
 
 using Matrix4 = std::array<std::array<double, 4>, 4>;
 
-/// The unit eigenvector of the largest eigenvalue of a symmetric positive semidefinite matrix, up
-/// to sign. Where several are largest, one of their space. `fallback` when the matrix is zero.
+/// Returns the unit eigenvector of the largest eigenvalue of a symmetric positive semidefinite
+/// matrix, up to sign. If the largest eigenvalue is repeated, any vector of its space. `fallback`
+/// if the matrix is zero.
 Quat leading_eigenvector(Matrix4 matrix, Quat fallback = {});
 
 }  // namespace kinemend::rotation

@@ -11,7 +11,7 @@ namespace kinemend {
 Quat normalized(Quat q) {
   double length = norm(q);
   if (!(length > 1e-150 && length < 1e150)) {
-    // The squares may have left the range of numbers.
+    // The squares may overflow or underflow.
     const double largest =
         std::max({std::fabs(q.w), std::fabs(q.x), std::fabs(q.y), std::fabs(q.z)});
     if (!(largest > 0 && std::isfinite(largest))) return {};
@@ -29,7 +29,7 @@ Vec3 rotate(Quat q, Vec3 v) {
 
 Quat exp(Vec3 rotation_vector) {
   const double angle = norm(rotation_vector);
-  // sin(angle / 2) / angle, by its series where the quotient would lose digits.
+  // sin(angle / 2) / angle, by its series if the quotient would lose digits.
   const auto [sine, cosine] = portable::sine_and_cosine(angle / 2);
   const double scale = angle < 1e-4 ? 0.5 - angle * angle / 48 : sine / angle;
   return {cosine, scale * rotation_vector.x, scale * rotation_vector.y, scale * rotation_vector.z};

@@ -13,13 +13,13 @@
 
 namespace kinemend {
 
-/// A take of a batch: what its report says without lists.
+/// A take of a batch: the summary of its report, without lists.
 struct BatchRow {
-  std::string name;    ///< below the output folder
+  std::string name;    ///< path below the output folder
   std::string status;  ///< "begun", "cleaned", "failed", "copied"
   std::string input;
   std::string verdict;
-  std::string error;  ///< of one that failed
+  std::string error;  ///< why the take failed; else empty
   std::vector<std::string> warnings;
   std::size_t frames = 0;
   std::size_t frames_repaired = 0;
@@ -27,44 +27,45 @@ struct BatchRow {
   std::size_t gaps = 0;
   double frame_rate_hz = 0;
   double seconds = 0;
-  std::string json;  ///< all of it, on one line without its end
+  std::string json;  ///< the whole row on one line, without the line end
 };
-/// A take of which there is nothing to say yet, or ever.
+/// Makes the row of a take without results, which was begun or copied.
 BatchRow plain_row(std::string_view name, std::string_view status);
-/// `warnings`: also those of reading and writing, in place of the report's own.
+/// Makes the row of a cleaned take. `warnings` replaces the report's own list and includes warnings
+/// of reading and writing.
 BatchRow cleaned_row(std::string_view name, const Report& report,
                      const std::vector<std::string>& warnings);
 BatchRow failed_row(std::string_view name, std::string_view input, std::string_view error,
                     int exit_code, const std::vector<std::string>& warnings = {});
-/// None for what is no row.
+/// Returns a row, or empty if the text is not a row.
 std::optional<BatchRow> parse_row(std::string_view json);
 
-/// The rows that most should be looked at, worst first: takes with warnings, then by the share of
-/// frames repaired. What failed is not among them.
+/// Returns the takes that most need review, worst first: takes with warnings, then by the share of
+/// frames repaired. Failed takes are left out.
 std::vector<BatchRow> worst_rows(std::span<const BatchRow> rows, std::size_t most = 10);
 
-/// Sums over all takes of a batch, whichever run made them.
+/// Sums over all takes of a batch, over all runs.
 struct BatchSums {
   std::size_t takes = 0, cleaned = 0, failed = 0, to_do = 0;
   std::size_t frames = 0, spikes = 0, gaps = 0;
   double duration_s = 0, seconds = 0;
   std::vector<std::pair<std::string, std::string>> failures;  ///< name and error
 
-  /// `row`: nullptr where the take is still to be done.
+  /// Adds a take. `row`: nullptr if the take has not been cleaned yet.
   void add(std::string_view name, const BatchRow* row);
 };
-/// The summary as a document of its own.
+/// Returns the summary as a separate document.
 std::string to_json(const BatchSums& sums, std::string_view options_hash);
 
-/// What one run did.
+/// Counts of one run.
 struct BatchCounts {
   std::size_t cleaned = 0;  ///< by this run
-  std::size_t kept = 0;     ///< done by an earlier one
+  std::size_t kept = 0;     ///< cleaned by an earlier run
   std::size_t copied = 0;
   std::size_t failed = 0;
-  std::size_t with_warnings = 0;    ///< of those that did not fail
-  std::size_t part = 1, parts = 1;  ///< of the whole batch
-  int exit_code = 0;                ///< the highest of all
+  std::size_t with_warnings = 0;    ///< takes with warnings that did not fail
+  std::size_t part = 1, parts = 1;  ///< this run cleans part `part` of `parts` of the batch
+  int exit_code = 0;                ///< the highest exit code of all takes
 
   void add(const BatchRow& row, bool is_new, int code);
 };

@@ -7,8 +7,8 @@
 
 namespace kinemend {
 
-/// 128 bits of XXH3 as 32 hexadecimal digits, the same on every machine. Shows whether bytes have
-/// changed; gives no protection against deliberate collisions.
+/// Returns 128 bits of XXH3 as 32 hexadecimal digits, the same on every machine. It does not
+/// protect against deliberate collisions.
 std::string content_hash(std::string_view bytes);
 
 inline constexpr std::size_t content_hash_digits = 32;

@@ -16,34 +16,34 @@ namespace kinemend {
 struct TrackCurves {
   std::string name;
   std::string quantity;  ///< "rotation" or "position", as in `ReportFinding`
-  std::string unit;  ///< "deg" of rotations; of positions the file's, empty where it does not say
-  std::int64_t first_frame = 1;  ///< the number that the file gives to the first
+  std::string unit;      ///< "deg" for rotations; for positions the file's, empty if not stated
+  std::int64_t first_frame = 1;  ///< the number that the file gives to the first frame
   double frame_rate_hz = 0;
   std::vector<std::string> axes;            ///< "X", "Y", "Z", in the file's order
   std::vector<std::vector<double>> before;  ///< a curve of F values for each axis
   std::vector<std::vector<double>> after;
-  /// F: the angle between the rotations, or the distance; NaN where one of the two is.
+  /// F: the angle between the rotations, or the distance; NaN if either value is NaN.
   std::vector<double> difference;
 };
 
-/// The rotation of a joint as the angles of its channels, which continue from frame to frame: those
-/// after cleaning are the ones nearest to those before. A joint without rotation channels has ZXY.
-/// Errors of all: `ErrorKind::usage` for takes of different length and for a track that one does
-/// not have.
+/// Returns the rotation of a joint as the angles of its channels, without jumps from frame to
+/// frame; the angles after cleaning are the ones nearest to the angles before. A joint without
+/// rotation channels uses ZXY. All three functions throw `ErrorKind::usage` for takes of different
+/// length and for a track that one of them does not have.
 TrackCurves rotation_curves(const Take& before, const Take& after, std::size_t joint);
-/// The position of joint 0.
+/// Returns the position of joint 0.
 TrackCurves root_curves(const Take& before, const Take& after);
 TrackCurves marker_curves(const Take& before, const Take& after, std::size_t marker);
 
 struct CurveStyle {
   double width = 960, panel_height = 120;  ///< pixels
-  /// Frames [first, last] to draw, counted from 0; more than the take has are left out.
+  /// Frames [first, last] to draw, counted from 0; frames beyond the take are ignored.
   std::size_t first_frame = 0, last_frame = SIZE_MAX;
   bool one_take = false;  ///< only the curve after, without a difference
 };
-/// A panel for each axis with the curve before under the one after, and one of the difference.
-/// Findings of the track and quantity are bands behind them. Where there are more frames than
-/// pixels, each pixel shows the least and the largest value of its frames.
+/// Draws a panel for each axis with the curve before under the curve after, and a panel of the
+/// difference. Findings of the track and quantity are bands behind the curves. If there are more
+/// frames than pixels, each pixel shows the smallest and the largest value of its frames.
 std::string curves_svg(const TrackCurves& curves, std::span<const ReportFinding> findings = {},
                        const CurveStyle& style = {});
 

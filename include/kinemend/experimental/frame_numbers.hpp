@@ -8,7 +8,7 @@
 
 namespace kinemend {
 
-/// The number of frame `frame` (from 0) in a take whose first frame has the number `first`.
+/// Returns the number of frame `frame` (from 0) in a take whose first frame has the number `first`.
 std::int64_t frame_number(std::size_t frame, std::int64_t first);
 
 }  // namespace kinemend

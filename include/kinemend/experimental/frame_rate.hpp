@@ -17,7 +17,7 @@ constexpr bool is_usable_frame_rate(double frame_rate_hz) {
          frame_rate_hz <= most_frame_rate_hz * (1 + rounding);
 }
 
-/// Errors: `ErrorKind::usage` for a rate that no take may have.
+/// Throws `ErrorKind::usage` for a rate that no take may have.
 void check_frame_rate(double frame_rate_hz);
 
 /// The rate for converting windows of time to frames. At most 1,000 Hz, so that the cost of a frame

@@ -1,4 +1,4 @@
-// A bound on how deeply JSON from outside may be nested. Every reader of JSON uses it.
+// Limits how deeply JSON from outside may be nested. Every reader of JSON uses it.
 #pragma once
 
 #include <cstddef>
@@ -6,19 +6,18 @@
 
 namespace kinemend {
 
-/// The most levels of arrays and objects, one inside the other, that are read. Files of the program
-/// have five.
+/// The largest accepted depth of nested arrays and objects. Files of the program have five levels.
 inline constexpr std::size_t deepest_json = 64;
 
-/// `text` up to the bracket that opens a level deeper than `deepest_json`; the whole text where
-/// there is none. A parser meets the end there, and reports it as it reports any text that is cut.
-/// Takes time linear in the text and no memory. Never throws.
+/// Returns `text` up to the bracket that opens a level deeper than `deepest_json`, else the whole
+/// text. A parser reports the result as it reports any truncated text. Takes linear time and no
+/// memory. Never throws.
 std::string_view json_within_depth(std::string_view text);
 
-/// `Json::parse` of text from outside. Code that walks through a value calls itself for every
-/// level, and a value that is nested deeply enough would exhaust the stack.
-/// `Json`: `nlohmann::json` or `nlohmann::ordered_json`. Errors: `Json::parse_error`, whose `byte`
-/// is the place; a discarded value instead where `throws` is false.
+/// Parses text from outside with `Json::parse`. Code that walks through a value recurses for every
+/// level, so a deeply nested value would exhaust the stack. `Json`: `nlohmann::json` or
+/// `nlohmann::ordered_json`. Errors: `Json::parse_error`, whose `byte` is the position; returns a
+/// discarded value instead if `throws` is false.
 template <class Json>
 Json parse_json(std::string_view text, bool throws = true) {
   return Json::parse(json_within_depth(text), nullptr, throws);

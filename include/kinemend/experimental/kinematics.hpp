@@ -1,4 +1,4 @@
-// Where the joints of a take are in the world (forward kinematics).
+// Computes the global positions and rotations of joints (forward kinematics).
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ struct Pose {
 
 Pose forward_kinematics(const Take& clip, std::size_t frame);
 
-/// Joint positions of every frame, F x J, then end sites if asked: F x (J + E), file units.
+/// Returns joint positions of every frame, F x J, or F x (J + E) with end sites, in file units.
 std::vector<Vec3> joint_positions(const Take& clip, bool with_end_sites = false);
 
 }  // namespace kinemend

@@ -6,7 +6,7 @@
 
 namespace kinemend {
 
-/// A to Z as a to z, whatever the locale; every other byte as it is.
+/// Converts A to Z to a to z, whatever the locale, and keeps every other byte.
 char lower_case(char letter);
 std::string lower_case(std::string_view text);
 /// Whether two texts are equal except for case (ASCII).

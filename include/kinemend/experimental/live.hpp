@@ -16,38 +16,39 @@ namespace kinemend {
 
 /// How cleaned frames are written.
 enum class LiveFormat {
-  bvh,    ///< as it came in: the sender's hierarchy, then a line a frame with the channel values;
-          ///< or the names of the markers, then their positions
-  jsonl,  ///< a line of JSON that describes the stream, then one a frame
+  /// The form of the input: the sender's hierarchy, then a line per frame with the channel values;
+  /// or the names of the markers, then their positions.
+  bvh,
+  jsonl,  ///< a line of JSON that describes the stream, then a line per frame
 };
 
 struct LiveOptions {
   LiveFormat format = LiveFormat::bvh;
-  double strength = 1;  ///< 0..1: geodesic blend from the frame as it came to the cleaned one
-  /// Joints: a foot that is low and slow is held where it is, with no more delay. It moves legs
-  /// alone, and horizontally. A skeleton whose legs are not recognised stays as it is.
+  double strength = 1;  ///< 0..1: geodesic blend from the input to the cleaned frame
+  /// Joints: holds a foot that is low and slow in its place, without more delay. Only legs move,
+  /// and only horizontally. A skeleton whose legs are not recognised is not changed.
   bool feet = false;
-  double frame_rate_hz = 0;  ///< 0.1 to 100,000; 0: that of the header, or 30 where it has none
-  /// A motion line begins with the number of its frame, which counts up by one. Lost, late and
-  /// duplicate frames are recognised by it.
+  double frame_rate_hz = 0;  ///< 0.1 to 100,000; 0: the rate of the header, or 30 if it has none
+  /// A motion line begins with the number of its frame, which increases by one. The numbers show
+  /// lost, late and duplicate frames.
   bool numbered = false;
-  /// How many numbered frames at most wait for a missing one that they may have overtaken. After
-  /// that it counts as lost. 0: frames never wait.
+  /// Largest number of numbered frames that wait for a missing frame that they may have overtaken.
+  /// When more arrive the frame is lost. 0: frames never wait.
   std::size_t reorder_frames = 0;
   /// The input comes in datagrams, which anyone can send: a malformed line is only counted, and not
   /// interpolated.
   bool datagrams = false;
   std::size_t skipped_words = 0;  ///< words to skip at the start of a motion line
   /// Lines as Axis Neuron sends them: the number and the name of an avatar, then the values of its
-  /// 59 joints, with or without displacement, and no header. `skeleton`, where it is given, names
-  /// the joints; otherwise they are those of a person of 1.75 m, in centimetres at 60 Hz.
+  /// 59 joints, with or without displacement, and no header. `skeleton`, if it is given, names the
+  /// joints; otherwise the skeleton is a person of 1.75 m, in centimetres at 60 Hz.
   bool neuron = false;
   /// BVH text with hierarchy and rate, used until a header arrives. Empty: frames before the first
   /// header are malformed.
   std::string skeleton;
-  /// What records the frames; `unknown` is a suit for `neuron`.
+  /// The system that records the frames; with `neuron`, `unknown` means a suit.
   Source source = Source::unknown;
-  double body_height = 1750;  ///< of the person, in the units of a stream of markers (> 0)
+  double body_height = 1750;  ///< height of the person, in the units of a stream of markers (> 0)
   double longest_gap_s = 1;   ///< longest run of lost frames that is interpolated (>= 0)
   std::size_t most_line_bytes = 1U << 20;    ///< a longer line is malformed
   std::size_t most_header_bytes = 1U << 22;  ///< a longer header is rejected
@@ -57,24 +58,24 @@ struct LiveOptions {
 struct LiveCounts {
   std::size_t frames_in = 0;
   std::size_t frames_out = 0;
-  std::size_t lost = 0;       ///< missing by their numbers, or malformed lines in their place
+  std::size_t lost = 0;       ///< frames missing by their numbers, or with a malformed line
   std::size_t made_up = 0;    ///< lost frames that were interpolated
-  std::size_t held = 0;       ///< repeated by `LiveSession::hold`
-  std::size_t late = 0;       ///< arrived after a later one, and were ignored
-  std::size_t doubled = 0;    ///< had the number of an earlier frame, and were ignored
+  std::size_t held = 0;       ///< frames repeated by `LiveSession::hold`
+  std::size_t late = 0;       ///< frames that arrived after a later one and were ignored
+  std::size_t doubled = 0;    ///< frames with the number of an earlier frame, which were ignored
   std::size_t malformed = 0;  ///< lines that do not hold a frame
-  std::size_t not_finite =
-      0;                     ///< values (nan, inf) that were replaced by those of the frame before
+  /// Values (nan, inf) that were replaced by the values of the frame before.
+  std::size_t not_finite = 0;
   std::size_t restarts = 0;  ///< jumps of the numbers too large to be a loss
   std::size_t bad_headers = 0;
   std::size_t sessions = 0;   ///< skeletons, each with a header in the output
-  std::size_t reordered = 0;  ///< of those in: arrived after a later one, and were put in order
+  std::size_t reordered = 0;  ///< frames that arrived after a later one and were put in order
 };
 
-/// How much a joint's rotation or a marker changed, which is about its noise.
+/// How much a joint's rotation or a marker changed, which is nearly its noise.
 struct TrackChange {
   std::string name;
-  /// Root of the mean square of the last 600 frames or so: degrees, or units of the markers.
+  /// Root mean square over about the last 600 frames: degrees, or units of the markers.
   double rms = 0;
 };
 
@@ -86,8 +87,8 @@ struct LivePiece {
 using LiveSink = std::function<void(const LivePiece&)>;
 
 /// One live stream: takes bytes in pieces of any size, and gives cleaned frames with a constant
-/// delay. No input is an error: malformed lines are counted. Once the stream is warm, a frame
-/// allocates no memory.
+/// delay. Input never causes an error: malformed lines are counted. Once the stream is warm, a
+/// frame allocates no memory.
 class LiveSession {
  public:
   /// The cleaner must outlive the session. Errors: `ErrorKind::usage` for options out of range and
@@ -97,7 +98,7 @@ class LiveSession {
   LiveSession(const LiveSession&) = delete;
   LiveSession& operator=(const LiveSession&) = delete;
 
-  /// Bytes as they arrive.
+  /// Takes bytes as they arrive.
   void feed(std::string_view bytes);
   /// Ends the current line, as the end of a datagram does; a partial header is kept.
   void end_line();
@@ -108,7 +109,7 @@ class LiveSession {
   /// Repeats the last frame, so that the output keeps its rate while no frame arrives. Does nothing
   /// before the first frame.
   void hold();
-  /// Gives the frames that wait for a missing one (`reorder_frames`), for example because no more
+  /// Gives the frames that wait for a missing frame (`reorder_frames`), for example because no more
   /// input arrives. `hold`, `drop_line` and `finish` do so too.
   void settle();
   /// Ends the stream: takes a partial line, and gives all remaining frames.
@@ -119,10 +120,10 @@ class LiveSession {
   std::size_t joint_count() const noexcept;     ///< 0 for markers, and before a header
   double frame_rate_hz() const noexcept;        ///< 0 before a header
   std::size_t latency_frames() const noexcept;  ///< 0 before a header
-  /// Of each joint or marker, in their order; empty before the first cleaned frame.
+  /// Returns the change of each joint or marker, in order; empty before the first cleaned frame.
   std::vector<TrackChange> changes() const;
-  /// Messages since the last call: a new skeleton with its delay, unreadable headers, the first
-  /// malformed line.
+  /// Returns the messages since the last call: a new skeleton with its delay, unreadable headers,
+  /// the first malformed line.
   std::vector<std::string> take_notes();
 
  private:
@@ -130,12 +131,12 @@ class LiveSession {
   std::unique_ptr<Work> work_;
 };
 
-/// A method that runs live, and the options that it needs for that (`causal` for `butterworth`).
+/// A method that runs live, and the options that it needs to do so (`causal` for `butterworth`).
 struct LiveMethod {
   std::string name;
   OptionValues options;
 };
-/// All of them, in the order of the table of methods.
+/// Returns all live methods, in the order of the table of methods.
 std::vector<LiveMethod> live_methods();
 
 }  // namespace kinemend

@@ -1,4 +1,5 @@
-// Learned models: what a method knows of human motion, in a file (`walk.kmodel`, safetensors).
+// Learned models: the parameters of a method, fitted to human motion, in a file (`walk.kmodel`,
+// safetensors).
 #pragma once
 
 #include <filesystem>
@@ -14,12 +15,12 @@
 
 namespace kinemend {
 
-/// What a model says of itself, for people.
+/// The description of a model, for people.
 struct ModelCard {
   std::string title;    ///< "Walks of subject 35"
-  std::string data;     ///< what it was trained on
+  std::string data;     ///< the training data
   std::string licence;  ///< words on the data and the model
-  std::string command;  ///< that made it
+  std::string command;  ///< the command that made it
   std::string figures;  ///< measured quality, as text
 };
 
@@ -27,29 +28,30 @@ struct ModelCard {
 struct Model {
   std::string method;     ///< "example", "wiener", "kalman-learned"
   int version = 1;        ///< of the method's tensors
-  double rate_hz = 30;    ///< of the motion it was trained on
-  std::size_t takes = 0;  ///< trained on
-  double seconds = 0;     ///< of motion trained on
+  double rate_hz = 30;    ///< frame rate of the training motion
+  std::size_t takes = 0;  ///< number of takes it was trained on
+  double seconds = 0;     ///< duration of the training motion
   ModelCard card;
   BodyLayout layout;
   std::map<std::string, double, std::less<>> numbers;  ///< settings and scalars of the method
   std::map<std::string, Tensor, std::less<>> tensors;  ///< arrays of the method
 
-  /// Errors: `ErrorKind::unreadable_input` naming what is missing, or has another shape.
+  /// Returns an entry. Errors: `ErrorKind::unreadable_input` naming the entry that is missing or
+  /// has another shape.
   double number(std::string_view name) const;
   const Tensor& tensor(std::string_view name, const std::vector<std::size_t>& shape) const;
   const Tensor& tensor(std::string_view name, std::initializer_list<std::size_t> shape) const;
-  /// Any shape of this many dimensions.
+  /// Accepts any shape with this number of dimensions.
   const Tensor& tensor(std::string_view name, std::size_t dimensions) const;
 };
 
-/// Errors: `ErrorKind::unreadable_input` as of `parse_tensors`, for a file that is no model, and
-/// for a version that is newer than this program, with both numbers.
+/// Reads a model. Errors: `ErrorKind::unreadable_input` as for `parse_tensors`, for a file that is
+/// not a model, and for a version that is newer than this program, with both numbers.
 Model parse_model(std::string_view bytes, std::string_view name);
 Model read_model(const std::filesystem::path& path);
-/// The same model gives the same bytes.
+/// Returns the bytes of a model file. The same model gives the same bytes.
 std::string write_model(const Model& model);
-/// XXH3 of the bytes of the file, hexadecimal: stands on the card.
+/// Returns XXH3 of the bytes of the file in hexadecimal, for the model's card.
 std::string model_checksum(std::string_view bytes);
 
 /// A model that is part of the program.
@@ -58,12 +60,13 @@ struct ShippedModel {
   std::string_view bytes;  ///< of the model file
 };
 std::vector<ShippedModel> shipped_models();
-/// Parsed once and kept. Errors: `ErrorKind::usage` when none ships for the method: `method
-/// kalman-learned needs a model: --model FILE, made by kinemend train kalman-learned`.
+/// Returns the shipped model of a method, which is parsed once and kept. Errors: `ErrorKind::usage`
+/// if no model ships for the method: `method kalman-learned needs a model: --model FILE, made by
+/// kinemend train kalman-learned`.
 std::shared_ptr<const Model> shipped_model(std::string_view method);
 
-/// The model that a method works with: the one given, else that of its option `model`, a path, or
-/// the shipped one where that is empty. Errors: as above; `ErrorKind::usage` for a model of another
+/// Returns the model for a method: `given`, else the model at `path` (the option `model`), or the
+/// shipped model if `path` is empty. Errors: as above; `ErrorKind::usage` for a model of another
 /// method.
 std::shared_ptr<const Model> model_for(std::string_view method, const std::string& path,
                                        std::shared_ptr<const Model> given = nullptr);

@@ -19,8 +19,8 @@ namespace kinemend {
 bool has_report_page();
 
 struct PageSettings {
-  std::string command{};                ///< that made the report: "clean"
-  std::string command_line{};           ///< as it was typed; the page shows it
+  std::string command{};                ///< the command that made the report: "clean"
+  std::string command_line{};           ///< as typed by the user; the page shows it
   std::string before_label = "before";  ///< names of the two takes
   std::string after_label = "after";
   /// Further data for the page's program, such as the gap plan in `kinemend view`: name and JSON.
@@ -42,15 +42,15 @@ struct PageSettings {
 std::string report_page(const Report& report, const Take& before, const Take* after,
                         const PageSettings& settings);
 
-/// The page of `kinemend view` before there is a result: the program, which may send requests to
-/// the server that it came from, and `parts` (name and JSON). Errors: those of `report_page`.
+/// Returns the page of `kinemend view` before a result exists: the program, which may send requests
+/// to the server that it came from, and `parts` (name and JSON). Errors: those of `report_page`.
 std::string served_page(std::string_view title, std::string_view summary,
                         std::span<const std::pair<std::string, std::string>> parts);
 
 /// A take of a batch and its own page.
 struct BatchPageRow {
   BatchRow row;
-  std::string page;       ///< relative path from the index, with /; empty where there is none
+  std::string page;       ///< relative path from the index, with /; empty if it has no page
   std::string picture{};  ///< SVG of a few poses, for the takes that most need review
 };
 /// The index of a batch: a row for each take, failed takes first, then those that most need review,

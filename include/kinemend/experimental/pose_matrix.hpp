@@ -9,8 +9,8 @@
 namespace kinemend {
 
 /// F frames x D channels, frame-major: the channels of one frame are contiguous, and a window of
-/// frames is one block of memory. What a channel means is known to whoever encoded it (see
-/// `representation.hpp`).
+/// frames is one block of memory. The code that encodes a matrix defines the meaning of its
+/// channels (see `representation.hpp`).
 struct PoseMatrix {
   std::size_t frames = 0;
   std::size_t channels = 0;

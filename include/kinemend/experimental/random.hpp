@@ -20,11 +20,12 @@ class Random {
   double uniform(double low, double high) noexcept;
   /// Uniform in {0, ..., count - 1}; `count` is at least 1.
   std::uint64_t below(std::uint64_t count) noexcept;
-  /// Standard normal, by the inverse distribution function (one draw a value).
+  /// Standard normal, by the inverse distribution function (one draw per value).
   double normal() noexcept;
   /// True with the given probability.
   bool chance(double probability) noexcept;
-  /// An independent generator for part `index` of the work, so that parts may run in any order.
+  /// Returns an independent generator for part `index` of the work, so that parts may run in any
+  /// order.
   Random fork(std::uint64_t index) const noexcept;
 
  private:

@@ -10,13 +10,14 @@
 namespace kinemend {
 
 struct Subject {
-  std::string name;                  ///< "Ann"; empty for markers that bear no subject's
-  std::vector<std::size_t> markers;  ///< those that are positions, ascending
+  std::string name;                  ///< "Ann"; empty for markers without a subject
+  std::vector<std::size_t> markers;  ///< the markers that are positions, ascending
 };
 
-/// Whose markers a take holds, by what stands before the last colon of their names (`Ann:LASI`), in
-/// the order of their first markers; those of nobody come last. All markers in one without a name
-/// where no two subjects are told apart; none of a take without positions.
+/// Returns the subjects of a take by the part of the names before the last colon (`Ann:LASI`), in
+/// the order of their first markers; markers without a subject come last. If fewer than two
+/// subjects are found, all markers are one subject without a name. Empty for a take without
+/// positions.
 std::vector<Subject> subjects_of(const Take& clip);
 
 }  // namespace kinemend

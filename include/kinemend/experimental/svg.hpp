@@ -8,8 +8,8 @@
 namespace kinemend {
 
 /// A drawing in SVG, in pixels from the top left corner. Coordinates are written to a tenth, lines
-/// as steps from point to point, so that long curves stay small. `attributes` and `element` are SVG
-/// as it is; what may hold other characters goes through `xml_escaped` first.
+/// as steps from point to point, so that long curves stay small. `attributes` and `element` are
+/// inserted as SVG; escape any other text with `xml_escaped` first.
 class Svg {
  public:
   struct Point {
@@ -25,10 +25,10 @@ class Svg {
   void circle(Point centre, double radius, std::string_view attributes = "");
   void text(double x, double y, std::string_view attributes, std::string_view content);
   void line(Point from, Point to, std::string_view attributes = "");
-  /// One element of several lines.
+  /// Adds one element of several lines.
   void path(const std::vector<std::vector<Point>>& lines, std::string_view attributes = "");
 
-  /// The whole drawing; nothing may be added after it.
+  /// Returns the whole drawing, to which no more can be added.
   std::string finish() &&;
 
  private:
@@ -39,8 +39,8 @@ class Svg {
   std::string text_;
 };
 
-/// Text as it may stand in an element or an attribute of XML: control characters, which it cannot
-/// hold, and bytes that are no UTF-8 are replaced.
+/// Returns text that is valid in an element or attribute of XML. Control characters, which XML
+/// cannot hold, and bytes that are not UTF-8 are replaced.
 std::string xml_escaped(std::string_view text);
 
 }  // namespace kinemend

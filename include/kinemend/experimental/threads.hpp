@@ -1,4 +1,4 @@
-// How many threads the library uses, and work that every one of them does.
+// Limits and counts the threads of the library, runs work on all of them, and stops work.
 #pragma once
 
 #include <atomic>
@@ -9,8 +9,8 @@
 
 namespace kinemend {
 
-/// While it lives, the library uses at most `most` threads, the caller's among them. Where several
-/// limits live at once, the least holds. `most`: 1 or more.
+/// During its lifetime the library uses at most `most` threads, including the caller's. If several
+/// limits exist, the smallest applies. `most`: 1 or more.
 class ThreadLimit {
  public:
   explicit ThreadLimit(std::size_t most);
@@ -23,25 +23,25 @@ class ThreadLimit {
   std::unique_ptr<Held> held_;
 };
 
-/// Number of threads that work is spread over, 1 or more.
+/// Returns the number of threads that share the work, 1 or more.
 std::size_t thread_count();
 
-/// Calls `work` as many times as there are threads, in parallel where threads are free. The work
-/// shares out what there is to do. Throws what `work` throws first.
+/// Calls `work` once per thread, in parallel if threads are free. The calls divide the work among
+/// themselves. Throws the first exception of `work`.
 void on_every_thread(const std::function<void()>& work);
 
-/// Calls `work`. While it waits for its own threads, this thread does no work of other callers.
+/// Calls `work`. While this thread waits for its own tasks, it does not run tasks of other callers.
 void run_isolated(const std::function<void()>& work);
 
-/// Work was asked to end before it was done.
+/// Thrown by work that was asked to stop early.
 class WorkStopped : public std::exception {
  public:
   const char* what() const noexcept override { return "the work was stopped"; }
 };
 
-/// While it lives, work that this thread does and spreads over threads throws `WorkStopped` soon
-/// after `stop` has become true. What the work was given is then as any exception leaves it. `stop`
-/// outlives it.
+/// During its lifetime, work of this thread, and its tasks on other threads, throws `WorkStopped`
+/// soon after `stop` becomes true. The data of the work is left as by any other exception. `stop`
+/// must outlive this object.
 class StopWatch {
  public:
   explicit StopWatch(const std::atomic<bool>& stop);

@@ -5,7 +5,7 @@
 
 namespace kinemend {
 
-/// As "1.2.3": major, minor and patch version.
+/// Returns the version as "1.2.3": major, minor and patch version.
 std::string_view version() noexcept;
 
 }  // namespace kinemend

@@ -6,12 +6,11 @@
 
 namespace kinemend {
 
-/// Whether a name fits a pattern with `*`, `?` and `[a-z]`, `[!a]`, `[[:digit:]]`; a backslash
-/// takes the next character for itself. Works on bytes. A system's own `fnmatch` is used where it
-/// is the one of glibc.
+/// Whether a name matches a pattern with `*`, `?` and `[a-z]`, `[!a]`, `[[:digit:]]`; a backslash
+/// escapes the next character. Works on bytes. Uses `fnmatch` of the system if it is glibc's.
 bool matches_wildcards(const std::string& pattern, const std::string& name);
 
-/// The same by code of the project, on every system.
+/// `matches_wildcards` without the system's `fnmatch`, on every system.
 bool matches_wildcards_anywhere(std::string_view pattern, std::string_view name);
 
 }  // namespace kinemend

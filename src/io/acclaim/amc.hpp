@@ -8,20 +8,20 @@
 
 namespace kinemend {
 
-/// How likely the head of a file is AMC, 0 to 100.
+/// Returns how likely the head of a file is AMC, 0 to 100.
 int sniff_amc(std::string_view head);
 /// Reads AMC with the ASF that `ReadOptions::skeleton` describes. Errors: `unreadable_input`,
-/// naming the line, or the skeletons that were looked for.
+/// naming the line, or the skeleton files that were tried.
 TakeResult read_amc(std::string bytes, std::string_view name, const ReadOptions& options);
-/// The same with the skeleton's bytes; `asf_name` stands in messages.
+/// Reads AMC with the skeleton's bytes; `asf_name` appears in messages.
 TakeResult read_amc(std::string bytes, std::string_view name, std::string asf_bytes,
                     std::string_view asf_name, const ReadOptions& options);
-/// A clip read from AMC comes out in its source's layout, with the digits of every sample that has
-/// not changed; any other in a plain layout that fits what `write_asf` writes. Errors: `usage` when
-/// the format cannot hold the clip.
+/// Writes a clip. A clip read from AMC keeps its source's layout and the digits of every unchanged
+/// sample; any other clip gets a plain layout that fits the output of `write_asf`. Errors: `usage`
+/// if the format cannot hold the clip.
 std::string write_amc(const Take& clip);
 
-/// `side_file` of an AMC.
+/// Returns `side_file` of an AMC.
 std::optional<SideFile> amc_side_file(const Take& take, std::string_view bytes,
                                       const std::filesystem::path& output);
 

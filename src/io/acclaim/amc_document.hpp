@@ -11,19 +11,19 @@
 
 namespace kinemend {
 
-/// An AMC file as it was read, with the ASF file it belongs to; of an ASF alone, `bytes` is empty.
+/// An AMC file as it was read, with its ASF file; for an ASF alone, `bytes` is empty.
 struct AmcDocument : MotionDocument {
-  std::string name;           ///< of the AMC
-  std::string skeleton_name;  ///< of the ASF file, without its folder
+  std::string name;           ///< name of the AMC file
+  std::string skeleton_name;  ///< name of the ASF file, without its folder
   std::string asf_bytes;
   double metres_per_unit = 0;
   AmcLayout layout;
-  std::vector<std::uint8_t> is_angle;  ///< one a column
+  std::vector<std::uint8_t> is_angle;  ///< one per column
 
   std::unique_ptr<RowReader> rows() const override;
 };
 
-/// One a column of `MotionColumns`: whether it holds an angle.
+/// Returns for each column of `MotionColumns` whether it holds an angle.
 std::vector<std::uint8_t> angle_columns(const Skeleton& skeleton);
 
 }  // namespace kinemend

@@ -31,7 +31,7 @@ std::string_view trim(std::string_view text) {
   return text;
 }
 
-// The lines between the first frame's number and the next.
+// Returns the lines between the first frame's number and the second's.
 std::vector<BoneLine> first_frame(const SourceText& text, std::size_t begin) {
   AsfScanner scanner(text.bytes, begin);
   scanner.next();
@@ -49,7 +49,7 @@ std::vector<BoneLine> first_frame(const SourceText& text, std::size_t begin) {
   }
 }
 
-// Joints by name, in the spelling of the skeleton or in lower case.
+// Finds joints by name, in the spelling of the skeleton or in lower case.
 class JointNames {
  public:
   explicit JointNames(const Skeleton& skeleton) {
@@ -141,7 +141,7 @@ class LayoutMatcher {
     }
   }
 
-  // Some programs write three angles a bone and do not say so.
+  // Some programs write three angles per bone without declaring it.
   bool three_dofs_undeclared() {
     bool differs = false;
     for (std::size_t i = 0; i < lines_.size(); ++i) {

@@ -24,7 +24,7 @@ namespace {
 // The rate of most CMU takes (docs/formats/amc.md).
 constexpr double custom_rate_hz = 120;
 
-// The bytes of a frame are at least its number, names, and a digit and a space a value.
+// A frame has at least its number, the names, and a digit and a space per value.
 std::size_t least_frame_bytes(const AmcLayout& layout) {
   std::size_t bytes = 2;
   for (const AmcBone& bone : layout) bytes += bone.name.size() + 1 + 2 * bone.columns.size();
@@ -47,7 +47,7 @@ void note_repairs(const SourceText& text, Diagnostics& diagnostics, const AmcRow
        "of the file");
 }
 
-// What is read and written from now on ends before the frame that was cut.
+// Reports a cut frame, and makes reads and writes end before it.
 void note_cut(const SourceText& text, Diagnostics& diagnostics, const AmcRows& rows,
               std::size_t frames) {
   if (rows.cut_frame() == nullptr) return;

@@ -13,7 +13,7 @@ namespace kinemend {
 
 namespace {
 
-// Commas and parentheses count as white space.
+// Commas and parentheses are treated as white space.
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == ',' || c == '(' || c == ')'; }
 
 // Thrown within a frame that the end of the file cut off.
@@ -42,7 +42,7 @@ const char* AmcRows::skip_blanks(const char* p) const {
   return p;
 }
 
-// To the next word, over line ends and comments.
+// Moves to the next word, across line ends and comments.
 const char* AmcRows::skip_lines(const char* p) const {
   for (;;) {
     while (p != end_ && (is_space(*p) || is_blank(*p))) ++p;
@@ -98,7 +98,7 @@ bool AmcRows::next(double* values, TokenSpan* tokens) {
     if (last_end_ != end_ || !last_value_may_be_cut()) return true;
   } catch (const CutFrame&) {
   }
-  // Nothing of that frame counts.
+  // The cut frame is ignored.
   cut_frame_ = begin;
   position_ = end_;
   last_end_ = last_end;
@@ -113,7 +113,7 @@ bool AmcRows::last_value_may_be_cut() const {
                                 CommaStyle::none, ' ', LikeLines::same_first_word);
 }
 
-// An error at `word`, unless it may be what a cut has left of a longer word.
+// Throws an error at `word`, unless it may be the start of a longer word that was cut.
 void AmcRows::fail(const char* p, std::string_view word, bool may_be_cut,
                    const std::string& message) const {
   if (may_be_cut && p + word.size() == end_) throw CutFrame();
@@ -136,7 +136,7 @@ bool AmcRows::read_frame(double* values, TokenSpan* tokens) {
   return true;
 }
 
-// The rest of a frame of which the first bones stood in the order of the layout.
+// Reads the rest of a frame whose first bones were in the order of the layout.
 void AmcRows::read_bones_in_any_order(std::size_t first, double* values, TokenSpan* tokens) {
   std::vector<bool> seen(layout_.size());
   std::fill(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(first), true);
@@ -164,7 +164,7 @@ std::size_t AmcRows::bone_at(const char* p, const std::vector<bool>& seen) const
 }
 
 void AmcRows::fail_missing(const std::vector<bool>& seen, const char* p) const {
-  // Where the last line is whole, the frame is damaged, not cut.
+  // If the last line is complete, the frame is damaged, not cut.
   if (p == end_ && !is_line_end(end_[-1])) throw CutFrame();
   const auto missing = std::find(seen.begin(), seen.end(), false) - seen.begin();
   throw text_.error_at(p, fmt::format("frame {:.0f} ends without the bone {}", frame_number_,
@@ -211,7 +211,7 @@ double AmcRows::read_value(const char*& p) {
   return token.kind == TokenKind::number ? token.value : std::numeric_limits<double>::quiet_NaN();
 }
 
-// The first number of several that are run together.
+// Reads the first of several numbers without a blank between them.
 double AmcRows::read_joined(const char*& p, std::string_view word) {
   const char* const end = word.data() + word.size();
   const char* const next = second_number(p, end);

@@ -17,27 +17,27 @@ namespace kinemend {
 /// Walks over the frames of an AMC: a number on a line of its own, then a line for each bone.
 class AmcRows {
  public:
-  /// `degrees_per_value` of the angles, which are the columns that `is_angle` marks.
+  /// `degrees_per_value` applies to the columns that `is_angle` marks.
   AmcRows(const SourceText& text, std::size_t begin, const AmcLayout& layout,
           const std::vector<std::uint8_t>& is_angle, double degrees_per_value);
 
-  /// Reads the next frame; a value that is not finite becomes NaN. False at the end of the text,
-  /// and for a frame that the end of the file cut off. `tokens`, unless null, receives the place of
-  /// each value. Errors: `unreadable_input` with the line.
+  /// Reads the next frame; a value that is not finite becomes NaN. Returns false at the end of the
+  /// text, and for a frame that was cut off by the end of the file. `tokens`, unless null, receives
+  /// the place of each value. Errors: `unreadable_input` with the line.
   bool next(double* values, TokenSpan* tokens = nullptr);
 
   std::size_t last_end() const { return static_cast<std::size_t>(last_end_ - text_.bytes.data()); }
   unsigned most_decimals() const { return most_decimals_; }
   std::size_t gaps() const { return gaps_; }  ///< values that are not finite
   const char* first_gap() const { return first_gap_; }
-  /// Of the first frame that was read.
+  /// Returns the number of the first frame that was read.
   double first_frame_number() const { return first_frame_number_; }
-  /// Frames whose number is not one more than that of the frame before.
+  /// Returns how many frames have a number that is not one more than the previous frame's.
   std::size_t number_jumps() const { return number_jumps_; }
   const char* first_number_jump() const { return first_number_jump_; }
-  /// Where numbers start that have no blank before them (`0.0-7.5`).
+  /// Returns the starts of numbers that have no blank before them (`0.0-7.5`).
   const std::vector<const char*>& joins() const { return joins_; }
-  /// Where a frame starts that the end of the file cut off; nullptr where there is none.
+  /// Returns the start of a frame that was cut off by the end of the file, or nullptr.
   const char* cut_frame() const { return cut_frame_; }
 
  private:

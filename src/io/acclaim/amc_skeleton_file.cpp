@@ -20,11 +20,11 @@ namespace fs = std::filesystem;
 
 bool is_asf(const fs::path& path) { return equal_ignoring_case(path.extension().string(), ".asf"); }
 
-// What stands before the number of the take: 35 of 35_01.
+// Returns the part before the number of the take: 35 for 35_01.
 std::string subject_of(const std::string& stem) { return stem.substr(0, stem.find('_')); }
 
-// File names, the most likely first. A path inside the file is of the machine that wrote it: only
-// its last part means anything here.
+// Returns file names, the most likely first. A path inside the file is from the machine that wrote
+// it, so only its last part is used.
 std::vector<std::string> likely_names(const std::string& stem, std::string_view named_inside) {
   std::vector<std::string> names;
   const auto add = [&](std::string name) {
@@ -38,7 +38,7 @@ std::vector<std::string> likely_names(const std::string& stem, std::string_view 
   return names;
 }
 
-// As 35-walk.asf is of subject 35.
+// Whether a file belongs to a subject, as 35-walk.asf belongs to 35.
 bool names_subject(const fs::path& file, const std::string& subject) {
   const std::string stem = file.stem().string();
   if (subject.empty() || stem.size() <= subject.size()) return false;
@@ -93,7 +93,7 @@ fs::path skeleton_place(const fs::path& output, std::string_view named_inside,
                         std::string_view asf_bytes, const std::string& usual_name) {
   const fs::path parent = output.parent_path();
   const std::string stem = output.stem().string();
-  // Before looking inside one: a take that is written meanwhile may put this skeleton there.
+  // Lists the files before reading them, because a take written meanwhile may add this skeleton.
   const std::vector<fs::path> files = asf_files_in(parent.empty() ? fs::path(".") : parent);
   const auto holds_it = [&](const fs::path& path) {
     std::error_code error;
@@ -103,15 +103,15 @@ fs::path skeleton_place(const fs::path& output, std::string_view named_inside,
   try {
     if (holds_it(find_skeleton_file(output.string(), named_inside, {}))) return {};
   } catch (const Error&) {
-    // There is none yet.
+    // The file does not exist yet.
   }
   const auto is_there = [&](const std::string& name) {
     return std::any_of(files.begin(), files.end(), [&](const fs::path& file) {
       return equal_ignoring_case(file.filename().string(), name);
     });
   };
-  // A reader takes the first of the likely names that is there: any before it is free, and would be
-  // found first.
+  // A reader uses the first likely name that exists. Names before it are free and would be found
+  // first.
   const std::vector<std::string> names = likely_names(stem, named_inside);
   const auto taken = std::find_if(names.begin(), names.end(), is_there);
   for (const std::string& wanted : {usual_name, stem + ".asf"}) {

@@ -17,7 +17,7 @@ namespace kinemend {
 
 namespace {
 
-// A line for each bone: its name, then its values in the order of the degrees of freedom.
+// Lists a line for each bone: its name, then its values in the order of the degrees of freedom.
 class LineList {
  public:
   explicit LineList(std::string_view line_end) : line_end_(line_end) {}
@@ -70,7 +70,7 @@ std::string plain_header(double degrees_per_value) {
   return degrees_per_value == 1 ? ":FULLY-SPECIFIED\n:DEGREES\n" : ":FULLY-SPECIFIED\n:RADIANS\n";
 }
 
-// For a clip that has other frames than its source.
+// Writes a clip whose frames differ from its source's.
 std::string write_with_header(const Take& clip, const AmcDocument& document) {
   const std::string_view header = std::string_view(document.bytes).substr(0, document.data_begin);
   const std::string_view line_end = line_ending_of(header);

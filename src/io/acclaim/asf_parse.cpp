@@ -83,7 +83,7 @@ class AsfParser {
     if (accept(":root")) return parse_root();
     if (accept(":bonedata")) return parse_bones();
     if (accept(":hierarchy")) return parse_hierarchy();
-    // :version, :name, :documentation and :skin say nothing about the pose.
+    // :version, :name, :documentation and :skin do not affect the pose.
     skip_section();
   }
 
@@ -98,8 +98,8 @@ class AsfParser {
     NumberToken token;
     if (!word.empty()) token = read_number(word.data(), word.data() + word.size());
     if (token.kind != TokenKind::number || token.end != word.data() + word.size()) fail("a number");
-    // Beyond this, sums and products along a chain could leave the range of a double. Chosen by
-    // hand, as in `read_sample`.
+    // Above this, sums and products along a chain could overflow. Chosen by hand, as in
+    // `read_sample`.
     constexpr double largest = 1e100;
     if (std::fabs(token.value) > largest) fail("a number of a plausible size");
     scanner_.next();
@@ -238,7 +238,7 @@ class AsfParser {
     }
   }
 
-  // `inf` stands for no limit.
+  // `inf` means no limit.
   void parse_limits(Bone& bone) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     bone.limits.clear();
@@ -292,7 +292,7 @@ class AsfParser {
 
   double degrees(double angle) const { return radians_ ? angle * degrees_per_radian : angle; }
 
-  // C of a bone: turns about fixed axes, first letter first.
+  // Returns C of a bone: rotations about fixed axes, in the order of the letters.
   Quat axis_rotation(const Bone& bone) const {
     const std::array<double, 3> by_axis{bone.axis_angles.x, bone.axis_angles.y, bone.axis_angles.z};
     RotationOrder order;
@@ -305,7 +305,7 @@ class AsfParser {
     return normalized(from_euler(angles, order));
   }
 
-  // From a bone's beginning to its end, in its own frame.
+  // Returns the vector from a bone's beginning to its end, in its own frame.
   Vec3 extent(const Bone& bone, Quat axis) {
     const double size = norm(bone.direction);
     if (bone.length != 0 && size == 0) {
@@ -347,7 +347,8 @@ class AsfParser {
   AsfSkeleton build() {
     families_.resize(bones_.size());
     joined_.resize(bones_.size());
-    // The pre-set of the root moves and turns the whole skeleton; its frame at rest is the world's.
+    // The position and orientation of the root move and rotate the whole skeleton; its frame at
+    // rest is the world's.
     std::vector<Open> open{{0, add_joint(0, -1, root_position_, axis_rotation(bones_[0])), {}, {}}};
     while (!open.empty()) {
       Open& top = open.back();

@@ -1,4 +1,4 @@
-// Makes a bone of each joint, and bones that lead to children beside its end.
+// Makes a bone for each joint, and connecting bones to children that are not at its end.
 #include "io/acclaim/asf_plan.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace kinemend {
 
 namespace {
 
-// Words that stand for something else in ASF or AMC.
+// Whether a word is a keyword of ASF or AMC.
 bool is_reserved(std::string_view name) {
   constexpr std::array<std::string_view, 3> words{"root", "begin", "end"};
   const auto same = [&](std::string_view word) { return equal_ignoring_case(name, word); };
@@ -24,7 +24,7 @@ bool is_reserved(std::string_view name) {
   return read_number(name.data(), name.data() + name.size()).kind != TokenKind::text;
 }
 
-// One word, which is no number, keyword or comment.
+// Converts a name to one word that is not a number, keyword or comment.
 std::string as_word(std::string_view name) {
   std::string word;
   for (const char c : name) {
@@ -72,7 +72,7 @@ class BonePlanner {
     return candidate;
   }
 
-  // Parents come first, so that the bone a joint hangs on is there.
+  // Parents come first, so that the bone of a joint's parent already exists.
   void plan_joint(std::size_t joint) {
     PlannedBone bone;
     bone.name = names_[joint];
@@ -121,7 +121,7 @@ class BonePlanner {
            std::all_of(sites.begin(), sites.end(), [&](Vec3 site) { return site == end; });
   }
 
-  // Rotations in reverse, as `channels_of` has them.
+  // The rotations are reversed, as in `channels_of`.
   std::vector<AsfDof> dofs_of(std::size_t joint) const {
     std::vector<AsfDof> dofs;
     for (const Channel channel : skeleton_.channels[joint]) {
@@ -139,7 +139,7 @@ class BonePlanner {
   const Skeleton& skeleton_;
   std::vector<std::vector<std::size_t>> children_;
   std::vector<std::vector<Vec3>> sites_;
-  std::vector<std::int32_t> bone_of_;  // that ends where the joint is
+  std::vector<std::int32_t> bone_of_;  // the bone that ends at each joint
   std::vector<std::string> names_;
   std::unordered_set<std::string> used_;
   std::vector<PlannedBone> bones_;

@@ -8,14 +8,14 @@
 
 namespace kinemend {
 
-/// Walks over the words of an ASF file: white space, commas and parentheses stand between them, and
-/// # starts a comment.
+/// Walks over the words of an ASF file: white space, commas and parentheses separate them, and #
+/// starts a comment.
 class AsfScanner {
  public:
   explicit AsfScanner(std::string_view bytes, std::size_t position = 0)
       : bytes_(bytes), position_(position) {}
 
-  /// The next word, empty at the end; stays before it.
+  /// Returns the next word, empty at the end, without moving past it.
   std::string_view peek() {
     while (position_ < bytes_.size()) {
       const char c = bytes_[position_];
@@ -31,13 +31,13 @@ class AsfScanner {
     while (end < bytes_.size() && !is_blank(bytes_[end]) && bytes_[end] != '#') ++end;
     return bytes_.substr(position_, end - position_);
   }
-  /// The next word; moves past it.
+  /// Returns the next word and moves past it.
   std::string_view next() {
     const std::string_view word = peek();
     position_ += word.size();
     return word;
   }
-  /// The next word of this line, or empty; moves past it.
+  /// Returns the next word of this line, or empty, and moves past it.
   std::string_view next_in_line() {
     while (position_ < bytes_.size() && is_blank(bytes_[position_]) &&
            !is_line_end(bytes_[position_])) {
@@ -51,7 +51,7 @@ class AsfScanner {
     while (position_ < bytes_.size() && !is_line_end(bytes_[position_])) ++position_;
   }
 
-  /// The place of the next word, after a call of `peek`.
+  /// Returns the place of the next word, after a call of `peek`.
   std::size_t position() const { return position_; }
 
  private:

@@ -39,7 +39,7 @@ class AsfWriter {
     }
   }
 
-  // Euler angles for the letters XYZ: turns about fixed axes, x first.
+  // Writes Euler angles for the letters XYZ: rotations about fixed axes, x first.
   void axis_angles(Quat axis) {
     const std::array<double, 3> zyx = to_euler(axis, parse_rotation_order("ZYX"));
     numbers(

@@ -8,12 +8,12 @@
 
 namespace kinemend {
 
-/// How likely the head of a file is BVH, 0 to 100.
+/// Returns how likely the head of a file is BVH, 0 to 100.
 int sniff_bvh(std::string_view head);
 /// Reads BVH in all its dialects. Errors: `unreadable_input` with the line.
 TakeResult read_bvh(std::string bytes, std::string_view name, const ReadOptions& options);
-/// A clip read from BVH comes out in its source's layout, with the digits of every sample that has
-/// not changed; any other in a plain layout. Errors: `usage` when the format cannot hold the clip.
+/// Writes a clip. A clip read from BVH keeps its source's layout and the digits of every unchanged
+/// sample; any other clip gets a plain layout. Errors: `usage` if the format cannot hold the clip.
 std::string write_bvh(const Take& clip);
 
 }  // namespace kinemend

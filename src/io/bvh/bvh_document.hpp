@@ -12,7 +12,7 @@ namespace kinemend {
 struct BvhDocument : MotionDocument {
   std::size_t hierarchy_end = 0;    ///< after the last closing brace
   ByteSpan frame_time;              ///< the number after `Frame Time:`
-  bool frame_time_is_none = false;  ///< it is not a finite number
+  bool frame_time_is_none = false;  ///< the frame time is not a finite number
 
   std::unique_ptr<RowReader> rows() const override;
 };

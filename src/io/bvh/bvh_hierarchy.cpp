@@ -1,4 +1,4 @@
-// Parses the hierarchy and the head of the motion, and finds the rate that a frame time means.
+// Parses the hierarchy and the head of the motion, and finds the rate of a frame time.
 #include "io/bvh/bvh_hierarchy.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ std::optional<Channel> channel_of(std::string_view word) {
 
 // One open block: a joint or an end site.
 struct Block {
-  std::int32_t joint = -1;  // the joint itself, or the one an end site hangs on
+  std::int32_t joint = -1;  // the joint itself, or the parent of an end site
   bool end_site = false;
   std::size_t begin = 0;
   bool has_offset = false;
@@ -217,7 +217,7 @@ class HierarchyParser {
   std::vector<Block> blocks_;
 };
 
-// `Frames:` and `Frame Time:`, in either order, any case, with or without the colon.
+// Parses `Frames:` and `Frame Time:`, in either order, any case, with or without the colon.
 class MotionHeaderParser {
  public:
   MotionHeaderParser(const SourceText& text, Diagnostics& diagnostics, TextScanner& scanner,
@@ -362,7 +362,7 @@ BvhHeader read_bvh_header(const SourceText& text, Diagnostics& diagnostics, std:
 }
 
 double rate_from_frame_time(double frame_time_s, std::string_view text) {
-  // Rates in use. Chosen by hand.
+  // Usual rates. Chosen by hand.
   constexpr std::array<double, 14> known{23.976, 24, 25,  29.97,  30,  50,     59.94,
                                          60,     90, 100, 119.88, 120, 239.76, 240};
   const std::string_view mantissa = text.substr(0, text.find_first_of("eE"));
@@ -372,7 +372,7 @@ double rate_from_frame_time(double frame_time_s, std::string_view text) {
   const auto error_of = [&](double rate) { return std::fabs(frame_time_s * rate - 1); };
   const double nearest = *std::min_element(
       known.begin(), known.end(), [&](double a, double b) { return error_of(a) < error_of(b); });
-  // 0.0333 is 1e-3 away from 1/30 to the last bit.
+  // 0.0333 differs from 1/30 by 1e-3 up to rounding.
   if (error_of(nearest) <= (digits >= 9 ? 1e-6 : 1.0001e-3)) return nearest;
   const double rate = 1 / frame_time_s;
   const double whole = std::round(rate);

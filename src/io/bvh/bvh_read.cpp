@@ -1,4 +1,4 @@
-// Reads BVH files as takes of joints, with repairs of what is damaged.
+// Reads BVH files as takes of joints, and repairs damage.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -84,8 +84,8 @@ class MotionReader {
     note_repair(text_, diagnostics_, "frame_count_mismatch", header_.frame_count.begin, message);
   }
 
-  // A wrong count is repaired; one that is wrong beyond belief is a sign that the rest is not to be
-  // trusted either.
+  // A wrong count is repaired; a count that is impossibly large shows that the rest of the file
+  // cannot be trusted.
   void check_declared_count() const {
     const double least_bytes = 2.0 * static_cast<double>(header_.frames.value_or(0)) *
                                static_cast<double>(columns_.count());
@@ -120,10 +120,10 @@ class MotionReader {
     const char* end = nullptr;
   };
 
-  // Numbers are read while those of the block before become rotations. Returns how many values are
-  // left over after the last whole frame.
+  // Reads numbers while the numbers of the previous block become rotations. Returns how many values
+  // are left over after the last whole frame.
   std::size_t read_rows(MotionRows& rows) {
-    // A block is stored before the one that is so many behind it is read.
+    // A block is stored before the block four places behind it is read, which reuses its slot.
     std::array<Block, 4> blocks;
     std::size_t rest = columns_.count();
     const auto read = [&](std::size_t slot) {
@@ -137,7 +137,7 @@ class MotionReader {
     return rest;
   }
 
-  // Returns how many values the last row has, which is fewer than there are columns at the end.
+  // Returns how many values the last row has; at the end it may be fewer than the columns.
   std::size_t read_block(MotionRows& rows, Block& block) {
     const std::size_t width = columns_.count(), gaps_before = rows.gaps();
     block.values.resize(columns_.block_frames() * width);
@@ -167,7 +167,8 @@ class MotionReader {
           fmt::format("{} joints with {} channels: too much memory for a file of {} bytes",
                       clip_.joint_count(), columns_.count(), text_.bytes.size()));
     }
-    // More frames than declared: room for all there can be, at once rather than by doubling.
+    // The file has more frames than declared: reserves memory for all possible frames at once
+    // instead of doubling.
     if (wanted * clip_.joint_count() > clip_.rotations.capacity()) {
       clip_rows_.reserve(std::numeric_limits<std::size_t>::max(), most_frames());
     }
@@ -181,25 +182,25 @@ class MotionReader {
     return value_is_cut_;
   }
 
-  // The line to blame in the rows up to `end`, which leave over `rest` values. Frames that come out
-  // as declared may be wrapped over as many lines as there are frames.
+  // Finds the faulty line in the rows up to `end`, which leave over `rest` values. If the number of
+  // frames is as declared, frames may be wrapped over lines, even over the same number of lines.
   std::optional<LineFault> line_fault(const char* end, std::size_t rest) const {
     const bool as_declared = rest == 0 && header_.frames == frames();
     return find_line_fault(begin_, end, document_.commas, columns_.count(),
                            as_declared ? std::nullopt : header_.frames);
   }
 
-  // Whether the file was cut off in the last row, while all before it is whole.
+  // Whether the file was cut off in the last row and all rows before it are complete.
   bool ends_in_row(const MotionRows& rows, std::size_t rest) const {
     if (frames() == 0) return false;
-    // What is written ends before the row, and must be readable, too.
+    // The output ends before the row and must be readable too.
     if (value_is_cut_) return !line_fault(row_begin_, 0);
     const bool in_word =
         !rows.at_end() && std::none_of(rows.position(), end_, is_space) &&
         may_start_number({rows.position(), static_cast<std::size_t>(end_ - rows.position())});
     if (!in_word && (rest == 0 || !rows.at_end())) return false;
     if (in_word && rest == 0 && frames() >= header_.frames.value_or(0)) return false;
-    // A line that is short although its end is there, or an earlier one, is another fault.
+    // A short line with a line end, or an earlier short line, is another fault.
     const bool ends_with_line = is_line_end(end_[-1]);
     const char* const whole = ends_with_line ? rows.last_end() : row_begin_;
     return !find_line_fault(begin_, whole, document_.commas, columns_.count(), std::nullopt) &&
@@ -215,11 +216,11 @@ class MotionReader {
       note_count(fmt::format("Frames: says {}, the file holds {}", *header_.frames, frames()));
   }
 
-  // What is written from now on is whole: without the row, and with the number of frames that are
-  // there, in the room of the old one.
+  // Removes the cut row from the document and writes the actual number of frames over the old
+  // number, so that outputs are complete.
   void leave_out_cut_row() {
     document_.bytes.resize(place_of(row_begin_));
-    // A row that starts within a word leaves a number at the end that would pass for a cut one.
+    // If the row starts within a word, the bytes end with a number that would look cut.
     if (!is_space(document_.bytes.back())) document_.bytes += '\n';
     std::string count = std::to_string(frames());
     if (!header_.frames || count.size() > header_.frame_count.size) return;
@@ -289,7 +290,7 @@ class MotionReader {
   const MotionColumns& columns_;
   const char* begin_ = nullptr;
   const char* end_ = nullptr;
-  const char* row_begin_ = nullptr;  // of the row that was read last
+  const char* row_begin_ = nullptr;  // beginning of the row that was read last
   std::size_t rows_read_ = 0;
   bool uneven_lines_ = false;
   bool value_is_cut_ = false;  // the last value may have lost digits

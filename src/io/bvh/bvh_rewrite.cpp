@@ -1,4 +1,4 @@
-// Writes a changed take into the text of the BVH file that it comes from.
+// Writes a changed take into the text of its source BVH file.
 #include <vector>
 
 #include "io/bvh/bvh_text.hpp"

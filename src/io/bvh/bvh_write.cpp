@@ -1,4 +1,4 @@
-// Writes BVH: with the hierarchy of the source where there is one, or in a plain layout.
+// Writes BVH with the hierarchy of the source if there is one, else in a plain layout.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,8 +32,8 @@ std::string frame_time_text(double frame_rate_hz) {
 
 namespace {
 
-// The hierarchy as text, children after their parent at once; and the order of joints that this
-// gives.
+// Writes the hierarchy as text, children directly after their parent, and gives the resulting order
+// of joints.
 class HierarchyWriter {
  public:
   HierarchyWriter(const Skeleton& skeleton, TextBuffer& out) : skeleton_(skeleton), out_(out) {
@@ -142,7 +142,7 @@ std::string write_plain_bvh(const Take& clip) {
   return std::move(out).take();
 }
 
-// The source's hierarchy to the byte, for a clip that has other frames than the source.
+// Writes the source's hierarchy unchanged, for a clip whose frames differ from the source's.
 std::string write_with_hierarchy(const Take& clip, const BvhDocument& document) {
   TextBuffer out(4096);
   const std::string_view hierarchy =

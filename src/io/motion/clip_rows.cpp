@@ -56,7 +56,7 @@ void ClipRows::hold(double* rows, std::size_t count, Quat* rotations) {
   hold_positions(rows, count, columns_, previous);
 }
 
-// As the file has them; `finish` brings them into the clip's frame.
+// Appends positions as in the file; `finish` converts them to the clip's frame.
 void ClipRows::append_positions(const double* rows, std::size_t count) {
   const std::size_t first = frames();
   for (std::size_t f = 0; f < count; ++f) {
@@ -69,7 +69,7 @@ void ClipRows::append_positions(const double* rows, std::size_t count) {
   }
 }
 
-// Samples before the first finite one take its value; without any, the rest pose.
+// Samples before the first finite sample take its value; without a finite sample, the rest pose.
 void ClipRows::fill_leading_gaps() {
   if (clip_.observed.empty()) return;
   clip_.observed.resize(frames() * joints_, 1);

@@ -11,24 +11,24 @@
 
 namespace kinemend {
 
-/// Turns rows of channel values into the frames of a clip, whose skeleton is there already. Values
-/// that are NaN are held from the frame before, or from the next one at the start.
+/// Turns rows of channel values into the frames of a clip that already has its skeleton. NaN values
+/// hold the value of the previous frame, or of the next frame at the start.
 class ClipRows {
  public:
-  /// `position_frames`: see `MotionDocument`. `file_bytes`: how much was read, which bounds the
+  /// `position_frames`: see `MotionDocument`. `file_bytes`: size of the file, which bounds the
   /// memory.
   ClipRows(Take& clip, std::vector<PositionFrame> position_frames, std::size_t file_bytes);
 
   const MotionColumns& columns() const { return columns_; }
   std::size_t frames() const { return clip_.frame_count(); }
-  /// Whether the clip may grow to so many frames.
+  /// Whether the clip may grow to this number of frames.
   bool fits(std::size_t frames) const;
-  /// Room for `expected` frames, but never for more than `most` or than may be.
+  /// Reserves memory for `expected` frames, but not for more than `most` or than the limit.
   void reserve(std::size_t expected, std::size_t most);
-  /// At most `columns().block_frames()` rows; held values replace the NaN ones in them.
+  /// Appends at most `columns().block_frames()` rows, in which held values replace NaN.
   void append(double* rows, std::size_t count, bool with_gaps);
-  /// After the last row: fills what stands before the first finite value, and tells the document
-  /// what a rewrite needs to know of frame 0.
+  /// Call this after the last row: it fills the samples before the first finite value, and stores
+  /// in the document the values of frame 0 that a rewrite needs.
   void finish(MotionDocument& document, bool has_gaps);
 
  private:

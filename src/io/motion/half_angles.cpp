@@ -11,7 +11,7 @@ namespace kinemend {
 
 namespace {
 
-// Taylor's series: on [-pi/4, pi/4] what is left out is below 1e-18.
+// Taylor series; the error on [-pi/4, pi/4] is below 1e-18.
 double sine_kernel(double x) {
   const double z = x * x;
   double sum = 1.0 / 355687428096000.0;
@@ -38,7 +38,7 @@ double cosine_kernel(double x) {
   return 1.0 + z * sum;
 }
 
-// Without branches, so that the loop becomes SIMD code. |degrees| is at most 1e12.
+// The loop has no branches so that it becomes SIMD code. |degrees| is at most 1e12.
 void sincos_block(const double* __restrict degrees, std::size_t count, double* __restrict sines,
                   double* __restrict cosines) {
   // Adding 1.5 * 2^52 rounds to an integer and leaves it in the low bits.
@@ -61,7 +61,7 @@ void sincos_block(const double* __restrict degrees, std::size_t count, double* _
 
 void half_angle_sincos(const double* degrees, std::size_t count, double* sines, double* cosines) {
   sincos_block(degrees, count, sines, cosines);
-  // Degrees, beyond which the quick sines lose digits; chosen by hand, not swept.
+  // Degrees above which the fast sines lose digits; chosen by hand, not swept.
   constexpr double exact_limit = 1e12;
   for (std::size_t i = 0; i < count; ++i) {
     if (std::fabs(degrees[i]) <= exact_limit) continue;

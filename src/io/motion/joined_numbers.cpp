@@ -1,4 +1,4 @@
-// Inserts blanks into a document, and moves its landmarks along.
+// Inserts blanks into a document, and adjusts its offsets.
 #include "io/motion/joined_numbers.hpp"
 
 #include <string>

@@ -1,4 +1,4 @@
-// Multiplies the rotations of channels out, and holds samples that are missing.
+// Computes the products of channel rotations, and holds missing samples.
 #include "io/motion/motion_columns.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ struct Track {
   std::size_t frames;
 };
 
-// Three different axes a, b, c: the product (ca + sa a)(cb + sb b)(cc + sc c) multiplied out, ab =
+// Three different axes a, b, c: the product (ca + sa a)(cb + sb b)(cc + sc c) expanded, with ab =
 // +-c.
 template <int a, int b, int c>
 void compose_three(const Track& track) {

@@ -1,4 +1,4 @@
-// The meaning of each column of a frame, and rotations from the columns' angles.
+// Defines the meaning of each column of a frame, and computes rotations from the columns' angles.
 #pragma once
 
 #include <array>
@@ -28,15 +28,15 @@ class MotionColumns {
 
   std::size_t count() const { return count_; }
   std::span<const Position> positions() const { return positions_; }
-  /// One a joint; count 0 in `order` where it has no rotation channels.
+  /// Returns one entry per joint; `order` has count 0 if the joint has no rotation channels.
   std::span<const Rotation> rotations() const { return rotations_; }
   std::span<const std::int32_t> translated_joints() const { return translated_joints_; }
-  /// Frames that are best decoded at once.
+  /// Returns the number of frames to decode at once, for speed.
   std::size_t block_frames() const { return block_frames_; }
 
-  /// R = product of the channels' rotations, left to right, for `frames` (at most `block_frames()`)
-  /// rows of `count()` values in degrees. Writes frames x J. A joint with a value that is not
-  /// finite gets NaN.
+  /// Computes R = product of the channels' rotations, left to right, for `frames` (at most
+  /// `block_frames()`) rows of `count()` values in degrees. Writes frames x J. A joint with a value
+  /// that is not finite gets NaN.
   void decode_rotations(const double* rows, std::size_t frames, Quat* rotations);
 
  private:
@@ -45,16 +45,16 @@ class MotionColumns {
   std::vector<Position> positions_;
   std::vector<Rotation> rotations_;
   std::vector<std::int32_t> translated_joints_;
-  std::vector<double> degrees_, sines_,
-      cosines_;  ///< block_frames x J x 3; unused angles stay zero
+  /// block_frames x J x 3; unused angles stay zero.
+  std::vector<double> degrees_, sines_, cosines_;
 };
 
-/// Gives each NaN sample the one of the frame before; frame 0 takes `previous` (J). Marks them in
-/// `observed` (same shape) unless that is null.
+/// Replaces each NaN sample by the sample of the frame before; frame 0 uses `previous` (J). Marks
+/// them in `observed` (same shape) unless that is null.
 void hold_rotations(Quat* rotations, std::size_t frames, std::size_t joints, const Quat* previous,
                     std::uint8_t* observed);
-/// The same for the position columns of rows of values; `previous` holds one value a position
-/// column.
+/// `hold_rotations` for the position columns of rows of values; `previous` holds one value per
+/// position column.
 void hold_positions(double* rows, std::size_t frames, const MotionColumns& columns,
                     std::span<const double> previous);
 

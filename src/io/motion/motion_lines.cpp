@@ -14,7 +14,7 @@ struct Line {
   std::size_t values = 0;
 };
 
-// Lines that hold values; blank lines and comments are passed over.
+// Walks over the lines with values; blank lines and comments are skipped.
 class ValueLines {
  public:
   ValueLines(const char* begin, const char* end, CommaStyle commas)
@@ -54,7 +54,7 @@ class ValueLines {
   CommaStyle commas_;
 };
 
-// The first line of the group of lines that does not come out even.
+// Finds the first line of the first group of lines that does not hold whole frames.
 std::optional<LineFault> find_uneven_group(ValueLines lines, std::size_t channels) {
   Line line, first;
   std::size_t sum = 0;

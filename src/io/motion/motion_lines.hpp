@@ -1,4 +1,4 @@
-// Finds the line to blame where the values of a file do not come out even.
+// Finds the faulty line if the values of a file do not form whole frames.
 #pragma once
 
 #include <cstddef>
@@ -18,11 +18,11 @@ struct LineFault {
 
 std::string to_string(const LineFault& fault);
 
-/// Decides which line to blame when values do not come out even. Frames may be wrapped over lines;
-/// but where most lines hold exactly a frame, a line that starts amid a frame shows that an earlier
-/// one is short or long: that one is the fault. Where most lines hold one other number of values,
-/// and there are `declared_frames` lines, the first of them is. No fault when the text can be read
-/// as frames that flow over lines.
+/// Finds the faulty line if values do not form whole frames. Frames may be wrapped over lines. If
+/// most lines hold exactly one frame, a line that starts inside a frame shows that an earlier line
+/// is short or long: that line is the fault. If most lines hold another number of values, and there
+/// are `declared_frames` lines, the first of them is the fault. Empty if the text can be read as
+/// frames wrapped over lines.
 std::optional<LineFault> find_line_fault(const char* begin, const char* end, CommaStyle commas,
                                          std::size_t channels,
                                          std::optional<std::size_t> declared_frames);

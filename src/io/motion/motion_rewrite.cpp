@@ -20,7 +20,7 @@ namespace {
 
 using Angles = std::array<double, 3>;
 
-// All of a source's values, and which rotations the clip keeps.
+// All values of a source, and which rotations the clip keeps.
 struct SourceTable {
   SourceTable(const Take& clip, const MotionDocument& document) {
     const std::size_t joints = clip.joint_count();
@@ -41,7 +41,8 @@ struct SourceTable {
   std::vector<std::uint8_t> kept;  // F x J
 };
 
-// On the same branch and turn, up to a change of a quarter turn.
+// Whether two triples of angles differ by less than a quarter turn, and so are on the same branch
+// and turn.
 bool near(const Angles& a, const Angles& b, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     if (!(std::fabs(a[i] - b[i]) < pi / 2)) return false;
@@ -49,7 +50,7 @@ bool near(const Angles& a, const Angles& b, std::size_t count) {
   return true;
 }
 
-// The angles last written for a joint, and the frame they belong to plus one.
+// The angles last written for a joint, and their frame plus one.
 struct WrittenAngles {
   Angles angles{};
   std::size_t frames = 0;
@@ -62,10 +63,10 @@ struct Replacement {
   TokenSpan place;
 };
 
-// Some frames of the text on their way from the source to the output.
+// A group of frames of the text while it is rewritten.
 struct Piece {
   SourceBlock source;
-  std::string_view text;                  // of the source, from the end of the block before
+  std::string_view text;                  // source text from the end of the block before
   std::vector<Replacement> replacements;  // in the order of the text
   std::string rewritten;
 
@@ -97,8 +98,8 @@ class MotionRewriter {
         row_before_(source_.columns().count()),
         copied_(document.bytes.data()) {}
 
-  // A frame's angles follow from those of the frame before; numbers are read and written beside
-  // that.
+  // A frame's angles depend on the previous frame's, so they are chosen in order; numbers are read
+  // and written in parallel.
   std::string rewrite(const std::vector<DocumentEdit>& edits) {
     // For speed, not swept.
     constexpr std::size_t pieces_at_once = 16;
@@ -109,7 +110,8 @@ class MotionRewriter {
       out.append(edit.text);
       copied_ += edit.place.size;
     }
-    // A piece leaves before the one that is so many behind it enters.
+    // A piece is written before the piece `pieces_at_once` behind it is read, which reuses its
+    // slot.
     std::vector<Piece> pieces(pieces_at_once);
     const auto read = [&](std::size_t slot) {
       Piece& piece = pieces[slot];
@@ -127,12 +129,12 @@ class MotionRewriter {
   }
 
  private:
-  // What is known when the angles of a changed sample are chosen; null where there is nothing.
+  // The known angles when the angles of a changed sample are chosen; null if unknown.
   struct AngleContext {
     std::size_t frame = 0;
     std::size_t joint = 0;
-    const Angles* written_before = nullptr;  // what the frame before holds now
-    const Angles* source_before = nullptr;   // and held
+    const Angles* written_before = nullptr;  // angles written for the frame before
+    const Angles* source_before = nullptr;   // angles of the frame before in the source
     const Angles* source = nullptr;
   };
 
@@ -178,14 +180,15 @@ class MotionRewriter {
     }
   }
 
-  // What is no finite number is never written, whatever the clip holds in its place.
+  // Whether the source has a value that is not finite, which is always replaced, whatever the clip
+  // holds.
   bool holds_gap(std::size_t joint, const double* row) const {
     const MotionColumns::Rotation& rotation = source_.columns().rotations()[joint];
     Angles ignored{};
     return !source_angles(rotation, row, ignored);
   }
 
-  // The rows hold positions as repaired; only the text tells which were no numbers.
+  // The rows hold repaired positions; only the text shows which values were not finite.
   void replace_position_gaps(const SourceBlock& source, std::size_t block_frame) {
     const double* const row = source.row(block_frame);
     const TokenSpan* const tokens = source.tokens(block_frame);
@@ -198,7 +201,7 @@ class MotionRewriter {
     }
   }
 
-  // The columns of a joint stand together, so that each run of them is one position.
+  // The columns of a joint are adjacent, so each run of them is one position.
   void replace_positions(std::size_t frame, const double* row) {
     const auto positions = source_.columns().positions();
     for (std::size_t i = 0, end = 0; i < positions.size(); i = end) {
@@ -218,14 +221,14 @@ class MotionRewriter {
     }
   }
 
-  // False where a value is missing.
+  // Reads the source's angles; returns false if a value is missing.
   static bool source_angles(const MotionColumns::Rotation& rotation, const double* row,
                             Angles& angles) {
     bool known = true;
     for (std::size_t i = 0; i < rotation.order.count; ++i) {
       double degrees = row[rotation.columns[i]];
       known = known && !std::isnan(degrees);
-      // No digit after the point is left of an angle of so many turns.
+      // An angle of this many turns has no digits left after the point.
       if (std::fabs(degrees) > 1e9) degrees = std::fmod(degrees, 360.0);
       angles[i] = degrees * radians_per_degree;
     }
@@ -253,9 +256,9 @@ class MotionRewriter {
     }
   }
 
-  // They continue the frame before. Only where the source itself jumps (by a whole turn, or to its
-  // other branch), and a frame that keeps its digits would be met with a jump all the same, does
-  // the jump stay where it was.
+  // Chooses angles that continue the frame before. If the source itself jumps (by a whole turn, or
+  // to its other branch), and a later frame that keeps its digits would need a jump anyway, the
+  // jump stays in its place.
   Angles choose_angles(RotationOrder order, const AngleContext& context) {
     const Quat rotation = clip_.rotation(context.frame, context.joint);
     const Angles rest{};
@@ -271,8 +274,8 @@ class MotionRewriter {
     return near(on_source, *context.source, order.count) ? on_source : continued;
   }
 
-  // Whether angles that go on from `angles` without a jump differ from the digits of the next frame
-  // that keeps them. Few takes ever ask: the table costs another walk over the text.
+  // Whether angles that continue `angles` without a jump differ from the digits of the next frame
+  // that keeps them. Few takes need this, and the table requires reading the text again.
   bool meets_a_jump(const AngleContext& context, Angles angles) {
     // For speed, not swept.
     constexpr std::size_t most_frames_ahead = 256;
@@ -291,14 +294,14 @@ class MotionRewriter {
     return false;
   }
 
-  // Digits that already say the new value, as well as so many decimals can, stay. `unit`: what one
-  // of the file's numbers is worth.
+  // Replaces a value, unless the old digits express it as accurately as the written decimals can.
+  // `unit`: the size of the file's unit.
   void replace(const double* row, std::size_t column, double value, double unit) {
     if (std::fabs(value - row[column]) <= keep_below_ * unit) return;
     replacements_.push_back({column, value / unit, {}});
   }
 
-  // In the order of the text, which is not always that of the columns.
+  // Sorts replacements in the order of the text, which may differ from the order of the columns.
   void put_in_order(const TokenSpan* tokens) {
     for (Replacement& replacement : replacements_) replacement.place = tokens[replacement.column];
     const auto by_place = [](const Replacement& a, const Replacement& b) {
@@ -317,8 +320,8 @@ class MotionRewriter {
   std::vector<WrittenAngles> written_;
   std::optional<SourceTable> table_;
   std::vector<double> row_before_;
-  std::vector<Replacement> replacements_;  // of one frame
-  const char* copied_;                     // how far the source's text has been taken
+  std::vector<Replacement> replacements_;  // replacements of one frame
+  const char* copied_;                     // end of the source text that has been copied
 };
 
 }  // namespace

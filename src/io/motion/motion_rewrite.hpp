@@ -1,4 +1,4 @@
-// Writes a changed take of joints into the text of the file that it comes from.
+// Writes a changed take of joints into the text of its source file.
 #pragma once
 
 #include <string>
@@ -15,9 +15,9 @@ struct DocumentEdit {
   std::string text;
 };
 
-/// The document's own text with every changed sample replaced, and the edits, which are in the
-/// order of the text. The clip has the document's skeleton and frame count. Angles continue the
-/// frame before.
+/// Returns the document's text with every changed sample replaced and the edits applied, which must
+/// be in the order of the text. The clip must have the document's skeleton and frame count. Angles
+/// continue the frame before.
 std::string rewrite_motion(const Take& clip, const MotionDocument& document,
                            const std::vector<DocumentEdit>& edits = {});
 

@@ -1,4 +1,4 @@
-// Reads numbers by the fast path, and any other text by the slow one.
+// Reads numbers by the fast path, and any other text by the slow path.
 #include "io/motion/motion_rows.hpp"
 
 #include <algorithm>
@@ -17,8 +17,8 @@ const char* MotionRows::skip(const char* p) const {
 
 bool MotionRows::at_line_start() const { return std::any_of(last_end_, position_, is_line_end); }
 
-// What `read_plain_number` leaves: exponents, many digits, NaN, comments, the last bytes. False at
-// the end or at text.
+// Reads the cases that `read_plain_number` rejects: exponents, many digits, NaN, comments, the last
+// bytes. Returns false at the end or at text.
 bool MotionRows::read_rare(const char*& p, NumberToken& token) {
   for (;;) {
     if (p == end_) return false;
@@ -35,7 +35,8 @@ bool MotionRows::read_rare(const char*& p, NumberToken& token) {
   }
 }
 
-// The first number of several that are run together; false for any other text.
+// Reads the first of several numbers without a blank between them; returns false for any other
+// text.
 bool MotionRows::read_joined(const char* p, NumberToken& token) {
   if (p >= joined_until_) {
     if (numbers_in_word({p, static_cast<std::size_t>(token.end - p)}) < 2) return false;

@@ -15,19 +15,19 @@ struct TokenSpan {
 };
 
 /// Walks over channel values, a frame at a time. Line ends, white space and comments between values
-/// do not matter.
+/// are skipped.
 class MotionRows {
  public:
   MotionRows(const char* begin, const char* end, CommaStyle commas);
 
   /// Reads the next `count` (at least 1) values; a value that is not finite becomes NaN. Returns
-  /// how many there were before the end of the text or a word that is no number, which `position()`
-  /// then points at. `tokens`, unless null, receives the place of each.
+  /// how many were read before the end of the text or a word that is not a number, to which
+  /// `position()` then points. `tokens`, unless null, receives the place of each value.
   std::size_t next(double* values, std::size_t count, TokenSpan* tokens = nullptr);
 
-  /// The first byte of the next word, once a row was read.
+  /// Returns the first byte of the next word, after a row was read.
   const char* position() const { return position_; }
-  /// The end of the last value.
+  /// Returns the end of the last value.
   const char* last_end() const { return last_end_; }
   bool at_end() const { return position_ == end_; }
   /// Whether a line ended between the last row and `position()`.
@@ -36,7 +36,7 @@ class MotionRows {
   unsigned most_decimals() const { return most_decimals_; }
   std::size_t gaps() const { return gaps_; }  ///< values that are not finite
   const char* first_gap() const { return first_gap_; }
-  /// Where numbers start that have no blank before them (`0.0-7.5`).
+  /// Returns the starts of numbers that have no blank before them (`0.0-7.5`).
   const std::vector<const char*>& joins() const { return joins_; }
   std::size_t comments() const { return comments_; }
   const char* first_comment() const { return first_comment_; }

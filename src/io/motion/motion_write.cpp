@@ -54,9 +54,9 @@ void check_lengths(const Take& clip) {
   check_frame_rate(clip.frame_rate_hz);
 }
 
-// A motion that no channel can hold is not dropped in silence.
+// Rejects motion that no channel can express, so that it is not lost silently.
 void check_channels(const Take& clip, RestRotations rest) {
-  // Of rounding; chosen by hand, not swept.
+  // Tolerance for rounding; chosen by hand, not swept.
   constexpr double tolerance_rad = 1e-6;
   const Skeleton& skeleton = clip.skeleton;
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
@@ -78,14 +78,14 @@ void check_channels(const Take& clip, RestRotations rest) {
 
 namespace {
 
-// A value to write with all that its joint and channel say of it.
+// A value to write, with the data from its joint and channel.
 struct Source {
   std::string_view lead;
   std::size_t joint = 0;
   enum { nothing, angle, position } kind = nothing;
-  std::size_t turn = 0;  // which of the joint's angles
+  std::size_t turn = 0;  // index of the joint's angle
   Axis axis = Axis::x;
-  std::size_t frame = 0;  // which of the position frames
+  std::size_t frame = 0;  // index of the position frame
 };
 
 Source source_of(const WrittenValue& value, const Take& clip) {

@@ -1,4 +1,5 @@
-// Makes the position frames of formats that replace a joint's offset, and of those that add to it.
+// Makes the position frames of formats whose positions replace a joint's offset, or are added to
+// it.
 #include "io/motion/position_frame.hpp"
 
 namespace kinemend {

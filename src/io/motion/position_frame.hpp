@@ -9,8 +9,8 @@
 
 namespace kinemend {
 
-/// What the position columns of a joint mean: the clip's position is origin + R(turn) v, where v
-/// holds the values of the columns, and `rest` along the axes that have none.
+/// The meaning of a joint's position columns: the clip's position is origin + R(turn) v, where v
+/// holds the values of the columns, and `rest` along axes without a column.
 struct PositionFrame {
   Vec3 rest;
   Vec3 origin;
@@ -30,19 +30,19 @@ inline double component(const Vec3& v, Axis axis) {
   return axis == Axis::x ? v.x : axis == Axis::y ? v.y : v.z;
 }
 
-/// Positions replace the joint's offset, as in BVH.
+/// Returns frames in which positions replace the joint's offset, as in BVH.
 std::vector<PositionFrame> offset_replacing_frames(const Skeleton& skeleton);
-/// Positions are added to the joint's offset and lie in its rest frame; those of the root lie in
-/// the world's. As in AMC.
+/// Returns frames in which positions are added to the joint's offset, in its rest frame (for the
+/// root in the world's), as in AMC.
 std::vector<PositionFrame> offset_adding_frames(const Skeleton& skeleton);
 
-/// Which of the frames is that of `MotionColumns::Position::translated`.
+/// Returns the index of the frame for `MotionColumns::Position::translated`.
 inline std::size_t frame_index(std::int32_t translated) {
   return translated < 0 ? 0 : static_cast<std::size_t>(translated) + 1;
 }
 
-/// Where the clip keeps the position of a frame that `MotionColumns::Position::translated` numbers.
-template <class AnyTake>  // also a constant one
+/// Returns the clip's position in a frame for `MotionColumns::Position::translated`.
+template <class AnyTake>  // may be const
 auto& position_of(AnyTake& clip, std::size_t frame, std::int32_t translated) {
   return clip.positions[frame * clip.point_count() + frame_index(translated)];
 }

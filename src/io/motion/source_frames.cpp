@@ -1,4 +1,4 @@
-// Decodes the frames of a document in blocks, with the repairs that its reader made.
+// Decodes the frames of a document in blocks, and repeats the reader's repairs.
 #include "io/motion/source_frames.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Walks over the frames of a document once more, for a rewrite.
+// Reads the frames of a document again, for a rewrite.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace kinemend {
 
-/// Some frames of a document's text. By frame within the block: position columns are repaired,
-/// angles are as the file has them, in degrees.
+/// A block of frames of a document's text. Position columns are repaired; angles are as in the
+/// file, in degrees.
 struct SourceBlock {
   std::size_t first = 0;  ///< frame
   std::size_t count = 0;  ///< frames
@@ -26,7 +26,7 @@ struct SourceBlock {
   const Quat* rotations(std::size_t frame) const { return turns.data() + frame * joints; }
 };
 
-/// The frames of a document's text, decoded as its reader did, a block at a time.
+/// Decodes the frames of a document's text as its reader did, a block at a time.
 class SourceFrames {
  public:
   explicit SourceFrames(const MotionDocument& document);

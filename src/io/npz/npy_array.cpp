@@ -29,7 +29,8 @@ Error npy_error(const NpyPlace& place, std::string_view message) {
                         fmt::format("array {}: {}", quote(place.array), message));
 }
 
-// Where element `index` in C order stands in an array in which the first index counts fastest.
+// Returns the place of element `index` (in C order) in an array in Fortran order, whose first index
+// varies fastest.
 std::size_t place_in_fortran_order(const std::vector<std::size_t>& shape, std::size_t index) {
   std::size_t place = 0, stride = 1;
   for (const std::size_t extent : shape) stride *= extent;
@@ -159,7 +160,7 @@ std::string npy_text(const NpyArray& array, std::size_t index) {
       }
     }
   }
-  // Texts are filled up to one size by zeros.
+  // Texts are padded to one size with zeros.
   text.resize(text.find_last_not_of('\0') + 1);
   return text;
 }
@@ -171,7 +172,7 @@ std::string npy_head(std::string_view type, std::span<const std::size_t> shape) 
   if (shape.size() > 1) extents.resize(extents.size() - 2);
   std::string text =
       fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, extents);
-  // Elements begin at a multiple of 64 bytes; a line end closes the head.
+  // Elements begin at a multiple of 64 bytes; a line end ends the head.
   constexpr std::size_t fixed = 10, alignment = 64;
   const std::size_t size = (fixed + text.size() + alignment) / alignment * alignment - fixed;
   text.resize(size - 1, ' ');

@@ -12,14 +12,14 @@ namespace kinemend {
 
 namespace {
 
-constexpr std::size_t most_npy_dimensions = 32;  // as NumPy has it
+constexpr std::size_t most_npy_dimensions = 32;  // the limit of NumPy
 
 // Reads {'descr': '<f8', 'fortran_order': False, 'shape': (3, 4), }, keys in any order.
 class NpyHead {
  public:
   explicit NpyHead(std::string_view text) : text_(text) {}
 
-  // False for anything else.
+  // Returns false for any other text.
   bool read(NpyArray& array) {
     if (!accept('{')) return false;
     while (!accept('}')) {
@@ -30,7 +30,7 @@ class NpyHead {
     return !type.empty() && has_order_ && has_shape_;
   }
 
-  std::string type;  // "<f8"; "?" for one with fields
+  std::string type;  // "<f8"; "?" for a type with fields
 
  private:
   void skip_blanks() {

@@ -21,14 +21,14 @@ struct NpzDocument : SourceDocument {
   std::size_t max_depth = 0;        ///< of joints
 };
 
-/// The array of that name, unpacked; none where the archive has none. `left_bytes` is what may
-/// still be unpacked, and becomes less. Errors: `unreadable_input`.
+/// Returns the unpacked array of that name, or empty. `left_bytes` is the number of bytes that may
+/// still be unpacked; it is reduced by the array's size. Errors: `unreadable_input`.
 std::optional<NpyArray> npz_array(const NpzDocument& document, const std::string& name,
                                   std::size_t& left_bytes);
-/// Arrays that the layout does not know, by name.
+/// Returns the names of arrays that are not part of the layout.
 std::vector<std::string> other_npz_arrays(const NpzDocument& document);
 
-/// What had to be repaired, by the name of the repair: how often, and in which array first.
+/// A repair: its name, how often it was made, and in which array first.
 struct NpzRepair {
   std::string kind;
   std::string message;
@@ -38,7 +38,7 @@ struct NpzTake {
   Take take;
   std::vector<NpzRepair> repairs;
 };
-/// Decodes the motion: the same numbers each time. Errors: `unreadable_input`.
+/// Decodes the motion: the result is the same each time. Errors: `unreadable_input`.
 NpzTake take_of_npz(const NpzDocument& document);
 
 }  // namespace kinemend

@@ -83,7 +83,7 @@ class NpzDecoder {
     return names.empty() ? "no array" : fmt::format("{}", fmt::join(names, ", "));
   }
 
-  // Memory that the take needs for what a few bytes of the file say.
+  // Counts the memory that the take needs, because a few bytes of the file may ask for a lot.
   void charge(std::size_t count, std::size_t bytes_each) {
     if (count > left_bytes_ / bytes_each)
       throw file_error(
@@ -154,7 +154,7 @@ class NpzDecoder {
     return texts;
   }
 
-  // Whole numbers, each at least `least` and below `end(i)`.
+  // Returns whole numbers, each at least `least` and below `end(i)`.
   template <class End>
   std::vector<std::int32_t> indices(const NpyArray& found, std::int32_t least, End end) {
     std::vector<std::int32_t> values;
@@ -304,7 +304,8 @@ class NpzDecoder {
     take().observed_positions = std::move(seen);
   }
 
-  // One byte for each frame and owner. Empty if the array is missing or marks all as measured.
+  // Returns one byte for each frame and owner; empty if the array is missing or marks all as
+  // measured.
   std::vector<std::uint8_t> mask(const std::string& name, std::size_t owners) {
     const std::optional<NpyArray> found = optional_array(name);
     if (!found) return {};
@@ -424,7 +425,7 @@ std::vector<std::string> other_npz_arrays(const NpzDocument& document) {
 
 NpzTake take_of_npz(const NpzDocument& document) { return NpzDecoder(document).decode(); }
 
-// Archives of arrays hold anything, so an array of the layout is looked for.
+// An archive of arrays may hold any data, so this looks for an array of the layout.
 int sniff_npz(std::string_view head) {
   constexpr int of_the_layout = 100, of_arrays = 20;
   const auto name_at = [&](std::size_t place) {

@@ -1,4 +1,4 @@
-// Writes npz files: into their source where the take comes from one, else as new archives.
+// Writes npz files: into the source archive if the take has one, else as new archives.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,14 +38,14 @@ std::vector<double> numbers_of(const std::vector<Vec3>& vectors) {
   return values;
 }
 
-// 1 or 0 for each of `count` samples; a take without a mask has measured all.
+// Returns 1 or 0 for each of `count` samples; without a mask all samples are measured.
 std::vector<std::uint8_t> mask_of(const std::vector<std::uint8_t>& seen, std::size_t count) {
   std::vector<std::uint8_t> mask(count, 1);
   for (std::size_t i = 0; i < seen.size(); ++i) mask[i] = seen[i] != 0 ? 1 : 0;
   return mask;
 }
 
-// Of the rotations; or of markers.
+// Returns the mask of the rotations, or of the markers.
 std::vector<std::uint8_t> observed_mask(const Take& take) {
   return mask_of(take.observed, take.frame_count() * take.owner_count());
 }
@@ -142,7 +142,7 @@ const NpzDocument* npz_document_of(const Take& take) {
   return dynamic_cast<const NpzDocument*>(take.source.document.get());
 }
 
-// Whether only samples differ.
+// Whether the take differs from the source only in samples.
 bool fits_npz(const Take& take, const Take& original) {
   if (take.has_joints() != original.has_joints() || take.frame_count() != original.frame_count() ||
       take.frame_rate_hz != original.frame_rate_hz)
@@ -155,7 +155,7 @@ bool fits_npz(const Take& take, const Take& original) {
          take.metres_per_unit == original.metres_per_unit;
 }
 
-// The arrays that have other elements than those of the source.
+// The arrays whose elements differ from the source's.
 class ChangedNpz {
  public:
   ChangedNpz(const Take& take, const Take& original, const NpzDocument& document)
@@ -179,8 +179,8 @@ class ChangedNpz {
     return *npz_array(document_, name, unlimited);
   }
 
-  // `value(i)`: the new sample i, where `is_same(i)` does not hold. Returns whether one was
-  // replaced that is missing, `is_seen(i)` being false, or that was not finite.
+  // Replaces each sample i for which `is_same(i)` is false by `value(i)`. Returns whether a
+  // replaced sample is missing (`is_seen(i)` is false) or was not finite.
   template <std::size_t size, class IsSeen, class IsSame, class Value>
   bool change(const std::string& name, std::size_t samples, IsSeen is_seen, IsSame is_same,
               Value value) {
@@ -236,7 +236,8 @@ class ChangedNpz {
         });
   }
 
-  // A sample that was not finite, and no longer shows by itself that it is missing, needs the mask.
+  // A replaced sample that was not finite no longer shows that it is missing, so the mask must mark
+  // it.
   void change_mask(const std::string& name, const std::vector<std::uint8_t>& now,
                    const std::vector<std::uint8_t>& before, std::size_t owners, bool is_needed) {
     if (now == before && !is_needed) return;

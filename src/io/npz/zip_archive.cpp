@@ -44,7 +44,7 @@ class ZipDirectory {
     return bytes_.substr(std::min(place, bytes_.size()), mark.size()) == mark;
   }
 
-  // The record that ends the archive is the last one whose comment reaches the end of the file.
+  // The end record of the archive is the last one whose comment reaches the end of the file.
   void find_directory() {
     constexpr std::size_t most_comment = 65535;
     if (bytes_.size() < zip_end_bytes) throw error_at(0, "the file ends before its directory");
@@ -107,7 +107,7 @@ class ZipDirectory {
     member.data = at + zip_header_bytes + half(at + 26) + half(at + 28);
   }
 
-  // Members that share bytes would be small files of great size.
+  // Rejects members that share bytes: a small file could then unpack to a huge size.
   void find_ends() {
     std::vector<ZipMember*> in_order;
     for (ZipMember& member : archive_.members) in_order.push_back(&member);
@@ -128,13 +128,13 @@ class ZipDirectory {
   std::set<std::string> names_;
 };
 
-// Raw deflate, of which the size is known; false where the bytes are damaged.
+// Unpacks raw deflate data of known size; returns false if the bytes are damaged.
 bool inflate_zip(std::string_view packed, std::string& raw) {
   z_stream stream{};
   if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) throw std::bad_alloc();
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
   stream.avail_in = static_cast<uInt>(packed.size());
-  // Of a member without bytes there is still an end to find.
+  // Even a member without bytes has an end mark to read, which needs an output pointer.
   char none = 0;
   stream.next_out = reinterpret_cast<Bytef*>(raw.empty() ? &none : raw.data());
   stream.avail_out = static_cast<uInt>(raw.size());

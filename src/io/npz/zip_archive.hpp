@@ -10,11 +10,11 @@
 
 namespace kinemend {
 
-/// A member of an archive by its places in the bytes.
+/// A member of an archive and its offsets in the bytes.
 struct ZipMember {
   std::string name;
   std::size_t begin = 0;  ///< of its local header
-  std::size_t end = 0;    ///< where the next member, or the directory, begins
+  std::size_t end = 0;    ///< beginning of the next member, or of the directory
   std::size_t data = 0;   ///< of its packed bytes
   std::size_t packed_bytes = 0;
   std::size_t raw_bytes = 0;
@@ -31,15 +31,15 @@ struct ZipArchive {
   std::size_t directory = 0;
   std::size_t directory_end = 0;
 
-  /// The member of that name, or null.
+  /// Returns the member of that name, or null.
   const ZipMember* find(std::string_view member) const;
 };
 
 /// Reads the directory of an archive below 4 GiB. Errors: `unreadable_input` with the byte, also
-/// for members that overlap or have one name.
+/// for members that overlap or share a name.
 ZipArchive read_zip(std::string_view bytes, std::string_view name);
-/// The unpacked bytes of a member. Errors: `unreadable_input`: damaged, encrypted, of a packing
-/// other than stored and deflated, or more than `most_bytes`.
+/// Returns the unpacked bytes of a member. Errors: `unreadable_input` if it is damaged, encrypted,
+/// packed by a method other than stored and deflated, or larger than `most_bytes`.
 std::string zip_content(std::string_view bytes, const ZipArchive& archive, const ZipMember& member,
                         std::size_t most_bytes);
 
@@ -49,10 +49,11 @@ struct ZipContent {
   std::string bytes;
   bool is_deflated = false;
 };
-/// A new archive. Errors: `usage` beyond 4 GiB.
+/// Returns a new archive. Errors: `usage` above 4 GiB.
 std::string make_zip(const std::vector<ZipContent>& contents);
-/// The archive with other contents for the members of these names, which stay stored or deflated,
-/// or with new members at the end. Every other member keeps its bytes. Errors: as `make_zip`.
+/// Returns the archive with new contents for the members of these names, which stay stored or
+/// deflated; names that it lacks become new members at the end. Every other member keeps its bytes.
+/// Errors: as `make_zip`.
 std::string rewrite_zip(std::string_view bytes, const ZipArchive& archive,
                         const std::map<std::string, std::string>& contents);
 

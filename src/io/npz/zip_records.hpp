@@ -7,16 +7,16 @@
 
 namespace kinemend {
 
-/// How the records begin.
+/// The first bytes of each record.
 inline constexpr std::string_view zip_header_mark = "PK\3\4", zip_entry_mark = "PK\1\2",
                                   zip_end_mark = "PK\5\6";
-/// Their sizes without names, extra fields and comments.
+/// Sizes of the records without names, extra fields and comments.
 inline constexpr std::size_t zip_header_bytes = 30, zip_entry_bytes = 46, zip_end_bytes = 22;
 inline constexpr std::uint16_t zip_stored = 0, zip_deflated = 8;
-/// Stands for a number that only a zip64 record has room for.
+/// Marks a number that only a zip64 record can hold.
 inline constexpr std::size_t zip_no_number = 0xFFFFFFFF;
 
-/// A whole number of two or four bytes, lowest first.
+/// Reads a whole number of two or four bytes, little-endian.
 inline std::size_t zip_number(std::string_view bytes, std::size_t place, std::size_t size) {
   std::size_t value = 0;
   for (std::size_t i = size; i-- > 0;)
@@ -24,7 +24,7 @@ inline std::size_t zip_number(std::string_view bytes, std::size_t place, std::si
   return value;
 }
 
-/// The CRC-32 of a member's unpacked bytes.
+/// Returns the CRC-32 of a member's unpacked bytes.
 std::uint32_t zip_checksum(std::string_view raw);
 
 }  // namespace kinemend

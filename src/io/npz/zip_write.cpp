@@ -1,4 +1,4 @@
-// Writes zip archives: new ones, and old ones in which some members have other contents.
+// Writes zip archives: new ones, and existing ones with new contents for some members.
 #include <fmt/format.h>
 #include <zlib.h>
 
@@ -64,7 +64,7 @@ class ZipWriter {
     entries_.push_back(std::move(entry));
   }
 
-  // A member as it is in another archive.
+  // Copies a member from another archive unchanged.
   void copy(std::string_view bytes, const ZipMember& member) {
     std::string entry(bytes.substr(member.entry, member.entry_bytes));
     constexpr std::size_t place_of_begin = 42;
@@ -96,7 +96,7 @@ class ZipWriter {
       throw Error(ErrorKind::usage, "npz files of 4 GiB or more are not written");
   }
 
-  // What the header and the entry of a member have in common, up to the size of the name.
+  // Returns the fields that the header and the entry of a member share, up to the size of the name.
   static std::string facts_of(const ZipContent& content, std::size_t packed_bytes) {
     constexpr std::size_t version = 20, first_day = 0x21;  // 2.0; 1 January 1980
     std::string facts;

@@ -58,7 +58,7 @@ void CellPatch::append(const Replacement& replacement) {
     if (style_.separator == ' ') out_.append("NaN");
     return;
   }
-  // A decimal comma amid commas.
+  // A decimal comma needs quotes if commas separate the cells.
   const bool quoted = style_.separator == ',' && style_.commas == CommaStyle::decimal;
   if (quoted) out_.append("\"");
   if (replacement.decimals <= most_fixed_decimals) {
@@ -69,7 +69,7 @@ void CellPatch::append(const Replacement& replacement) {
   if (quoted) out_.append("\"");
 }
 
-// Appends the cells that the row ended before, from `column` up to the one of `last`.
+// Appends the cells missing at the end of the row, from `column` up to the cell of `last`.
 std::size_t CellPatch::grow(std::size_t column, const Replacement& last) {
   copy_until(row_.end);
   for (; column <= last.column; ++column) {
@@ -95,7 +95,7 @@ void CellPatch::write_row() {
       column = grow(column, replacement);
     }
   }
-  // A row that the end of the file cut is whole from now on.
+  // A row that was cut by the end of the file is completed.
   const bool last_row = row_.end == bytes_.data() + bytes_.size();
   if (last_row && column < width_) grow(column, {width_ - 1, std::nan(""), 0});
   replacements_.clear();

@@ -19,27 +19,27 @@ inline constexpr unsigned most_fixed_decimals = 9;
 /// Copies a table of numbers with some cells replaced.
 class CellPatch {
  public:
-  /// `begin`: of the first row, all of which are `width` cells wide.
+  /// `begin`: offset of the first row. All rows are `width` cells wide.
   CellPatch(std::string_view bytes, std::size_t begin, const CellStyle& style, std::size_t width);
 
   /// Writes the replacements of this row and moves to the next; false at the end.
   bool next();
   const CellRow& row() const { return row_; }
-  /// As read, NaN where a cell is empty.
+  /// Returns the value as read; NaN for an empty cell.
   double value(std::size_t column) const { return values_[column]; }
-  /// Whether the cell holds a word such as `nan` in the place of a number.
+  /// Whether the cell holds a word such as `nan` instead of a number.
   bool is_no_number(std::size_t column) const {
     const TokenSpan& token = tokens_[column];
     return std::isnan(values_[column]) && token.begin != token.end;
   }
-  /// NaN makes an empty cell, or `NaN` in a table without separators. Digits that already express
-  /// the new value as well as so many decimals can are kept.
+  /// Replaces a cell. NaN makes an empty cell, or `NaN` in a table without separators. The old
+  /// digits are kept if they express the new value as accurately as `decimals` digits can.
   void replace(std::size_t column, double value, unsigned decimals);
   bool has_replacements() const { return !replacements_.empty(); }
-  /// Whether the replacements leave no cell of this row that is not empty: it would no longer be
+  /// Whether the replacements leave only empty cells in this row, so that it would no longer be
   /// read as a row.
   bool empties_row() const;
-  /// The rest of the bytes, as they are.
+  /// Appends the remaining bytes unchanged and returns the result.
   std::string finish() &&;
 
  private:

@@ -23,7 +23,8 @@ bool is_quoted(TokenSpan token) {
   return token.end - token.begin >= 2 && *token.begin == '"' && token.end[-1] == '"';
 }
 
-// Quotes hide separators, up to the end of the line; two quotes within quotes are one.
+// Finds the end of a cell. Quotes hide separators, up to the end of the line; two quotes within
+// quotes are one.
 const char* cell_end(const char* p, const char* end, char separator) {
   const char* q = p;
   while (q != end && is_cell_blank(*q) && *q != separator) ++q;
@@ -66,7 +67,7 @@ std::size_t next_line(std::string_view text, std::size_t begin) {
 }
 
 std::size_t estimate_rows(std::string_view text, std::size_t begin) {
-  // For speed.
+  // Extra rows to reserve, for speed.
   constexpr std::size_t spare = 16;
   return (text.size() - begin) / (line_from(text, begin).size() + 1) + spare;
 }

@@ -10,7 +10,7 @@ namespace {
 
 // Chosen by hand, not swept.
 constexpr std::size_t most_lines_compared = 100, least_lines_compared = 3;
-// Lines of other bones lie between those of one bone.
+// Larger, because lines of other bones lie between the lines of one bone.
 constexpr std::size_t most_lines_passed = 20000;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -19,7 +19,8 @@ std::string_view first_word(std::string_view line) {
   return line.substr(0, std::find_if(line.begin(), line.end(), is_space) - line.begin());
 }
 
-// Digits after the point of the last number of a line; nothing where it is no plain number.
+// Returns the number of digits after the point of the last number of a line; empty if it is not a
+// plain number.
 std::optional<std::size_t> last_decimals(std::string_view line, CommaStyle commas, char separator) {
   std::size_t begin = line.size();
   while (begin > 0 && !is_space(line[begin - 1]) && line[begin - 1] != separator &&
@@ -36,7 +37,7 @@ std::optional<std::size_t> last_decimals(std::string_view line, CommaStyle comma
   return has_point ? std::optional<std::size_t>(digits) : std::nullopt;
 }
 
-// The line before the one that starts at `begin`, which moves there.
+// Returns the line before the line that starts at `begin`, and moves `begin` to it.
 std::string_view line_before(std::string_view text, std::size_t& begin) {
   std::size_t end = begin;
   while (end > 0 && is_space(text[end - 1])) --end;

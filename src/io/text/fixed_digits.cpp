@@ -1,4 +1,4 @@
-// Writes by the standard library; without it, from the shortest digits that fmt finds.
+// Writes with the standard library, or else from the shortest digits that fmt finds.
 #include "io/text/fixed_digits.hpp"
 
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ char* put(char* out, const char* end, std::string_view text) {
   return std::copy_n(text.data(), std::min(room, text.size()), out);
 }
 
-// "1.25e-07" as "0.000000125".
+// Converts "1.25e-07" to "0.000000125".
 std::string in_fixed_notation(std::string_view shortest) {
   const std::size_t mark = shortest.find('e');
   if (mark == shortest.npos) return std::string(shortest);
@@ -52,7 +52,7 @@ std::string in_fixed_notation(std::string_view shortest) {
 
 template <class Real>
 char* write_shortest_digits(char* out, char* end, Real value) {
-  // Every number this large is whole; the library writes all of its digits then.
+  // Every number this large is whole, and the library writes all of its digits.
   const auto whole_from = std::ldexp(Real{1}, std::numeric_limits<Real>::digits);
   if (std::isfinite(value) && std::fabs(value) >= whole_from)
     return write_decimals_anywhere(out, end, static_cast<double>(value), 0);

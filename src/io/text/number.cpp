@@ -1,4 +1,4 @@
-// Reads the numbers that the fast path leaves, and writes numbers with fixed or fewest digits.
+// Reads the numbers that the fast path cannot, and writes numbers with fixed or fewest digits.
 #include "io/text/number.hpp"
 
 #include <fast_float/fast_float.h>
@@ -22,7 +22,7 @@ bool starts_with_word(std::string_view text, std::string_view word) {
                     [](char w, char t) { return w == lower_case(t); });
 }
 
-// "nan", "-nan(ind)", "Infinity", and "1.#QNAN" as older C libraries print it.
+// Recognises "nan", "-nan(ind)", "Infinity", and "1.#QNAN" as older C libraries print it.
 bool names_no_number(std::string_view token) {
   if (!token.empty() && (token.front() == '-' || token.front() == '+')) token.remove_prefix(1);
   return starts_with_word(token, "nan") || starts_with_word(token, "inf") ||
@@ -76,7 +76,7 @@ NumberToken read_number(const char* begin, const char* end, CommaStyle commas) {
 }
 
 NumberToken read_sample(const char* begin, const char* end, CommaStyle commas) {
-  // Beyond it sums and products overflow; chosen by hand.
+  // Above this, sums and products may overflow; chosen by hand.
   constexpr double largest = 1e100;
   NumberToken result = read_number(begin, end, commas);
   if (result.kind == TokenKind::number && std::fabs(result.value) > largest) {
@@ -139,7 +139,8 @@ constexpr auto digit_pairs = [] {
   return pairs;
 }();
 
-// 0 to 999 without leading zeros, and the length in the fourth byte: angles need no more.
+// The texts of 0 to 999 without leading zeros, with the length in the fourth byte. Angles are not
+// larger.
 constexpr auto small_integers = [] {
   std::array<char, 4000> texts{};
   for (std::size_t i = 0; i < 1000; ++i) {
@@ -160,7 +161,7 @@ char* write_integer(char* out, std::uint64_t value) {
   return out + text[3];
 }
 
-// Exactly `count` digits.
+// Writes exactly `count` digits.
 char* write_digits(char* out, std::uint32_t value, unsigned count) {
   char* p = out + count;
   for (; p - out >= 2; value /= 100) {
@@ -187,8 +188,8 @@ char* write_fixed(char* out, double value, unsigned decimals) {
   const double scaled = std::fabs(value) * scales[decimals];
   if (!(scaled < 1e15)) return write_with_library(out, value, decimals);
   auto integer = static_cast<std::uint64_t>(scaled);
-  // The product is off by half a unit in its last place at most: too close to a tie, the exact way
-  // decides.
+  // The product has an error of at most half a unit in its last place, so close to a tie the exact
+  // method decides.
   const double beyond_tie = scaled - static_cast<double>(integer) - 0.5;
   if (std::fabs(beyond_tie) <= scaled * 0x1p-52) return write_with_library(out, value, decimals);
   integer += beyond_tie > 0 ? 1 : 0;

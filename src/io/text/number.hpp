@@ -25,7 +25,7 @@ enum class CommaStyle : std::uint8_t { none, decimal, separator };
 
 enum class TokenKind : std::uint8_t {
   number,
-  not_finite,  ///< nan, inf, 1.#IND and the like, or a number beyond the range of a double
+  not_finite,  ///< nan, inf, 1.#IND and similar words, or a number beyond the range of a double
   comment,     ///< starts with # or //
   text,        ///< anything else
 };
@@ -38,24 +38,24 @@ struct NumberToken {
   unsigned decimals = 0;  ///< digits after the point of a number without exponent
 };
 
-/// Any number in the notation of the C locale, whatever the locale is; correctly rounded. `begin` <
-/// `end` is the first byte of the token, which ends before white space (or before a comma that
-/// separates).
+/// Reads any number in the notation of the C locale, whatever the locale is, correctly rounded.
+/// `begin` < `end` is the first byte of the token, which ends before white space (or before a comma
+/// that separates).
 NumberToken read_number(const char* begin, const char* end, CommaStyle commas = CommaStyle::none);
 
-/// The same for a position or an angle: a value beyond 1e100, whose square may not be finite, is
-/// `not_finite`.
+/// Reads a position or an angle: a value beyond 1e100, whose square may overflow, is `not_finite`.
 NumberToken read_sample(const char* begin, const char* end, CommaStyle commas = CommaStyle::none);
 
-/// How many numbers a word holds: some programs write no blank before a minus sign
-/// (`0.0-7.5094748`). A sign after a digit or a point starts the next number; one after an exponent
-/// (`1e-5`) does not. 1 for a word that is not numbers throughout, or that has no point, as a date.
+/// Returns how many numbers a word holds, because some programs write no blank before a minus sign
+/// (`0.0-7.5094748`). A sign after a digit or a point starts the next number; a sign after an
+/// exponent mark (`1e-5`) does not. 1 for a word that does not consist of numbers, or that has no
+/// point, like a date.
 std::size_t numbers_in_word(std::string_view word);
-/// Where the second number of such a word starts.
+/// Returns the start of the second number in such a word.
 const char* second_number(const char* begin, const char* end);
 
-/// How the commas of `line` are to be read when it holds `expected` numbers. `none` when it has no
-/// comma, or when both readings are possible or neither is.
+/// Returns how to read the commas of `line` if it holds `expected` numbers; `none` if it has no
+/// comma, or if both readings or neither are possible.
 CommaStyle comma_style(std::string_view line, std::size_t expected);
 
 inline bool is_line_end(char c) { return c == '\n' || c == '\r'; }
@@ -65,7 +65,7 @@ inline const char* skip_space(const char* p, const char* end) {
   return p;
 }
 
-/// One bit a byte, for the 16 bytes at an address.
+/// One bit per byte, for the 16 bytes at an address.
 struct ByteMasks {
   std::uint32_t blank = 0;  ///< control characters and the space
   std::uint32_t digit = 0;
@@ -81,13 +81,13 @@ inline std::uint64_t load8(const char* p) {
   return bytes;
 }
 
-// The top bits of the eight bytes, first byte in bit 0.
+// Returns the top bits of the eight bytes, the first byte in bit 0.
 inline std::uint32_t top_bits(std::uint64_t bytes) {
   return static_cast<std::uint32_t>((((bytes >> 7) & 0x0101010101010101u) * 0x0102040810204080u) >>
                                     56);
 }
 
-// Sets a byte's top bit where the byte (of the seven low bits) is at least `low`.
+// Sets the top bit of each byte whose seven low bits are at least `low`.
 inline std::uint64_t at_least(std::uint64_t seven_bits, unsigned low) {
   return seven_bits + 0x0101010101010101u * (0x80 - low);
 }
@@ -105,7 +105,7 @@ inline ByteMasks byte_masks_of_eight(const char* p) {
   return {top_bits(blanks), top_bits(digits), top_bits(dots)};
 }
 
-/// The same as `byte_masks`, for processors without SSE2.
+/// `byte_masks` for processors without SSE2.
 template <char also_blank = ' '>
 inline ByteMasks byte_masks_portable(const char* p) {
   const ByteMasks first = byte_masks_of_eight<also_blank>(p);
@@ -114,7 +114,7 @@ inline ByteMasks byte_masks_portable(const char* p) {
           first.dot | second.dot << 8};
 }
 
-/// `also_blank`: a separator that counts as a blank.
+/// `also_blank`: a separator that is treated as a blank.
 template <char also_blank = ' '>
 inline ByteMasks byte_masks(const char* p) {
 #if defined(__SSE2__)
@@ -138,8 +138,8 @@ inline constexpr std::uint64_t integer_powers[] = {1,      10,      100,      10
                                                    100000, 1000000, 10000000, 100000000};
 inline constexpr double powers[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8};
 
-// The digits' values in the last `count` of eight bytes (the highest ones, read little-endian);
-// nothing elsewhere.
+// Masks that keep the digits' values in the last `count` of eight bytes (the highest bytes, read
+// little-endian).
 inline constexpr std::uint64_t last_digits[] = {
     0,
     0x0F00000000000000u,
@@ -158,8 +158,7 @@ struct DigitGroups {
   friend bool operator==(const DigitGroups&, const DigitGroups&) = default;
 };
 
-// The numbers that two groups of eight digit values make: pairs, then fours, then all in one
-// register.
+// Joins two groups of eight digit values into numbers: pairs, then fours, then all in one register.
 inline DigitGroups join_digits_portable(std::uint64_t first, std::uint64_t second) {
   const auto join = [](std::uint64_t digits) {
     digits = (digits * 10 + (digits >> 8)) & 0x00FF00FF00FF00FFu;
@@ -192,7 +191,7 @@ inline DigitGroups join_digits(std::uint64_t first, std::uint64_t second) {
 inline constexpr std::ptrdiff_t plain_number_lead = 8;
 inline constexpr std::ptrdiff_t plain_number_reach = 32;
 
-/// The places of a text with that much room around them.
+/// The places of a text with enough readable bytes around them.
 class PlainPlaces {
  public:
   PlainPlaces(const char* begin, const char* end)
@@ -214,10 +213,10 @@ struct PlainNumber {
   unsigned decimals = 0;
 };
 
-/// The common case without branches that depend on the token's length: an optional minus sign, up
-/// to eight digits, a point, up to eight digits, 15 in all. Both the digits and the power of ten
-/// are exact doubles, so the quotient is correctly rounded. The token ends before white space or
-/// `separator`. False for any other token; little-endian processors only.
+/// Reads the common case without branches that depend on the token's length: an optional minus
+/// sign, up to eight digits, a point, up to eight digits, at most 15 digits. Both the digits and
+/// the power of ten are exact doubles, so the quotient is correctly rounded. The token ends before
+/// white space or `separator`. False for any other token; little-endian processors only.
 template <char separator = ' '>
 inline bool read_plain_number(const char* p, PlainNumber& number) {
   if constexpr (std::endian::native != std::endian::little) return false;
@@ -244,14 +243,14 @@ inline bool read_plain_number(const char* p, PlainNumber& number) {
   return true;
 }
 
-/// Room that `write_fixed` may need.
+/// Buffer size that `write_fixed` may need.
 inline constexpr std::size_t fixed_number_room = 352;
 
-/// Writes a finite number with so many decimals (0 to 9), never with an exponent and never as minus
-/// zero, correctly rounded. Returns the end of what was written.
+/// Writes a finite number with `decimals` decimals (0 to 9), never with an exponent and never as
+/// minus zero, correctly rounded. Returns the end of the written text.
 char* write_fixed(char* out, double value, unsigned decimals);
 
-/// The shortest digits that read back as the same number, without exponent.
+/// Writes the shortest digits that read back as the same number, without exponent.
 char* write_shortest(char* out, double value);
 
 }  // namespace kinemend

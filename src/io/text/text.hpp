@@ -10,11 +10,11 @@
 
 namespace kinemend {
 
-/// Line (from 1) of byte `offset`. A line ends with LF, CR LF or CR, also mixed. Counted when
-/// asked, which is when something is wrong, so that reading costs nothing.
+/// Returns the line (from 1) of byte `offset`. A line ends with LF, CR LF or CR, also mixed. Lines
+/// are counted only for messages, so that reading pays nothing for it.
 std::size_t line_at(std::string_view text, std::size_t offset);
 
-/// How the first line of a text ends: LF, CR LF or CR; LF when it is the only one.
+/// Returns the end of the first line of a text: LF, CR LF or CR; LF if the text has one line.
 std::string_view line_ending_of(std::string_view text);
 
 bool equal_ignoring_case(std::string_view a, std::string_view b);
@@ -31,7 +31,7 @@ struct SourceText {
   }
 };
 
-/// How often something was repaired, and where it was for the first time.
+/// How often a repair was made, and the place of the first one.
 struct CountedRepair {
   std::size_t count = 0;
   std::size_t first = 0;
@@ -45,26 +45,25 @@ struct CountedRepair {
 void note_repair(const SourceText& text, Diagnostics& diagnostics, std::string_view kind,
                  std::size_t offset, std::string_view message, std::size_t count = 1);
 
-/// Walks over the words of a text: runs of bytes between white space, where each brace is a word of
-/// its own. Comments
-/// (# or //, to the end of the line) between words are passed over and counted.
+/// Walks over the words of a text: runs of bytes between white space; each brace is a separate
+/// word. Comments (# or //, to the end of the line) between words are skipped and counted.
 class TextScanner {
  public:
   TextScanner(std::string_view bytes, std::size_t position) : bytes_(bytes), position_(position) {}
 
-  /// The next word, empty at the end; stays before it.
+  /// Returns the next word, empty at the end, without moving past it.
   std::string_view peek();
-  /// The next word; moves past it.
+  /// Returns the next word and moves past it.
   std::string_view next();
-  /// Takes the next word when it is `word` in any case.
+  /// Moves past the next word if it is `word` in any case.
   bool accept(std::string_view word);
-  /// The rest of the line, or the next line when the rest is blank, up to a brace, without white
-  /// space at either end. Empty when a brace is next.
+  /// Returns the rest of the line, or the next line if the rest is blank, up to a brace, without
+  /// white space at either end. Empty if a brace is next.
   std::string_view name();
-  /// The rest of the line, up to a brace; stays before it.
+  /// Returns the rest of the line, up to a brace, without moving past it.
   std::string_view rest_of_line() const;
 
-  /// The place of the next word, after a call of `peek`.
+  /// Returns the place of the next word, after a call of `peek`.
   std::size_t position() const { return position_; }
   void move_to(std::size_t position) { position_ = position; }
   std::size_t comments() const { return comments_; }

@@ -1,4 +1,4 @@
-// Appends numbers to a text, and refuses those that are not finite.
+// Appends numbers to a text, and rejects numbers that are not finite.
 #include "io/text/text_buffer.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace kinemend {
 
 namespace {
 
-// No output holds a number that is none.
+// Outputs never contain NaN or infinity.
 void check_finite(double value) {
   if (!std::isfinite(value)) throw Error(ErrorKind::usage, "a value to write is not finite");
 }

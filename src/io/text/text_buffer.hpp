@@ -1,4 +1,4 @@
-// A text that writers append words and numbers to.
+// A text to which writers append words and numbers.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ class TextBuffer {
 
   void append(std::string_view piece) {
     make_room(piece.size());
-    // Mostly the one space between two numbers.
+    // The common case is one space between two numbers.
     if (piece.size() == 1) {
       text_[used_] = piece[0];
     } else {
