@@ -1,6 +1,5 @@
-// What a method leaves of several kinds of damage, as a logarithm: the measure of tools/ablation,
-// which builds this program against the library as it is and against the library with one thing
-// changed.
+// Prints the logarithmic error that a method leaves for several kinds of damage. tools/ablation
+// builds this program against the unchanged library and against the library with one change.
 //   ablation auto|wiener FOLDER TAKE... [--model FILE]
 #include <cmath>
 #include <functional>
@@ -17,10 +16,10 @@ struct Case {
   std::string name;
   double rate_hz;
   std::function<Take(const Take&)> damage;
-  bool is_whole = false;  ///< else five seconds of each take
+  bool is_whole = false;  ///< false: five seconds of each take
 };
 
-// An arm unseen for a second in the middle.
+// Hides an arm for a second in the middle.
 Take without_arm(Take clip) {
   clip.observed.assign(clip.rotations.size(), 1);
   const auto half = static_cast<std::size_t>(clip.frame_rate_hz / 2);
@@ -91,7 +90,7 @@ int measure(int count, char** values) {
     for (const std::string& name : takes) {
       const Take truth = part_of(load_take(arguments, name + ".bvh", {}).clip, one);
       const Take result = clean_take(one.damage(truth), *cleaner).take;
-      // What is below a hundredth of a degree is as good as nothing.
+      // Errors far below a hundredth of a degree do not matter.
       sum += std::log(geodesic_rms_deg(truth, result) + 0.01);
     }
     fmt::print("{} {:.6f}\n", one.name, sum / static_cast<double>(takes.size()));

@@ -1,6 +1,5 @@
-// Speed of reading and writing AMC, single thread: a take of 10,000 frames of a skeleton like that
-// of the CMU files, with six significant digits. The number shown as bytes_per_second is of the
-// file.
+// Speed of reading and writing AMC on a single thread: a take of 10,000 frames with a skeleton like
+// those of the CMU files and six significant digits. bytes_per_second refers to the file.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // Speed of matching, encoding and decoding takes of 31 joints and of 38 markers as channels of a
-// body; the arguments are the rate in hertz and the seconds.
+// body. The arguments are the rate in hertz and the duration in seconds.
 #include <benchmark/benchmark.h>
 
 #include "kinemend/experimental/body.hpp"

@@ -1,5 +1,5 @@
-// Speed of reading and writing C3D, single thread: 41 markers in 30,000 frames, 4 analog channels.
-// `items` are frames; the number shown as bytes_per_second is of the file.
+// Speed of reading and writing C3D on a single thread: 41 markers in 30,000 frames, 4 analog
+// channels. `items` are frames; bytes_per_second refers to the file.
 #include <benchmark/benchmark.h>
 
 #include <unistd.h>
@@ -89,7 +89,7 @@ void report(benchmark::State& state, std::size_t bytes) {
   state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(bytes));
 }
 
-// As a program does it: from a file that is in the disk cache.
+// Reads a file from the disk cache, as a program does.
 void read_c3d_file(benchmark::State& state) {
   const std::string bytes = make_take(state.range(0));
   const auto path = std::filesystem::temp_directory_path() /

@@ -1,4 +1,4 @@
-// Cleaners on whole takes in memory, one thread. Items are frames.
+// Speed of cleaners on whole takes in memory with one thread. Items are frames.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -48,8 +48,8 @@ void run(benchmark::State& state, const Cleaner& cleaner, const Take& input) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(input.frame_count()));
 }
 
-// Courty's own take and parameters: 75 joints, 150 frames, 5 passes, sigma_t of one frame. His
-// laptop took 300 ms.
+// Courty's take and parameters: 75 joints, 150 frames, 5 passes, sigma_t of one frame. His laptop
+// took 300 ms.
 void bilateral_75_joints_150_frames_5_passes(benchmark::State& state) {
   BilateralOptions options;
   options.sigma_t_s = 1.0 / 120;
@@ -89,7 +89,7 @@ BENCHMARK(nonlocal_31_joints_window_21_patch_11)
     ->Name("clean/nonlocal_31_joints_window_21_patch_11")
     ->Unit(benchmark::kMillisecond);
 
-// The same with the bandwidth chosen by the take's noise.
+// The same take with a bandwidth chosen by its noise.
 void nonlocal_31_joints_automatic(benchmark::State& state) {
   run(state, *make_nonlocal(), noisy_clip(31, 10000, 120));
 }
@@ -106,7 +106,7 @@ BENCHMARK(nonlocal_31_joints_causal)
     ->Name("clean/nonlocal_31_joints_causal")
     ->Unit(benchmark::kMillisecond);
 
-// Every pose with every other.
+// Compares every pose with every other one.
 void nonlocal_31_joints_whole_take_of_1000(benchmark::State& state) {
   NonlocalOptions options;
   options.window_s = 0;

@@ -1,5 +1,5 @@
-// Example-based denoising: products of matrices, bases of 2,000 frames x 62 channels at 30 Hz
-// (window 20), and takes of 10 s and more cleaned with them.
+// Speed of example-based denoising: matrix products, bases of 2,000 frames x 62 channels at 30 Hz
+// (window 20), and cleaning takes of 10 s and more with these bases.
 #include <benchmark/benchmark.h>
 
 #include <Spectra/MatOp/DenseSymMatProd.h>
@@ -158,8 +158,8 @@ BENCHMARK(eigenvectors_of_eigen)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(2);
 
-// Noise of 3 degrees and 5 % outliers, to convergence from the measured motion; with the bases that
-// hold 99 % of the energy, or as many as five real walks need.
+// Cleans 3 degrees of noise and 5 % of outliers to convergence, starting at the measured motion,
+// with the bases that hold 99 % of the energy or as many as five real walks need.
 void clean_take(benchmark::State& state) {
   const double rate_hz = static_cast<double>(state.range(0));
   const auto frames = static_cast<std::size_t>(rate_hz * static_cast<double>(state.range(1)));
@@ -205,7 +205,7 @@ BENCHMARK(clean_take)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-// The same with every sliding window multiplied by all bases, and as a convolution.
+// Multiplies every sliding window by all bases, or computes the same product as a convolution.
 void patterns_product(benchmark::State& state) {
   using Product = kinemend::PatternPenalty::Product;
   kinemend::LagCovariance sums(window_frames, channel_count);
@@ -229,7 +229,7 @@ BENCHMARK(patterns_product)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-// A whole take of 10 s at 30 Hz by the method with the model that ships, `auto` included.
+// Cleans a whole take of 10 s at 30 Hz with the shipped model, including `auto`.
 void method(benchmark::State& state) {
   const kinemend::Take take = kinemend::bench::noisy_walk(30, 10, 0.02);
   const auto cleaner = kinemend::make_example({});

@@ -1,5 +1,5 @@
-// Filling all gaps of a take of 41 markers at 120 Hz: 60 gaps of 10 to 200 frames in a take of
-// 4,500 frames, and as many a second in longer ones. ms is the figure.
+// Filling all gaps of a take of 41 markers at 120 Hz: 60 gaps of 10 to 200 frames in 4,500 frames,
+// and the same density in longer takes. The result is in ms.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ using kinemend::Vec3;
 constexpr std::size_t marker_count = 41;
 constexpr std::size_t frames_per_gap = 75;
 
-// Markers about the joints of a walker who turns about, each with a sway of its own.
+// Markers at the joints of a walker who turns around, each with independent sway.
 kinemend::Take whole_take(std::size_t frames) {
   const kinemend::Take clip = kinemend::synthesize(
       {.motion = "stroll", .duration_s = (static_cast<double>(frames) + 1) / 120});
@@ -76,7 +76,7 @@ void fill(benchmark::State& state, const char* method) {
   state.counters["gaps"] = static_cast<double>(filled);
 }
 
-// CPU time is that of all threads together.
+// CPU time is the sum over all threads.
 void settle(benchmark::internal::Benchmark* bench) {
   bench->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 }

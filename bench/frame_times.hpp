@@ -11,8 +11,8 @@
 
 namespace kinemend::bench {
 
-/// How long one frame takes live. A mean says little of a stream, so that the median and the 99th
-/// percentile are counters.
+/// Measures the time of single live frames. The counters are the median and the 99th percentile,
+/// because a mean says little about a stream.
 class FrameTimes {
  public:
   template <class Work>
@@ -32,7 +32,7 @@ class FrameTimes {
   }
 
  private:
-  // Of this thread alone: what else the machine does is no part of it.
+  // Measures this thread only, so that other load does not matter.
   static double thread_ms() {
     timespec time{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

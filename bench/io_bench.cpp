@@ -1,5 +1,5 @@
-// Speed of reading and writing BVH, single thread: a take of 10,000 frames x 96 channels with four
-// decimals, as in the CMU files. The number shown as bytes_per_second is of the file.
+// Speed of reading and writing BVH on a single thread: a take of 10,000 frames x 96 channels with
+// four decimals, as in the CMU files. bytes_per_second refers to the file.
 #include <benchmark/benchmark.h>
 
 #include <string>
@@ -45,7 +45,7 @@ Take make_take() {
   return clip;
 }
 
-// Four decimals: written once with the plain layout's six, then cut.
+// Writes six decimals in the plain layout and cuts them to four.
 const std::string& take_text() {
   static const std::string text = [] {
     const std::string six = write_take(make_take());

@@ -1,4 +1,4 @@
-// How long one frame takes live, of every method that can: a noisy walk of 31 joints at 120 Hz.
+// Time of one live frame for every live method: a noisy walk of 31 joints at 120 Hz.
 #include <benchmark/benchmark.h>
 
 #include <memory>
@@ -36,7 +36,7 @@ void push_frame(benchmark::State& state, const LiveMethod& method) {
   state.counters["delay_frames"] = static_cast<double>(stream->latency_frames());
 }
 
-// The same from a line of text to a line of text.
+// The same from an input line of text to an output line of text.
 void feed_line(benchmark::State& state, const LiveMethod& method) {
   const std::string take = write_take(bench::noisy_walk(120, 10, 0));
   const std::size_t motion = take.find('\n', take.find("Frame Time:")) + 1;

@@ -1,4 +1,4 @@
-// Every method on 41 markers and on 31 joints of the same motion, 1,200 frames.
+// Speed of every method on 41 markers and on 31 joints of the same motion, 1,200 frames.
 #include <benchmark/benchmark.h>
 
 #include "kinemend/clean.hpp"
@@ -18,7 +18,7 @@ Take noisy_walk() {
   return clip;
 }
 
-// The joints' places, as often as it takes for 41 markers.
+// Joint positions as markers, repeated to give 41 of them.
 Take noisy_markers() {
   constexpr std::size_t count = 41;
   const Take joints = joint_markers(noisy_walk(), true);

@@ -15,7 +15,7 @@ inline Take walk(std::uint64_t seed, double rate_hz, double duration_s) {
   return synthesize(options);
 }
 
-// Noise of 3 degrees, and outliers in a share of the samples.
+// Adds 3 degrees of noise, and outliers to a share of the samples.
 inline Take noisy_walk(double rate_hz, double duration_s, double outlier_share) {
   Take clip = walk(3, rate_hz, duration_s);
   Random random(4);

@@ -1,5 +1,6 @@
-// A take of 31 joints and 10,000 frames at 120 Hz with one degree of noise, cleaned as a whole; and
-// the same skeleton live. The first argument of a cleaning benchmark is the number of threads.
+// Speed of cleaning a whole take of 31 joints and 10,000 frames at 120 Hz with one degree of noise,
+// and of the same skeleton live. The first argument of a cleaning benchmark is the number of
+// threads.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -60,7 +61,7 @@ void clean_take(benchmark::State& state, const std::string& method) {
   count_frames(state, clip.frame_count());
 }
 
-// The cleaner alone, without copy, blend and report.
+// Runs the cleaner alone, without copy, blend and report.
 void cleaner_alone(benchmark::State& state, const std::string& method) {
   const ThreadLimit control(static_cast<std::size_t>(state.range(0)));
   const auto cleaner = make_cleaner(method);
@@ -99,10 +100,10 @@ void live_frame(benchmark::State& state, const std::string& method) {
   count_frames(state, 1);
 }
 
-// One of each for every method in the table.
+// Registers each benchmark for every method in the table.
 [[maybe_unused]] const int registered = [] {
   for (const Method& method : methods()) {
-    if (method.learned) continue;  // they clean bodies; example_bench and wiener_bench time them
+    if (method.learned) continue;  // they clean bodies; example_bench and wiener_bench measure them
     const std::string& name = method.name;
     benchmark::RegisterBenchmark(("pipeline/clean/" + name).c_str(), clean_take, name)
         ->Arg(1)

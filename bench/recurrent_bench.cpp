@@ -1,5 +1,5 @@
-// The method `recurrent`: the EBF of Mall et al. at the paper's size, and LibTorch's time with the
-// same weights where it is.
+// Speed of the method `recurrent`: the EBF of Mall et al. at the paper's size, and LibTorch with
+// the same weights where available.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -107,7 +107,7 @@ void ebf_network_alone(benchmark::State& state) {
 }
 BENCHMARK(ebf_network_alone)->Name("recurrent/ebf_network_alone")->Unit(benchmark::kMillisecond);
 
-// A frame at a time, with 15 frames of delay; with 1, the network also sees how rough channels are.
+// Runs frame by frame with a delay of 15 frames; with argument 1, the network also sees roughness.
 void ebf_live(benchmark::State& state) {
   const kinemend::FilterNetwork network = ebf(state.range(0) != 0);
   const kinemend::FilterTake take = ebf_take();

@@ -1,5 +1,5 @@
-// Speed of FBX and glTF, single thread: a minute of 31 joints at 120 Hz with a key in each frame,
-// as files of Kinemend's own. The number shown as bytes_per_second is of the file.
+// Speed of FBX and glTF on a single thread: a minute of 31 joints at 120 Hz with a key in each
+// frame, in files written by Kinemend. bytes_per_second refers to the file.
 #include <benchmark/benchmark.h>
 
 #include <cstring>
@@ -49,7 +49,8 @@ void append(std::string& bytes, Word word) {
   bytes.append(reinterpret_cast<const char*>(&word), sizeof(Word));
 }
 
-// A record of version 7.5 that nothing reads: the mesh and pictures of a character, in one array.
+// A record of version 7.5 that no reader uses: one array in place of a character's mesh and
+// pictures.
 std::string mesh_record(std::size_t place, std::size_t size) {
   const std::string name = "Mesh";
   constexpr std::size_t head = 25, array_head = 13;
@@ -68,7 +69,7 @@ std::string mesh_record(std::size_t place, std::size_t size) {
   return bytes;
 }
 
-// The minute of motion within a file of 50 MB.
+// The minute of motion in a file of 50 MB.
 std::string character() {
   constexpr std::size_t file_bytes = 50'000'000, head = 27;
   std::string bytes = scene("fbx");
@@ -82,7 +83,7 @@ std::string character() {
   return bytes.insert(place, mesh_record(place, file_bytes - bytes.size()));
 }
 
-// From bytes to bytes, as the program does it.
+// Cleans from bytes to bytes, as the program does.
 void clean_character(benchmark::State& state) {
   const std::string bytes = character();
   const auto cleaner = make_cleaner("learned");

@@ -1,5 +1,5 @@
-// Dictionaries and codes (bench/sklearn_sparse.py has the same jobs), and the method `sparse` on
-// takes with the model that ships.
+// Speed of dictionaries and codes (bench/sklearn_sparse.py does the same jobs), and of the method
+// `sparse` with the shipped model.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ namespace sparse = kinemend::sparse;
 
 constexpr std::size_t rows = 360, directions = 40;
 
-// Windows that are sums of smooth directions of falling size, with noise.
+// Windows that are sums of smooth directions of decreasing size, with noise.
 std::vector<float> windows(std::size_t count, double noise) {
   Random random(1);
   std::vector<float> basis(directions * rows);
@@ -119,14 +119,14 @@ BENCHMARK(dual)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
 
-// Windows of an arm in a noisy walk, a quarter of a window apart, as the method has them, on the
-// model that ships: what warm starts and working sets bring.
+// Windows of an arm in a noisy walk, a quarter of a window apart as in the method, for the shipped
+// model. They show the gain of warm starts and working sets.
 struct ArmWindows {
   sparse::Dictionary atoms;
   std::vector<double> signals, lambdas;  // in units of the noise
 
   std::size_t count() const { return lambdas.size(); }
-  // Every other window, from the first or the second on.
+  // Every other window, from the first or second one on.
   ArmWindows half(std::size_t first) const {
     ArmWindows result{atoms, {}, {}};
     for (std::size_t s = first; s < count(); s += 2) {
@@ -174,7 +174,7 @@ double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-// Warm: of every second window from the code of the one before.
+// With a warm start, every second window starts at the code of the one before.
 void descend_overlapping(benchmark::State& state) {
   const sparse::Loss loss = loss_of(state.range(0));
   const ArmWindows all = arm_windows(loss);
@@ -199,7 +199,7 @@ BENCHMARK(descend_overlapping)
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime();
 
-// `batch` windows next to each other share a working set that starts with `atoms` of each.
+// `batch` adjacent windows share a working set that starts with `atoms` of each.
 void dual_overlapping(benchmark::State& state) {
   const sparse::Loss loss = loss_of(state.range(0));
   const ArmWindows all = arm_windows(loss);

@@ -1,5 +1,5 @@
-// Speed of reading and writing TRC, single thread: a take of 4,500 frames x 41 markers with five
-// decimals, every tenth sample missing. The number shown as bytes_per_second is of the file.
+// Speed of reading and writing TRC on a single thread: a take of 4,500 frames x 41 markers with
+// five decimals and every tenth sample missing. bytes_per_second refers to the file.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
-// The method `wiener`: takes cleaned with the model that ships, as a whole and without what `auto`
-// does beforehand, and training.
+// Speed of the method `wiener`: cleaning with the shipped model, as a whole and the share of
+// `auto`, and training.
 #include <benchmark/benchmark.h>
 
 #include <cstdint>
@@ -54,7 +54,7 @@ BENCHMARK(clean_dense_outliers)
     ->Arg(120)
     ->Unit(benchmark::kMillisecond);
 
-// What of that is `auto`.
+// The share of `auto`.
 void clean_by_auto(benchmark::State& state) {
   const auto take = noisy_walk(static_cast<double>(state.range(0)), 10, 0);
   clean(state, *kinemend::make_auto(), take);
@@ -66,7 +66,7 @@ BENCHMARK(clean_by_auto)
     ->Arg(120)
     ->Unit(benchmark::kMillisecond);
 
-// Ten walks of 10 s.
+// Trains on ten walks of 10 s.
 void training(benchmark::State& state) {
   std::vector<Take> clips;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) clips.push_back(walk(seed, 120, 10));

@@ -48,11 +48,11 @@ namespace fs = std::filesystem;
 struct Batch {
   CleanPlan plan;
   std::string folder;  ///< for the results
-  std::string index;   ///< the page of --report; empty: none
+  std::string index;   ///< page of --report; empty: no page
   std::string options_hash;
   Shard shard;
   bool quiet = false;
-  bool verbose = false;  ///< says every error and warning
+  bool verbose = false;  ///< prints every error and warning
 };
 
 /// Path of the page of a take, relative to the folder of the index.
@@ -73,13 +73,13 @@ struct Done {
   BatchRow row;
   int code = 0;
   bool is_new = false;   ///< false if an earlier run had done it
-  bool is_begun = true;  ///< false if it was refused before anything was written
+  bool is_begun = true;  ///< false if it was refused before any file was written
   std::string error;
   std::vector<std::string> warnings;
 };
 
-/// Every setting that a result depends on, as one text: not where results go, nor how many threads
-/// run.
+/// Every setting that a result depends on, as one text: neither the output folder nor the number of
+/// threads.
 std::string options_text(const Arguments& arguments) {
   std::string text = settings_text(*arguments.command, merged_settings(arguments), "");
   if (!arguments.flag("clean")) text += "clean: false\n";
@@ -95,7 +95,8 @@ std::string options_text(const Arguments& arguments) {
   return text;
 }
 
-/// What a method reads besides the take, as one text: its files, and a model that ships.
+/// The files that the method reads besides the take, as one text of hashes, including a shipped
+/// model.
 std::string learned_text(const CleanPlan& plan) {
   std::string text;
   for (const std::string& path : option_files(find_method(plan.method), plan.options))
@@ -111,7 +112,7 @@ std::string learned_text(const CleanPlan& plan) {
   return text;
 }
 
-/// The skeletons (ASF) beside a take that is an AMC, which it may be read with.
+/// The ASF skeletons beside an AMC take, any of which it may need.
 std::vector<std::string> skeletons_of(const BatchItem& item) {
   std::vector<std::string> skeletons;
   const Format* format = format_of_path(item.input);
@@ -125,7 +126,7 @@ std::vector<std::string> skeletons_of(const BatchItem& item) {
   return skeletons;
 }
 
-/// Hash of the bytes that a result depends on: those of the take, and of its skeletons.
+/// Hash of the bytes that a result depends on: the take and its skeletons.
 std::string input_hash(const BatchItem& item) {
   std::string hash = content_hash(read_file(item.input));
   const std::vector<std::string> skeletons = skeletons_of(item);
@@ -146,16 +147,16 @@ std::string absolute_path(const std::string& path) {
   return (error ? fs::path(path) : absolute.lexically_normal()).string();
 }
 
-/// What an earlier run made, or had begun to make, of the same input may be overwritten. A file
-/// that no batch made, or that belongs to another input, may not. A record is older than its
-/// result, and so the result is looked for first.
+/// A result that an earlier run finished or began for the same input may be overwritten; a file
+/// from elsewhere, or for another input, may not. The result is looked for before its record,
+/// because the record is written first.
 void check_is_ours(const BatchItem& item, const std::string& output, const BatchKey& key,
                    const Batch& batch) {
   std::error_code ignored;
   if (batch.plan.force || !fs::exists(output, ignored)) return;
   const auto record = read_record(batch.folder, item.name);
   if (!record) return check_free(output, false);
-  // The same take may have moved since.
+  // The take may have moved since then.
   const bool is_same = record->key.input == key.input || record->input.empty() ||
                        is_same_file(record->input, item.input) ||
                        record->input == absolute_path(item.input);
@@ -167,7 +168,7 @@ void check_is_ours(const BatchItem& item, const std::string& output, const Batch
                   output, printable_name(record->input), printable_name(item.input)));
 }
 
-/// The same for the skeletons of a take, one of which is written beside its result.
+/// Checks in the same way the skeletons of a take, one of which is written beside its result.
 void check_skeletons_are_ours(const BatchItem& item, const Batch& batch) {
   for (const std::string& skeleton : skeletons_of(item)) {
     const fs::path name = fs::path(item.name).replace_filename(fs::path(skeleton).filename());
@@ -185,7 +186,7 @@ Done copy_skeleton(const BatchItem& item, const std::string& output, const Batch
   done.row = plain_row(item.name, "copied");
   const std::string bytes = read_file(item.input);
   const BatchKey key{content_hash(bytes), "", std::string(version())};
-  // A take that is done at the same time may have written it.
+  // A take processed at the same time may have written it.
   const auto is_there = [&] {
     std::error_code ignored;
     return fs::is_regular_file(output, ignored) && read_file(output) == bytes;
@@ -223,7 +224,7 @@ Done clean_item(const BatchItem& item, const std::string& output, const Batch& b
   return done;
 }
 
-/// Where the result goes.
+/// Path of the result.
 std::string result_of(const BatchItem& item, const Batch& batch) {
   std::string output = (fs::path(batch.folder) / item.name).string();
   if (batch.plan.to != nullptr) return output;
@@ -234,13 +235,13 @@ Done do_item(const BatchItem& item, const Batch& batch) {
   const std::string output = result_of(item, batch);
   if (item.is_copied) return copy_skeleton(item, output, batch);
   const BatchKey key{input_hash(item), batch.options_hash, std::string(version())};
-  // What is refused leaves neither a folder nor a record.
+  // A refused take leaves neither a folder nor a record.
   check_is_ours(item, output, key, batch);
   check_skeletons_are_ours(item, batch);
   make_folder(fs::path(output).parent_path());
   const TakeLock lock(batch.folder, item.name);
   const auto record = read_record(batch.folder, item.name);
-  // A take that was done without --report has no page yet.
+  // A take processed without --report has no page yet.
   std::error_code ignored;
   const bool has_page = batch.index.empty() || fs::is_regular_file(page_path(batch, item), ignored);
   if (record && has_page && is_done(*record, key, output))
@@ -253,7 +254,7 @@ Done do_item(const BatchItem& item, const Batch& batch) {
   return clean_item(item, output, batch, key);
 }
 
-/// As `do_item`, with errors as part of the result: one file stops no other.
+/// Runs `do_item` and returns its errors in the result, so that one file does not stop the others.
 Done try_item(const BatchItem& item, const Batch& batch) {
   Done done;
   done.is_new = true;
@@ -276,7 +277,7 @@ Done try_item(const BatchItem& item, const Batch& batch) {
   return done;
 }
 
-/// Roughly how much work a take is.
+/// Estimates the amount of work for a take.
 double size_of(const BatchItem& item) {
   std::error_code error;
   const auto bytes = fs::file_size(item.input, error);
@@ -314,8 +315,8 @@ class Sayer {
   std::size_t failed_ = 0;
 };
 
-/// Folders without a take are mistakes: they give exit code 3. If there is no take at all, this
-/// throws.
+/// Returns exit code 3 if a folder holds no take, which is a mistake of the user. Throws if there
+/// is no take at all.
 int refuse_empty(const std::vector<std::string>& inputs, const std::vector<BatchItem>& all,
                  const Arguments& arguments) {
   const std::string pattern = arguments.text("files");
@@ -427,11 +428,11 @@ void plan_index(const Arguments& arguments, const std::vector<std::string>& inpu
       .check();
   check_free(batch.index, batch.plan.force || is_our_page(batch.index));
   batch.plan.page = page_settings(arguments);
-  // The pages of takes are those of `clean`.
+  // The page of a take shows the command `clean`.
   batch.plan.page->command = "clean";
 }
 
-/// Leaves every track as it is, so that a batch can do the other steps alone.
+/// Changes no track, so that a batch can run the other steps alone.
 class NoCleaner : public Cleaner {
  public:
   std::string_view name() const override { return "none"; }
@@ -441,7 +442,7 @@ class NoCleaner : public Cleaner {
   }
 };
 
-// --no-clean and --to.
+// Applies --no-clean and --to.
 void plan_steps(const Arguments& arguments, CleanPlan& plan) {
   if (const std::string to = arguments.text("to"); !to.empty()) plan.to = &known_format(to);
   plan.cleans = arguments.flag("clean");
@@ -457,7 +458,7 @@ void plan_steps(const Arguments& arguments, CleanPlan& plan) {
   plan.cleaner = std::make_unique<NoCleaner>();
 }
 
-// Names the results of --to after their format. Skeletons are part of the results of AMC alone.
+// Names the results of --to after their format. Only results in AMC include skeletons.
 void name_by_format(const Format& to, std::vector<BatchItem>& items) {
   std::erase_if(items, [](const BatchItem& item) { return item.is_copied; });
   std::map<std::string, std::string> taken;
@@ -470,7 +471,7 @@ void name_by_format(const Format& to, std::vector<BatchItem>& items) {
   }
 }
 
-/// The words of `--dry-run` for one file: what a run would do with it.
+/// The text of `--dry-run` for one file: what a run would do with it.
 std::string planned_text(const BatchItem& item, const Batch& batch, Done& done) {
   const std::string output = result_of(item, batch);
   const std::string names = fmt::format("{} -> {}", printable(item.input), printable(output));
@@ -497,7 +498,7 @@ std::string planned_text(const BatchItem& item, const Batch& batch, Done& done) 
   }
 }
 
-/// Lists what a run would do, and writes nothing. Returns the exit code of what would be refused.
+/// Lists what a run would do and writes no file. Returns the exit code for refused takes.
 int list_plan(const std::vector<BatchItem>& items, const Batch& batch) {
   std::size_t to_do = 0, kept = 0, refused = 0;
   int code = 0;
@@ -568,7 +569,7 @@ int run_batch(const Arguments& arguments) {
     counts.add(one.row, one.is_new, one.code);
     rows.push_back(one.row);
   }
-  // A batch that could begin nothing leaves no file and no folder.
+  // A batch that could not begin any take leaves no file and no folder.
   const bool is_refused =
       std::any_of(done.begin(), done.end(), [](const Done& one) { return !one.is_begun; }) &&
       std::none_of(done.begin(), done.end(),
@@ -581,7 +582,7 @@ int run_batch(const Arguments& arguments) {
     if (!batch.index.empty()) write_index(batch, mine, done, sums, page_settings(arguments));
   } else {
     std::error_code ignored;
-    for (const fs::path& folder : missing) fs::remove(folder, ignored);  // only if it is empty
+    for (const fs::path& folder : missing) fs::remove(folder, ignored);  // only if empty
   }
   if (arguments.flag("json")) {
     write_out(summary);
@@ -612,7 +613,7 @@ std::vector<Flag> batch_flags() {
   Flag folder = text_flag("output_dir", "DIR", "Output",
                           "folder for the results, with the tree of the inputs");
   folder.letter = 'o';
-  // Every other command calls -o --output.
+  // All other commands have -o for --output.
   folder.older_names = {"output"};
   folder.completion = Completion::folder;
   Flag list =

@@ -30,7 +30,7 @@ bool is_skeleton(const fs::path& path) {
   return format != nullptr && format->name == "asf";
 }
 
-// Many programs write CSV and npz files; only those that begin as a take count.
+// Many programs write CSV and npz files, so these must begin like a take.
 bool looks_like_take(const fs::path& path) {
   const Format* format = format_of_path(path);
   if (format == nullptr || format->read == nullptr) return false;

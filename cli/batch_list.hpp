@@ -1,4 +1,4 @@
-// The takes of a batch, and where their results go.
+// The takes of a batch and the paths of their results.
 #pragma once
 
 #include <cstdint>
@@ -31,12 +31,12 @@ bool in_shard(std::string_view name, const Shard& shard);
 std::vector<std::string> empty_folders(const std::vector<std::string>& inputs,
                                        const std::string& output, const std::string& pattern);
 
-/// The takes in folders and below, and files given by name. Hidden files and the folder `output`
-/// are skipped, and so are tables that hold no take. In a folder only files whose name matches
-/// `pattern` (shell style; empty: all) count. The name of a take is its path below its folder; that
-/// of a file given by name is the path as given, which must be relative and stay below the current
-/// folder. Sorted by name. Errors: `unreadable_input` for what does not exist; `usage` if two takes
-/// would be written to the same place.
+/// The takes in folders and below, and files given by name, sorted by name. Hidden files, the
+/// folder `output`, and tables that hold no take are skipped. In a folder, only files whose name
+/// matches `pattern` (shell style; empty: all) are used. The name of a take is its path below its
+/// folder; that of a file given by name is the path as given, which must be relative and stay below
+/// the current folder. Errors: `unreadable_input` for a path that does not exist; `usage` if two
+/// takes would be written to the same place.
 std::vector<BatchItem> find_items(const std::vector<std::string>& inputs, const std::string& output,
                                   const std::string& pattern);
 

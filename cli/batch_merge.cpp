@@ -34,7 +34,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A row, and the file that it was read from.
+/// A row with the file it was read from.
 struct FoundRow {
   std::string json;
   std::size_t file = 0;  ///< index of the file
@@ -48,7 +48,7 @@ struct WholeBatch {
   std::size_t takes = 0;  ///< of all shards; 0 if no summary is there
 };
 
-/// Without what differs between two runs of the same work.
+/// The row without its times, which differ between runs of the same work.
 Json without_times(std::string_view row) {
   Json json = parse_json<Json>(row);
   if (const auto figures = json.find("figures"); figures != json.end() && figures->is_object()) {
@@ -58,7 +58,8 @@ Json without_times(std::string_view row) {
   return json;
 }
 
-/// The rows of one file; of several of a take the last one. Returns the number of other lines.
+/// Reads the rows of one file; the last row of a take is kept. Returns the number of malformed
+/// lines.
 std::size_t read_rows(const std::string& path, std::size_t file, FoundRows& rows) {
   const std::string text = read_file(path);
   std::size_t malformed = 0;
@@ -94,7 +95,7 @@ void add_rows(const std::vector<std::string>& paths, std::size_t file, FoundRows
   }
 }
 
-/// "rows.3-of-8.jsonl" is part 3 of 8; none for other names.
+/// "rows.3-of-8.jsonl" is part 3 of 8; returns nullopt for other names.
 std::optional<Shard> shard_of(const std::string& path) {
   const std::string name = fs::path(path).filename().string();
   constexpr std::string_view start = "rows.", between = "-of-", end = ".jsonl";
@@ -110,7 +111,7 @@ std::optional<Shard> shard_of(const std::string& path) {
   }
 }
 
-/// The shards of which no rows are given, by the names of the files; empty where these do not tell.
+/// The shards without rows, by the names of the files; empty if the names are not those of shards.
 std::vector<std::string> missing_shards(const std::vector<std::string>& paths) {
   std::map<std::uint64_t, std::set<std::uint64_t>> given;
   for (const std::string& path : paths) {
@@ -167,7 +168,7 @@ void refuse_other_options(const Arguments& arguments) {
   for (const auto& [name, text] : arguments.group_texts) refuse(name);
 }
 
-/// A batch may have written the rows that stand there.
+/// Returns whether the existing file holds rows, which a batch may have written.
 bool are_rows(const std::string& path) {
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored)) return false;
@@ -179,7 +180,7 @@ void check_outputs(const std::vector<std::string>& paths, const std::string& fol
                    const Arguments& arguments) {
   const std::string rows = (fs::path(folder) / "rows.jsonl").string();
   RunFiles().reads("ROWS", paths).writes("--output-dir", rows).check(arguments.flag("json"));
-  // The folder is made once the rows are known to belong together.
+  // The folder is created only after the rows are known to belong together.
   std::error_code ignored;
   if (fs::is_directory(folder, ignored))
     check_free(rows, arguments.flag("force") || are_rows(rows));
@@ -193,12 +194,12 @@ int code_of(const BatchRow& row) {
   return is_known ? code->get<int>() : static_cast<int>(ErrorKind::unreadable_input);
 }
 
-/// Rows and sums in the order of one run.
+/// Rows and sums in the order of a single run.
 struct Merged {
   std::string text;
   BatchSums sums;
   BatchCounts counts;
-  std::vector<BatchRow> worst;  ///< at most ten, without those that are not shown
+  std::vector<BatchRow> worst;  ///< at most ten, without rows that are not shown
 };
 
 Merged merged(FoundRows& rows, std::size_t takes) {

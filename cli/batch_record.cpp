@@ -1,5 +1,5 @@
 // Reads and writes the records, locks takes against other processes, and removes temporary files of
-// processes that ended.
+// ended processes.
 #include "batch_record.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view records_folder = ".kinemend", record_extension = ".json";
 constexpr std::size_t longest_file_name = 255;  // bytes
 
-// The process that made `.kinemend-PID-N.tmp`; 0 for any other name.
+// The id of the process that made `.kinemend-PID-N.tmp`; 0 for any other name.
 int maker_of(const std::string& name) {
   constexpr std::string_view start = ".kinemend-", end = ".tmp";
   if (name.size() <= start.size() + end.size() || name.compare(0, start.size(), start) != 0 ||
@@ -46,7 +46,7 @@ std::string extended_name(const std::string& name, std::string_view extension) {
     return name + std::string(extension);
   const std::string hash = "~" + content_hash(name).substr(0, 16);
   std::size_t end = begin + longest_file_name - extension.size() - hash.size();
-  // Not amid a character of UTF-8, which some file systems refuse.
+  // Cutting within a UTF-8 character would give a name that some file systems refuse.
   while (end > begin && (static_cast<unsigned char>(name[end]) & 0xC0) == 0x80) --end;
   return name.substr(0, end) + hash + std::string(extension);
 }

@@ -31,7 +31,7 @@ std::string rows_path(const std::string& folder, const Shard& shard) {
   return (fs::path(folder) / rows_name(shard)).string();
 }
 
-/// The rows of earlier runs. If a take has several, the last one counts.
+/// Reads the rows of earlier runs; the last row of a take is used.
 std::vector<BatchRow> known_rows(const std::string& path) {
   std::vector<BatchRow> rows;
   std::error_code ignored;

@@ -1,4 +1,4 @@
-// kinemend check: what is wrong with a take, before anything is cleaned.
+// kinemend check: finds the faults of a take before it is cleaned.
 
 #include "kinemend/check.hpp"
 
@@ -28,7 +28,7 @@ namespace kinemend::cli {
 
 namespace {
 
-// --robot, or an option that only concerns it.
+// Returns whether --robot or one of its options is given.
 bool wants_robot(const Arguments& arguments) {
   const std::span<const FigureRule> figures = check_figures();
   return arguments.flag("robot") || arguments.given("limits") ||
@@ -70,7 +70,7 @@ std::vector<std::string> takes_to_check(const Arguments& arguments) {
               fmt::format("{}: holds no take", arguments.positionals.front()));
 }
 
-/// How the takes of a folder that was checked are cleaned.
+/// Prints the command that cleans the takes of a checked folder.
 void say_how_to_clean(const Arguments& arguments) {
   for (const std::string& input : arguments.positionals) {
     std::error_code ignored;
@@ -128,7 +128,7 @@ int run_check(const Arguments& arguments) {
     ++failed;
   });
   const std::string document = report_document("check", takes);
-  // Bad input leaves nothing behind.
+  // If every input fails, no report is written.
   if (failed < inputs.size()) reports.write(document, page, force);
   if (json) write_out(document);
   if (!json && !quiet) say_how_to_clean(arguments);

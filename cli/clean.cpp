@@ -1,4 +1,4 @@
-// kinemend clean: reads takes, cleans them, writes them, says what was done.
+// kinemend clean: reads takes, cleans them, writes them, and prints reports.
 
 #include <fmt/format.h>
 

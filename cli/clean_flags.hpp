@@ -1,4 +1,4 @@
-// The flags of `clean`, in the parts that `batch` shares.
+// The flags of `clean`, in parts that `batch` shares.
 #pragma once
 
 #include <vector>
@@ -7,11 +7,11 @@
 
 namespace kinemend::cli {
 
-/// Where results and reports of single takes go.
+/// The flags for results and reports of single takes.
 std::vector<Flag> clean_output_flags();
-/// How and where to clean; what a configuration file may hold is among them.
+/// The flags of cleaning, including all that a configuration file may hold.
 std::vector<Flag> cleaning_flags();
-/// --contacts, which is of one take
+/// --contacts, which applies to one take.
 Flag contacts_flag();
 /// --jobs
 Flag jobs_flag();

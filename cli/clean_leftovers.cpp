@@ -1,4 +1,4 @@
-// Words the findings of a check and the noise of a report, each with its reason and what to try.
+// Describes the findings of a check and the noise of a report, each with its reason and advice.
 #include "clean_leftovers.hpp"
 
 #include <fmt/format.h>
@@ -56,7 +56,7 @@ std::vector<Leftover> leftovers_of(const std::vector<Finding>& findings, const C
 
 namespace {
 
-// The findings of one kind: how many, and the worst figure with its unit.
+// The findings of one kind: their number, and the worst figure with its unit.
 struct Found {
   std::size_t count = 0;
   std::string worst;
@@ -75,9 +75,9 @@ Found found_of(const std::vector<Finding>& findings, FindingKind kind) {
   return found;
 }
 
-// Why a method keeps a take as it is although it is noisy; empty: nothing but the noise is known.
+// Why a method leaves a noisy take unchanged; empty if no reason other than the noise is known.
 Leftover reason_of_method(const CleanReport& report, const CleanPlan& plan) {
-  constexpr std::size_t fewest_frames = 4;  // from which noise can be told from motion
+  constexpr std::size_t fewest_frames = 4;  // fewer frames cannot show noise
   if (plan.settings.strength == 0)
     return {"--strength 0 keeps the input", "a strength above 0 cleans it"};
   const auto cutoff = plan.options.find("cutoff_hz");
@@ -99,7 +99,7 @@ Leftover reason_of_method(const CleanReport& report, const CleanPlan& plan) {
   return {};
 }
 
-// Joints or markers with noise that one can see, which the method has measured and left.
+// Joints or markers with visible noise that the method measured and left.
 Leftover noise_left(const CleanReport& report, double metres_per_unit) {
   constexpr double noticeable_deg = 0.1, noticeable_m = 0.0005;
   const bool is_joints = report.kind == TakeKind::joints;
@@ -120,7 +120,7 @@ Leftover noise_left(const CleanReport& report, double metres_per_unit) {
                   report.method)};
 }
 
-// Noise that a check finds in the tracks that were to be cleaned.
+// Noise that a check finds in the tracks selected for cleaning.
 Leftover noise_not_measured(const CheckReport& check, const CleanReport& report) {
   const bool is_joints = report.kind == TakeKind::joints;
   std::size_t count = 0;
@@ -157,7 +157,7 @@ std::vector<Leftover> reasons_unchanged(const Take& take, const CleanReport& rep
     if (const Found found = found_of(check.findings, kind); found.count > 0)
       reasons.push_back({what(found), mend});
   };
-  // A network judges noise by more than its strength: only noise that a check reports counts.
+  // A network judges noise by more than its strength, so only noise that a check reports is listed.
   Leftover noise =
       plan.method == "learned" ? Leftover{} : noise_left(report, check.metres_per_unit);
   if (noise.what.empty()) noise = noise_not_measured(check, report);

@@ -1,5 +1,5 @@
-// Explains what cleaning left in a take: faults that it does not repair, noise that it kept, and
-// flags without effect.
+// Explains the faults that cleaning cannot repair, the noise that it left, and flags without
+// effect.
 #pragma once
 
 #include <string>
@@ -11,16 +11,15 @@
 
 namespace kinemend::cli {
 
-/// The findings of a check that cleaning does not mend, a line for each kind. `input`: the take's
-/// path.
+/// The findings of a check that cleaning does not repair, one line per kind. `input` is the path of
+/// the take.
 std::vector<Leftover> leftovers_of(const std::vector<Finding>& findings, const CleanPlan& plan,
                                    const std::string& input);
-/// What is wrong with a take that cleaning left unchanged, a line for each kind: what was found,
-/// why it was left and what to try. Empty where nothing is wrong. Kinds that `leftovers_of` tells
-/// of are left out.
+/// The faults of a take that cleaning left unchanged, one line per kind: the finding, the reason
+/// and the advice. Kinds reported by `leftovers_of` are omitted. Empty if there are no faults.
 std::vector<Leftover> reasons_unchanged(const Take& take, const CleanReport& report,
                                         const CleanPlan& plan, const std::string& input);
-/// Flags of the command line that mean nothing for a take of this kind, a line for each.
+/// Flags of the command line that have no effect on a take of this kind, one line each.
 std::vector<std::string> meaningless_flags(const Take& take, const CleanPlan& plan);
 
 }  // namespace kinemend::cli

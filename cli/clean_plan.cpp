@@ -18,7 +18,7 @@ namespace kinemend::cli {
 
 namespace {
 
-/// Whose form is right; whether the frames are those of a take turns out there.
+/// Reads a file of gaps and checks its syntax; its frames are checked later against each take.
 std::pair<std::string, std::string> read_gaps(const std::string& path) {
   constexpr std::int64_t any_frame = -(std::int64_t{1} << 53);
   std::pair<std::string, std::string> gaps(read_file(path), input_name(path));
@@ -31,15 +31,15 @@ bool has_option(const Method& method, std::string_view name) {
                      [&](const OptionSpec& spec) { return spec.name == name; });
 }
 
-/// --map names the parts of a learned model, and the feet of --feet: with a method that has no such
-/// option it is about the feet alone.
+/// --map names the parts of a learned model and the feet of --feet. With a method that has no such
+/// option, it concerns only the feet.
 bool map_is_of_feet(const Arguments& arguments, const Settings& settings, const Method& method) {
   const bool has_feet = std::get<std::string>(settings.values.find("feet")->second) != "off" ||
                         arguments.given("contacts");
   return has_feet && !has_option(method, "map") && arguments.group_texts.count("map") > 0;
 }
 
-/// The file of --map, wherever it was given; empty: none.
+/// The file of --map, wherever it is given; empty if it is not.
 std::string map_path(const Arguments& arguments, const OptionValues& options) {
   if (const auto given = arguments.group_texts.find("map"); given != arguments.group_texts.end())
     return given->second;
@@ -57,7 +57,7 @@ Settings command_line_settings(const Arguments& arguments) {
     if (const auto list = arguments.lists.find(name); list != arguments.lists.end())
       settings.lists[name] = list->second;
   }
-  // --markers is --joints in the words of marker files.
+  // --markers is a synonym of --joints for marker files.
   if (std::vector<std::string> names = joints_of(arguments); !names.empty())
     settings.lists["joints"] = std::move(names);
   return settings;
@@ -72,14 +72,14 @@ OptionValues all_options(const Method& method, const Settings& settings) {
   return options;
 }
 
-/// A method that draws random numbers has an option for it.
+/// Only a method that draws random numbers has a seed option.
 void pass_seed(const Arguments& arguments, const Method& method, OptionValues& options) {
   for (const OptionSpec& spec : method.options) {
     if (spec.name == "seed") options["seed"] = arguments.whole("seed");
   }
 }
 
-/// What `--fill` and `--fill-all` ask for.
+/// The settings of `--fill` and `--fill-all`.
 std::optional<FillSettings> fill_settings(const Settings& settings) {
   const std::string method = std::get<std::string>(settings.values.find("fill")->second);
   const bool fill_all = std::get<bool>(settings.values.find("fill_all")->second);
@@ -91,7 +91,7 @@ std::optional<FillSettings> fill_settings(const Settings& settings) {
   return fill;
 }
 
-/// What `--feet` asks for.
+/// The settings of `--feet`.
 std::optional<FeetSettings> feet_settings(const Settings& settings) {
   const std::string mode = std::get<std::string>(settings.values.find("feet")->second);
   if (mode == "off") return std::nullopt;
@@ -122,8 +122,8 @@ CleanSettings clean_settings(const Settings& settings) {
   return result;
 }
 
-/// A preset that names another method than the default must not do so silently. Empty if another
-/// setting overrides its choice.
+/// A note for a preset that selects another method than the default. Empty if another setting
+/// overrides its choice.
 std::string preset_note(const Arguments& arguments, const Method& method) {
   const std::string name = arguments.text("preset");
   if (name.empty() || method.name == default_method || arguments.given("method")) return "";

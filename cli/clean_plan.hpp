@@ -1,4 +1,4 @@
-// The plan of a `clean` or `batch` run: which takes, which method and which settings.
+// The plan of a `clean` or `batch` run: its takes, method and settings.
 #pragma once
 
 #include <functional>
@@ -20,39 +20,40 @@
 
 namespace kinemend::cli {
 
-/// All that `clean` was asked for, checked.
+/// The checked request of a `clean` run.
 struct CleanPlan {
   TakeJobs takes;
   std::string method;
   OptionValues options;  ///< every option of the method with its value
   std::unique_ptr<Cleaner> cleaner;
-  std::string preset_note{};  ///< that the preset chose another method than the default; else empty
+  std::string preset_note{};  ///< set if the preset chose another method than the default
   CleanSettings settings;
   std::optional<FrameRange> range;
   ReadOptions reading;
-  /// Of --gaps and --contacts: bytes and name. Names and frames are those of a take.
+  /// Bytes and name of the files of --gaps and --contacts; names and frames are checked per take.
   std::optional<std::pair<std::string, std::string>> gaps, contacts;
   bool fix_swaps = false;
   bool cleans = true;  ///< false in a `batch --no-clean`, whose cleaner does nothing
   /// The format of the results of `batch`; null: each result has the format of its input.
   const Format* to = nullptr;
-  bool all_takes = false;              ///< of `clean`: every take of a file that holds several
-  std::vector<std::string> asked{};    ///< of `clean`: flags that the command line itself gives
-  ReportFiles reports{};               ///< of `clean`
-  std::optional<PageSettings> page{};  ///< where a page is made of each take
-  std::function<void(const Take&)> on_read{};  ///< told of each take before it is cleaned
+  bool all_takes = false;  ///< `clean` only: cleans every take of a file that holds several
+  std::vector<std::string> asked{};    ///< `clean` only: flags given on the command line itself
+  ReportFiles reports{};               ///< `clean` only
+  std::optional<PageSettings> page{};  ///< set if each take gets a page
+  std::function<void(const Take&)> on_read{};  ///< called with each take before cleaning
   bool strict = false;
   bool force = false;
   bool dry_run = false;
   bool json = false;
   bool verbose = false;
   bool quiet = false;
-  int threads = 0;  ///< 0: as many as there are cores
+  int threads = 0;  ///< 0: one per core
 };
 
-/// Defaults, under the preset, under the configuration file, under the command line.
+/// Merges the defaults, the preset, the configuration file and the command line, in rising
+/// priority.
 Settings merged_settings(const Arguments& arguments);
-/// How to clean, without what and where to: what `clean` and `batch` share. Errors:
+/// The cleaning part of a plan, without inputs and outputs, shared by `clean` and `batch`. Errors:
 /// `ErrorKind::usage`.
 CleanPlan make_cleaning(const Arguments& arguments);
 /// The files that the cleaning itself reads, for `RunFiles::check`: settings, gaps, skeleton,

@@ -1,4 +1,4 @@
-// Takes one file through all steps, from reading to reports, and turns every error into an outcome.
+// Takes one file through all steps from reading to reports, and converts errors to an outcome.
 #include "clean_take.hpp"
 
 #include <fmt/format.h>
@@ -33,7 +33,7 @@ void refuse_warnings(const std::string& name, const std::vector<std::string>& wa
               fmt::format("{}: {} (an error under --strict)", name, warnings.front()));
 }
 
-// The steps before the cleaner: labels, then gaps.
+// Runs the steps before the cleaner: label swaps, then gaps.
 std::vector<MarkerSwap> prepare(Take& take, const CleanPlan& plan) {
   std::vector<MarkerSwap> swaps;
   if (!take.has_joints() && plan.fix_swaps) {
@@ -57,7 +57,7 @@ CleanSettings settings_for(const Take& take, const CleanPlan& plan, const TakePr
   return settings;
 }
 
-// Whether anybody asks what was done.
+// Returns whether the result is reported anywhere.
 bool is_reported(const CleanPlan& plan) {
   return !plan.quiet || plan.json || !plan.reports.empty() || plan.page;
 }
@@ -89,7 +89,7 @@ CleanOutcome clean_in_place(Take& take, const std::string& input, const CleanPla
   return outcome;
 }
 
-// Calls `work(tell)` as a stage of its own.
+// Calls `work(tell)` as a separate progress stage.
 template <class Work>
 auto as_stage(const TakeProgress& progress, std::string_view name, const Work& work) {
   const auto tell = [&](double done) {
@@ -99,7 +99,7 @@ auto as_stage(const TakeProgress& progress, std::string_view name, const Work& w
   return work(tell);
 }
 
-// What is left of a take: words. A file may hold several takes.
+// Adds the report of one take as text; a file may hold several takes.
 void tell(const Report& report, const TakeJob& job, const CleanPlan& plan, Outcome& outcome) {
   TextOptions options;
   options.details = plan.takes.jobs.size() == 1 || plan.verbose;
@@ -114,14 +114,14 @@ void tell(const Report& report, const TakeJob& job, const CleanPlan& plan, Outco
   if (!job.row_name.empty()) outcome.row = cleaned_row(job.row_name, report, outcome.warnings);
 }
 
-// A few poses, for the index of a batch.
+// Draws a few poses for the index of a batch.
 std::string picture_of(const Take& take) {
   constexpr std::size_t poses = 5;
   if (take.frame_count() == 0) return "";
   return film_strip_svg(take, nullptr, {0, take.frame_count() - 1}, poses);
 }
 
-// Cleans what was read, in place, and tells of it. Returns the format to write.
+// Cleans a take in place and reports on it. Returns the format to write.
 std::string clean_one(TakeResult& read, const TakeJob& job, const CleanPlan& plan,
                       const TakeProgress& progress, Outcome& outcome) {
   const std::string name = input_name(job.input);
@@ -137,7 +137,7 @@ std::string clean_one(TakeResult& read, const TakeJob& job, const CleanPlan& pla
   if (plan.strict) refuse_warnings(name, meaningless);
   for (const std::string& line : meaningless)
     outcome.warnings.push_back(fmt::format("{}: {}", name, line));
-  // Cleaning takes the take apart.
+  // Cleaning consumes the take, so a page needs a copy.
   std::optional<Take> before;
   if (plan.page) before = read.take;
   if (plan.on_read) plan.on_read(read.take);
@@ -160,7 +160,7 @@ std::string clean_one(TakeResult& read, const TakeJob& job, const CleanPlan& pla
   return format;
 }
 
-// The takes of the file that are still to be cleaned after the one that was read first.
+// The other takes of the file, which are still to be cleaned.
 std::vector<std::string> other_takes(const SourceInfo& source, const CleanPlan& plan) {
   std::vector<std::string> names;
   if (!plan.all_takes) return names;

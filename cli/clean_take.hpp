@@ -6,7 +6,7 @@
 
 namespace kinemend::cli {
 
-/// Reads, cleans and writes one take as the plan says. What goes wrong with it is in the outcome.
+/// Reads, cleans and writes one take by the plan. Errors of the take are in the outcome.
 Outcome try_take(const TakeJob& job, const CleanPlan& plan, const TakeProgress& progress = {});
 
 }  // namespace kinemend::cli

@@ -93,7 +93,7 @@ std::string value_name(const Flag& flag) {
 
 namespace {
 
-/// As short as it is exact; 0.667 for two thirds, whose digits have no end.
+/// The shortest exact text of a number; three significant digits if that is too long (0.667).
 std::string shown_default(const OptionValue& value) {
   constexpr std::size_t most_characters = 8;
   std::string text = kinemend::to_string(value);

@@ -1,5 +1,4 @@
-// The tables from which parser, help, manual page, shell completion and configuration files are
-// made.
+// The tables behind the parser, help, manual page, shell completion and configuration files.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +14,12 @@ namespace kinemend::cli {
 /// How often a flag takes a value.
 enum class Takes : std::uint8_t {
   nothing,  ///< a switch
-  value,    ///< one value; if given several times, the last one counts
+  value,    ///< one value; the last one given is used
   list,     ///< comma-separated values; may be given several times
   repeated  ///< one value; may be given several times
 };
 
-/// What shells complete a value with, after the choices of the flag's spec.
+/// The kind of value that shells complete, after the choices of the flag's spec.
 enum class Completion : std::uint8_t { none, file, folder };
 
 /// One flag of a command, defined once. Its spec holds name (`max_change_deg` is
@@ -34,11 +33,11 @@ struct Flag {
   std::string details;     ///< more sentences for the long help
   Completion completion = Completion::none;
   bool configurable = false;  ///< allowed in a configuration file
-  /// Earlier spellings, which scripts may use; the parser accepts them and nothing else shows them.
+  /// Earlier spellings, which scripts may use; the parser accepts them, and the help omits them.
   std::vector<std::string> older_names{};
   bool has_default = true;  ///< false: no default is shown and none applies
-  /// Of the choices those that help and shells list; empty: all. The command itself refuses the
-  /// others, and says why.
+  /// The choices that help and shells list; empty: all. The command refuses the other ones with a
+  /// reason.
   std::vector<std::string> offered;
 };
 
@@ -50,7 +49,7 @@ struct Positional {
   std::vector<std::string> choices;  ///< for shells and parser; empty: files
 };
 
-/// The options of an entry of a library table: of a method or a damage.
+/// The options of an entry of a library table, that is, of a method or a damage.
 struct OptionGroup {
   std::string name;     ///< "bilateral"
   std::string summary;  ///< one line
@@ -73,7 +72,7 @@ struct Command {
   std::vector<Flag> flags;
   std::string group_heading;        ///< "Options of --method %"
   std::vector<OptionGroup> groups;  ///< options of the entries of a table
-  bool groups_are_flags = false;    ///< each option of a group is a flag of its own
+  bool groups_are_flags = false;    ///< each option of a group is a separate flag
   std::vector<Example> examples;
   int (*run)(const Arguments& arguments) = nullptr;
 };
@@ -95,7 +94,7 @@ class Arguments {
   bool given(std::string_view name) const {
     return values.find(name) != values.end() || lists.find(name) != lists.end();
   }
-  /// The value given, else the default.
+  /// Returns the given value or the default.
   double number(std::string_view name) const { return std::get<double>(value(name)); }
   std::int64_t whole(std::string_view name) const { return std::get<std::int64_t>(value(name)); }
   bool flag(std::string_view name) const { return std::get<bool>(value(name)); }
@@ -106,7 +105,7 @@ class Arguments {
   OptionValue value(std::string_view name) const;
 };
 
-/// Flags, for the tables.
+/// Makes flags for the tables.
 Flag switch_flag(std::string name, std::string group, std::string help, std::string details = {});
 Flag number_flag(std::string name, std::string unit, double default_value, double minimum,
                  double maximum, std::string group, std::string help, std::string details = {});
@@ -115,13 +114,13 @@ Flag whole_flag(std::string name, std::int64_t default_value, double minimum, do
 Flag text_flag(std::string name, std::string value_name, std::string group, std::string help,
                std::string details = {});
 
-/// A switch that is on unless `--no-...` turns it off.
+/// Returns whether a switch is on unless `--no-...` turns it off.
 bool is_on_by_default(const Flag& flag);
-/// Whether an option of a group names a file: its text has no fixed choices.
+/// Returns whether an option of a group names a file: its text has no fixed choices.
 bool names_file(const OptionSpec& spec);
 /// `max_change_deg` to `max-change-deg`.
 std::string dashed(std::string_view name);
-/// What a value is called in the help: "FILE", "X", "N", "a|b".
+/// The placeholder of a value in the help: "FILE", "X", "N", "a|b".
 std::string value_name(const Flag& flag);
 /// "0 to 180 deg; default 180"; empty if there is neither range nor default.
 std::string range_text(const OptionSpec& spec, bool has_default = true);

@@ -1,4 +1,4 @@
-// Splits the words with CLI11, and turns them into values by the tables of flags.
+// Splits the words with CLI11 and converts them to values by the tables of flags.
 #include "command_line.hpp"
 
 #include <fmt/format.h>
@@ -62,7 +62,7 @@ std::vector<std::string> take_behind_dashes(std::vector<std::string>& words) {
 
 bool is_option(const std::string& word) { return word.size() > 1 && word[0] == '-'; }
 
-/// Whether a word can only be a name that belongs to the list before it.
+/// Returns whether a word can only be a name that belongs to the list before it.
 bool is_stray_name(const Command& command, const std::string& word) {
   std::error_code ignored;
   if (word.empty() || word == "-" || std::filesystem::exists(word, ignored)) return false;
@@ -74,7 +74,7 @@ bool is_stray_name(const Command& command, const std::string& word) {
                       });
 }
 
-/// `--joints A B`: without this check B would be reported as a missing input.
+/// Refuses `--joints A B`, where B would otherwise be reported as a missing input.
 void refuse_names_beside(const Command& command, const std::vector<std::string>& words,
                          const std::string& name) {
   for (std::size_t i = 0; i < words.size(); ++i) {

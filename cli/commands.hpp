@@ -23,7 +23,7 @@ Command corrupt_command();
 Command synth_command();
 Command completion_command();
 Command man_command();
-/// Knows the others by name.
+/// The command `help`, which needs the other commands by name.
 Command help_command(const std::vector<Command>& others);
 
 }  // namespace kinemend::cli

@@ -1,4 +1,4 @@
-// kinemend compare: every error figure of two takes, and limits on them.
+// kinemend compare: prints every error figure of two takes and checks limits on them.
 
 #include <fmt/format.h>
 
@@ -59,7 +59,7 @@ const Take& markers_of(const TakeResult& read, const std::string& name) {
                           name));
 }
 
-// Where one of the two holds markers.
+// Compares as markers if either take holds markers.
 CompareOutcome compare_as_markers(const TakeResult& reference, const TakeResult& other,
                                   const Arguments& arguments) {
   CompareOutcome outcome;
@@ -125,7 +125,7 @@ Compared compared(const Arguments& arguments) {
   TakeResult reference = read_one(arguments.positionals[0], arguments);
   TakeResult other = read_one(other_name, arguments);
   CompareOutcome outcome = compare_takes(reference, other, arguments);
-  // The reference says how joints and markers are spelled; lengths are in its unit.
+  // Names are spelled as in the reference, and lengths are in its unit.
   const TakeFacts shown = take_of(reference, arguments.positionals[0]);
   TakeFacts facts = take_of(other, other_name);
   facts.tracks = outcome.markers ? outcome.markers->names : shown.tracks;
@@ -228,7 +228,7 @@ std::vector<Flag> compare_flags() {
                                entry.more_is_better ? -1e9 : 0, 1e12, "Limits",
                                fmt::format("exit code 1 where {} is {}", entry.name,
                                            entry.more_is_better ? "below this" : "above this"));
-    // The range says nothing that the unit does not.
+    // The unit already implies the range.
     limit.spec.maximum = std::numeric_limits<double>::infinity();
     limit.spec.minimum = -std::numeric_limits<double>::infinity();
     list.push_back(limit);

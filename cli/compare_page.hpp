@@ -7,8 +7,8 @@
 
 namespace kinemend::cli {
 
-/// The page of `compare`, as --report FILE.html writes it, of a checked command line of it. Errors:
-/// those of reading and comparing.
+/// The page of `compare`, as --report FILE.html writes it, for a checked command line. Throws the
+/// errors of reading and comparing.
 std::string comparison_page(const Arguments& arguments, bool is_served);
 
 }  // namespace kinemend::cli

@@ -1,4 +1,4 @@
-// kinemend completion: scripts for shells, from the same tables as parser and help.
+// kinemend completion: prints scripts for shells, from the tables of parser and help.
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@ namespace kinemend::cli {
 
 namespace {
 
-/// A flag as shells need it.
+/// A flag in the form that shells need.
 struct ShellFlag {
   std::string name;  ///< "--output"
   char letter = 0;
@@ -88,7 +88,7 @@ std::string joined(const std::vector<std::string>& parts, std::string_view separ
   return fmt::format("{}", fmt::join(parts, separator));
 }
 
-/// For a text between single quotes: 'it'\''s'.
+/// Escapes text for single quotes: 'it'\''s'.
 std::string single_quoted(std::string_view text) {
   std::string result = "'";
   for (const char c : text) {
@@ -154,7 +154,7 @@ std::string bash_script() {
          "complete -o filenames -F _kinemend kinemend\n";
 }
 
-/// Help inside the brackets of zsh's _arguments.
+/// Escapes help for the brackets of zsh's _arguments.
 std::string zsh_help(std::string_view help) {
   std::string result;
   for (const char c : help) {
@@ -214,7 +214,7 @@ std::string zsh_script() {
       "fi\n"
       "  local name=$words[2]\n  shift words\n  (( CURRENT-- ))\n  case $name in\n";
   for (const Command& command : commands()) text += zsh_command(command);
-  // As a function of $fpath the file is run to complete; sourced, it only registers.
+  // As a function in $fpath, the file completes when run; when sourced, it only registers itself.
   return text +
          "  esac\n}\nif [[ $funcstack[1] == _kinemend ]]; then\n  _kinemend \"$@\"\nelse\n"
          "  compdef _kinemend kinemend\nfi\n";

@@ -1,4 +1,4 @@
-// kinemend contacts: when feet stand, as a file to edit.
+// kinemend contacts: writes the times when feet stand, as a file to edit.
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// kinemend convert: reads one format and writes another, or the same anew.
+// kinemend convert: reads one format and writes another, or the same format anew.
 
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The inputs, and where results go.
+/// The inputs and the paths of their results.
 struct Conversion {
   TakeJobs takes;
   const Format* to = nullptr;  ///< --to
@@ -34,9 +34,9 @@ struct Conversion {
 
 using Notes = std::vector<std::string>;
 
-/// `convert IN OUT`: two words name an input and an output, unless an option says where results go.
-/// With --to a file that exists and has the ending of another format is an input, as in
-/// `convert *.c3d --to trc`.
+/// `convert IN OUT`: two words name an input and an output, unless an option names the output. With
+/// --to, an existing file with the extension of another format is an input, as in `convert *.c3d
+/// --to trc`.
 bool is_in_and_out(const Arguments& arguments) {
   const std::vector<std::string>& words = arguments.positionals;
   if (words.size() != 2 || arguments.given("output_dir") || arguments.given("output")) return false;
@@ -77,7 +77,7 @@ Conversion conversion_of(const Arguments& arguments) {
   return conversion;
 }
 
-/// --to, else by the ending of the output, else the format of the input.
+/// The format of --to, or of the output's extension, or of the input.
 const Format& output_format(const Conversion& conversion, const std::string& output,
                             const Take& take) {
   if (conversion.to != nullptr) return *conversion.to;
@@ -98,7 +98,8 @@ Take resampled(const Take& take, double frame_rate_hz, Notes& notes) {
   return resample(take, frame_rate_hz);
 }
 
-/// The old vertical axis is that of --from-up, else it is found from the motion and said.
+/// The old vertical axis is given by --from-up; otherwise it is guessed from the motion, with a
+/// note.
 Take turned(const Take& take, const Arguments& arguments, Notes& notes) {
   const Axis to = axis_named(arguments.text("up"));
   const std::string stated = arguments.text("from_up");
@@ -141,14 +142,14 @@ void normalise_take(Take& take, const Arguments& arguments, Notes& notes) {
 /// Treats angles, forces, moments and powers as markers.
 void take_all_points(Take& take) { take.is_position.clear(); }
 
-/// AMC holds angles only; the skeleton is written to an ASF file beside it.
+/// AMC holds only angles; the skeleton goes to an ASF file beside it.
 void check_has_place(const Take& take, const Format& format, const std::string& output) {
   if (format.name != "amc" || take.source.format == "amc" || output != "-") return;
   throw Error(ErrorKind::usage,
               "convert: AMC needs a skeleton file beside it; name an output file");
 }
 
-/// The take as the options ask for it, in a form that the format can hold.
+/// Applies the options to the take and brings it into a form that the format can hold.
 Take converted(Take take, const Format& format, const Arguments& arguments, Notes& notes) {
   if (arguments.flag("plain")) drop_layout(take.source);
   if (arguments.flag("all_points")) take_all_points(take);

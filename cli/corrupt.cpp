@@ -55,8 +55,8 @@ bool is_switch_of(const Damage& damage, const std::string& name) {
   });
 }
 
-/// "a=1,b=x,y,c" to {a=1, b=x,y, c}: a part without = is a switch, or belongs to the value before
-/// it.
+/// Splits "a=1,b=x,y,c" into {a=1, b=x,y, c}: a part without = is a switch or continues the value
+/// before it.
 std::vector<std::string> split_options(const Damage& damage, const std::string& text) {
   std::vector<std::string> parts;
   for (const std::string& part : split_list({text})) {

@@ -1,4 +1,4 @@
-// kinemend fill: fills gaps from the take itself.
+// kinemend fill: fills gaps from the rest of the take.
 
 #include "kinemend/fill.hpp"
 
@@ -48,7 +48,7 @@ void fill_job(const TakeJob& job, const FillRun& run, const Arguments& arguments
   options.all = run.verbose;
   options.colours = Colours::of_out().on();
   outcome.text = to_text(filled.report, options);
-  // A run of several takes shows the first line of each, as clean does.
+  // With several takes, only the first line of each report is shown, as in `clean`.
   if (!options.details) outcome.text.resize(outcome.text.find('\n') + 1);
   if (run.json || run.reports.with_json()) outcome.json = outcome.report = to_json(filled.report);
   if (with_page)

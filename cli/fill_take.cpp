@@ -1,4 +1,4 @@
-// Loads gaps, plan and models, fills the take in place, and reports what was filled and refused.
+// Loads gaps, plan and models, fills the take in place, and reports filled and refused gaps.
 #include "fill_take.hpp"
 
 #include <fmt/format.h>
@@ -39,14 +39,14 @@ FillSettings settings_of(const Arguments& arguments) {
   return settings;
 }
 
-/// The network that ships, read when a gap asks for it.
+/// Fills with the shipped network, which is loaded when a gap first needs it.
 LearnedFilling fill_by_shipped(const Take& clip) {
   static const LearnedFill fill = make_learned_fill();
   return fill(clip);
 }
 
-/// The models of the method that is asked for, or of a plan's rows and of --preview, where a model
-/// that is named is that of `recurrent`.
+/// The models of the requested method, or those that a plan's rows and --preview need; there a
+/// named model is one for `recurrent`.
 FillModels models_of(const Arguments& arguments) {
   const std::string model = arguments.text("model"), map = arguments.text("map");
   const std::string method = arguments.text("method");
@@ -66,7 +66,7 @@ FillModels models_of(const Arguments& arguments) {
   return models;
 }
 
-/// A plan says these of each gap.
+/// A plan already states these options for each gap.
 void check_plan_alone(const Arguments& arguments) {
   if (!arguments.given("plan")) return;
   for (const char* name : {"method", "joints", "markers", "range", "donor", "longest_gap",
@@ -81,7 +81,7 @@ void check_plan_alone(const Arguments& arguments) {
 
 bool is_json(const std::string& path) { return std::filesystem::path(path).extension() == ".json"; }
 
-/// --max-error-mm in the unit of the file.
+/// Converts --max-error-mm to the unit of the file.
 double max_error_in_file_units(const Take& clip, const FillRun& run) {
   constexpr double metres_per_mm = 0.001;
   const double metres = likely_metres_per_unit(clip);
@@ -92,7 +92,7 @@ double max_error_in_file_units(const Take& clip, const FillRun& run) {
                           clip.source.name));
 }
 
-/// Limits of rotations mean nothing for markers.
+/// Names flags that have no effect on this kind of take.
 std::vector<std::string> meaningless_flags(const Take& take, const FillRun& run) {
   const bool markers = !take.has_joints();
   if (markers && run.settings.max_error_deg > 0)
@@ -110,7 +110,7 @@ PlannedFill fill_as_asked(Take& clip, const FillSettings& settings, const FillRu
   return fill_with_plan(clip, plan, check, settings.models);
 }
 
-/// Also says the plan as the text that --plan-out asks for.
+/// Fills the take and sets `plan_text` for --plan-out.
 FillOutcome fill_in_place(Take& take, const FillRun& run, const FillCheck& check,
                           std::string& plan_text) {
   FillSettings settings = run.settings;
@@ -128,7 +128,7 @@ FillOutcome fill_in_place(Take& take, const FillRun& run, const FillCheck& check
         is_json(run.plan_out_path) ? plan_json(take, filled.plan) : plan_csv(take, filled.plan);
   }
   if (run.range) {
-    // What is neither filled nor refused was not asked for.
+    // The remaining gaps, neither filled nor refused, lie outside the range.
     const std::size_t left = find_gaps(take).size() + find_position_gaps(take).size();
     const std::size_t told = outcome.report.refused() + outcome.report.unlabelled;
     outcome.not_within_range = left - std::min(left, told);

@@ -1,4 +1,4 @@
-// Turns joints into markers, folds rest rotations away, and refuses what a format cannot hold.
+// Converts joints to markers, applies rest rotations, and refuses what a format cannot hold.
 #include "fit_format.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@ namespace kinemend::cli {
 
 namespace {
 
-/// The joint positions as markers, in millimetres where the unit is known.
+/// The joint positions as markers, in millimetres if the unit is known.
 Take as_markers(const Take& take, const FitSettings& settings, std::vector<std::string>& notes) {
   const double metres = settings.keeps_unit ? 0 : metres_per_unit_of(take, notes);
   if (metres == 0) return joint_markers(take, settings.end_sites);

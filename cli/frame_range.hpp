@@ -9,8 +9,8 @@
 
 namespace kinemend::cli {
 
-/// `--range`: "121:240" are frames as the file numbers them, "1.5s:2s" seconds from the start;
-/// either end may be left out.
+/// A value of `--range`: "121:240" are frames as the file numbers them, "1.5s:2s" are seconds from
+/// the start; either end may be omitted.
 struct FrameRange {
   bool in_seconds = false;
   std::optional<double> first;

@@ -21,7 +21,7 @@ namespace {
 // Columns of a line, chosen by hand.
 constexpr std::size_t help_column = 30, text_width = 100;
 
-/// A name and its text beside it, or below it if the name is long.
+/// Puts a name and its text side by side, or the text below a long name.
 std::string entry(std::string_view name, std::string_view text, std::size_t column = help_column) {
   std::string line = fmt::format("  {}", name);
   const std::size_t width = display_width(line);
@@ -33,7 +33,7 @@ std::string heading(std::string_view text) {
   return fmt::format("\n{}\n", Colours::of_out().paint(Paint::bold, fmt::format("{}:", text)));
 }
 
-/// Whether the values of a flag are the names of the groups, which the help lists by themselves.
+/// Returns whether a flag's values are the names of groups, which the help lists separately.
 bool names_groups(const Command& command, const Flag& flag) {
   return !command.groups.empty() &&
          std::all_of(command.groups.begin(), command.groups.end(), [&](const OptionGroup& group) {
@@ -65,7 +65,7 @@ std::string flags_text(const Command& command, bool is_long) {
   return text;
 }
 
-/// On one line where it fits.
+/// Uses one line if the example fits.
 std::string example_text(const Example& example) {
   const std::string line = fmt::format("  {}  # {}", example.command, example.explanation);
   if (display_width(line) <= text_width) return line + "\n";
@@ -103,7 +103,7 @@ std::string group_names_text(const Command& command, bool is_long) {
                      2);
 }
 
-/// The commands whose groups of this name have the same title and options, after "kinemend".
+/// The commands whose groups of this name have the same title and options, without "kinemend".
 std::string commands_of_group(const Command& first, const OptionGroup& group) {
   std::vector<std::string> names;
   for (const Command& command : commands()) {
@@ -117,7 +117,7 @@ std::string commands_of_group(const Command& first, const OptionGroup& group) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// The page of the documentation about a group of a command; empty if it has none of its own.
+/// The page of the documentation about a group of a command; empty if there is none.
 std::string page_of_group(const Command& command, std::string_view group) {
   if (command.name == "fill") return "docs/methods/fill.md";
   if (command.name == "train") return "docs/models.md";
@@ -179,7 +179,7 @@ std::string flag_names(const Flag& flag) {
 
 std::string flag_line(const Flag& flag) {
   if (flag.takes == Takes::nothing) return flag.spec.help;
-  // Without a name of its own, the value is shown as its choices: they are not repeated.
+  // A value without a name is shown by its choices, which are not repeated here.
   OptionSpec spec = flag.spec;
   if (!flag.offered.empty()) spec.choices = flag.offered;
   if (flag.value_name.empty()) spec.choices.clear();

@@ -9,20 +9,20 @@
 
 namespace kinemend::cli {
 
-/// `--version`: the version, and what a report of a fault should state besides.
+/// `--version`: the version and the facts that a fault report should state.
 std::string version_text();
 
 /// `-h` of the program; `--help` adds exit codes and topics.
 std::string program_help(bool is_long);
-/// `-h`: one line per flag. `--help` adds details and examples. Options of methods or damages are
-/// left to `group_help`.
+/// `-h`: one line per flag. `--help` adds details and examples. `group_help` covers the options of
+/// methods and damages.
 std::string command_help(const Command& command, bool is_long);
 
 /// `kinemend help NAME` for a method, a damage or the like: its options in every command that has
 /// it, with ranges and defaults, and its page. Empty if nothing has that name.
 std::string group_help(std::string_view name);
 
-/// Paragraphs, each after an empty line.
+/// Formats paragraphs, each after an empty line.
 std::string description_text(const std::string& description);
 
 /// Flags under one heading of the help.
@@ -39,8 +39,7 @@ std::string usage_line(const Command& command);
 std::string flag_names(const Flag& flag);
 /// The line of a flag: help with range and default.
 std::string flag_line(const Flag& flag);
-/// How an option of a group is typed: "--cutoff-hz X", "--[no-]causal" or, in a damage,
-/// "std_deg=X".
+/// How an option of a group is typed: "--cutoff-hz X", "--[no-]causal", or in a damage "std_deg=X".
 std::string group_option_name(const Command& command, const OptionSpec& spec);
 std::string group_option_line(const OptionSpec& spec);
 

@@ -1,4 +1,4 @@
-// Reads a head line by line and rejects what two readers could understand differently.
+// Reads a head line by line and rejects everything that two parsers could interpret differently.
 #include "http_head.hpp"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ std::string_view without_blanks(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
 }
 
-// Takes the line that `text` begins with, without its end; `text` goes on behind it.
+// Removes the first line from `text` and returns it without its line end.
 std::string_view take_line(std::string_view& text) {
   const std::size_t end = text.find('\n');
   std::string_view line = text.substr(0, end);
@@ -96,7 +96,7 @@ class HeadReader {
     if (name == "expect" && lower_case(value) == "100-continue") head.expects_continue = true;
   }
 
-  // Two of one header could be read one way here and another way elsewhere.
+  // Two headers of one name could be read differently elsewhere, so they are refused.
   void put(bool& is_given, std::string& place, std::string_view value) {
     if (is_given) return refuse(http::bad_request);
     is_given = true;
@@ -129,7 +129,7 @@ class HeadReader {
 }  // namespace
 
 std::size_t head_bytes(std::string_view received) {
-  // Lines may end with \n alone: the first of the two forms ends the head.
+  // Lines may end with \n alone, so the first form of an empty line ends the head.
   const std::size_t full = received.find("\r\n\r\n"), bare = received.find("\n\n");
   if (full == received.npos && bare == received.npos) return received.npos;
   return full < bare ? full + 4 : bare + 2;

@@ -1,5 +1,5 @@
-// The head of an HTTP/1.1 request: its first line and its headers. Only what a page of the program
-// sends is accepted: everything else is refused before a byte of the body is read.
+// The head of an HTTP/1.1 request: its first line and its headers. Only requests of the program's
+// own page are accepted; others are refused before their body is read.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ inline constexpr int bad_request = 400, forbidden = 403, not_found = 404, not_al
 
 struct HttpHead {
   std::string method;  ///< "GET"
-  std::string path;    ///< "/TOKEN/run", without a query, as it was sent
+  std::string path;    ///< "/TOKEN/run" as sent, without a query
   std::string host;    ///< header Host
   std::string origin;  ///< header Origin; empty if missing
   std::string site;    ///< header Sec-Fetch-Site; empty if missing
@@ -27,17 +27,16 @@ struct HttpHead {
 };
 
 struct ParsedHead {
-  int refusal = 0;  ///< the status that answers a head which is not accepted; else 0
+  int refusal = 0;  ///< status code that refuses the head; 0 if it is accepted
   HttpHead head;
 };
 
-/// The bytes from the start of a request to the empty line that ends its head; npos: not yet there.
+/// The length of a request's head including its empty line; npos if it is incomplete.
 std::size_t head_bytes(std::string_view received);
 
-/// `bytes`: a head with its empty line. Refused are: a first line or a header of another form, two
-/// of a header that is read (400), another version (505), a body of unknown length, as
-/// `Transfer-Encoding` announces (411), one that is compressed (415), and one of more than
-/// `most_body_bytes` (413). Never throws.
+/// Parses a head with its empty line. Refuses a malformed first line or header and a repeated
+/// header (400), another version (505), a body of unknown length, as `Transfer-Encoding` announces
+/// (411), a compressed body (415), and one of more than `most_body_bytes` (413). Never throws.
 ParsedHead parse_head(std::string_view bytes, std::size_t most_body_bytes);
 
 }  // namespace kinemend::cli

@@ -1,5 +1,5 @@
-// Accepts connections, gives each a thread with deadlines, and closes the one that has waited
-// longest when there are too many.
+// Accepts connections, serves each in a thread with deadlines, and closes the longest waiting one
+// when there are too many.
 #include "http_server.hpp"
 
 #include <fmt/format.h>
@@ -53,7 +53,7 @@ std::string head_of(const HttpReply& reply, bool keeps_alive) {
       keeps_alive ? "keep-alive" : "close");
 }
 
-// Waits until the socket can be read or written; false: not before the deadline, or it has failed.
+// Waits until the socket can be read or written. Returns false at the deadline or on failure.
 bool wait_until(int socket, bool writing, Clock::time_point deadline) {
   while (true) {
     const auto left =
@@ -85,11 +85,11 @@ int made_listener(int port) {
 
 }  // namespace
 
-/// Which connections there are, and which of them may be closed for another.
+/// Lists the connections and decides which may be closed for a new one.
 class HttpServer::Connections {
  public:
-  /// What a thread is at. Only one that is answering is left alone when the server stops or is
-  /// full.
+  /// The state of a thread. A thread that is answering is not interrupted, even when the server
+  /// stops or is full.
   enum class At { waiting, reading, answering };
   struct Entry {
     int socket;
@@ -100,8 +100,8 @@ class HttpServer::Connections {
 
   explicit Connections(std::size_t most) : most_(most) {}
 
-  /// Takes up a socket; where there are too many, closes the one that has been waiting longest
-  /// first. Nothing: all of them are being answered, or the server stops.
+  /// Adds a socket. If there are too many, closes the one that has been waiting longest. Returns
+  /// nullopt if all of them are being answered or the server stops.
   std::optional<Place> add(int socket) {
     std::unique_lock lock(mutex_);
     if (entries_.size() >= most_ && !close_oldest()) return std::nullopt;
@@ -129,7 +129,7 @@ class HttpServer::Connections {
     return is_stopping_;
   }
 
-  /// Ends what waits for a client.
+  /// Closes the connections that wait for their client.
   void stop() {
     const std::lock_guard lock(mutex_);
     is_stopping_ = true;
@@ -162,7 +162,7 @@ class HttpServer::Connections {
   bool is_stopping_ = false;
 };
 
-/// One connection, in a thread of its own.
+/// Handles one connection in its own thread.
 class HttpServer::Connection {
  public:
   Connection(const HttpLimits& limits, Connections& all, Connections::Place place,
@@ -178,19 +178,19 @@ class HttpServer::Connection {
     try {
       while (!all_.is_stopping() && serve_one()) all_.set(place_, Connections::At::waiting);
     } catch (const std::exception&) {
-      // Memory has run out: this connection ends, and the others go on.
+      // If memory runs out, this connection ends and the others continue.
     }
   }
 
  private:
-  // Whether the connection stays open for another request.
+  // Returns whether the connection stays open for another request.
   bool serve_one() {
     const auto deadline = Clock::now() + limits_.head_time;
     std::size_t size = 0;
     while ((size = cli::head_bytes(received_)) == received_.npos) {
       if (received_.size() >= limits_.head_bytes) return refuse(http::head_too_large);
       if (receive(limits_.head_bytes - received_.size(), deadline)) continue;
-      // A connection on which nothing was asked is closed without a word.
+      // A connection without any request is closed without a reply.
       return !received_.empty() && Clock::now() >= deadline && refuse(http::timed_out);
     }
     const ParsedHead parsed = parse_head(received_.substr(0, size), limits_.body_bytes);
@@ -202,7 +202,7 @@ class HttpServer::Connection {
     all_.set(place_, Connections::At::reading);
     if (!read_body(head)) return false;
     std::string body = std::move(received_);
-    // What came behind the body belongs to the next request.
+    // Bytes after the body belong to the next request.
     received_ = body.substr(head.body_bytes);
     body.resize(head.body_bytes);
     all_.set(place_, Connections::At::answering);
@@ -223,7 +223,7 @@ class HttpServer::Connection {
     return true;
   }
 
-  // Appends at most `most` bytes; false: none before the deadline, or the client is gone.
+  // Appends at most `most` bytes. Returns false at the deadline or if the client has disconnected.
   bool receive(std::size_t most, Clock::time_point deadline) {
     char bytes[16384];
     while (wait_until(socket_, false, deadline)) {
@@ -251,8 +251,8 @@ class HttpServer::Connection {
     return true;
   }
 
-  // Says why and ends the connection. A client that is still sending would not see the answer if
-  // the socket were closed at once; so what it sends is thrown away for a moment. Returns false.
+  // Sends the refusal and ends the connection. Discards input for a moment, because a client that
+  // is still sending would miss the reply if the socket closed at once. Returns false.
   bool refuse(int status) {
     constexpr std::chrono::seconds moment(1);
     const auto deadline = Clock::now() + moment;
@@ -307,11 +307,11 @@ void HttpServer::serve(const Admit& admit, const Answer& answer) {
     if (waited[1].is_ready) break;
     const int socket = platform::accept_socket(listener_);
     if (socket < 0) {
-      // Without a descriptor to spare the same connection would be offered again and again.
+      // Without a free descriptor, accepting would fail again at once.
       if (platform::is_out_of_sockets(errno)) platform::wait_for({waited + 1, 1}, 100);
       continue;
     }
-    // Answers leave at once; they are written whole.
+    // Replies are written as a whole, so they are sent without delay.
     platform::send_at_once(socket);
     const auto place = connections_->add(socket);
     if (!place) {
@@ -319,7 +319,7 @@ void HttpServer::serve(const Admit& admit, const Answer& answer) {
       continue;
     }
     try {
-      // The thread's last use of the list may come after the wait for its end.
+      // The thread may still use the list after the wait for its end.
       std::thread([this, all = connections_, at = *place, &admit, &answer] {
         Connection(limits_, *all, at, admit, answer).run();
         all->remove(at);

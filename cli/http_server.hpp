@@ -1,5 +1,5 @@
-// A small HTTP/1.1 server on 127.0.0.1 for pages of the program; it bounds what any client can make
-// it store and how long it waits.
+// A small HTTP/1.1 server on 127.0.0.1 for pages of the program. It limits the memory and time that
+// a client can use.
 #pragma once
 
 #include <chrono>
@@ -14,13 +14,13 @@ namespace kinemend::cli {
 
 struct HttpLimits {
   std::size_t head_bytes = 16 << 10;
-  std::size_t body_bytes = 16 << 20;  ///< the gap plan of a long take is less
-  /// Connections at one time. For one more, the one that has kept its thread waiting for a request
-  /// longest is closed.
+  std::size_t body_bytes = 16 << 20;  ///< more than the gap plan of a long take
+  /// Connections at one time. A further one closes the one that has been waiting longest.
   std::size_t connections = 64;
-  /// From the first wait for a request until its head is there, and from then until its body is.
+  /// Time from the first wait for a request until its head is complete, and from then until its
+  /// body is.
   std::chrono::milliseconds head_time{5000}, body_time{5000};
-  /// For a client that takes no byte of an answer.
+  /// Time allowed for a client that does not read its reply.
   std::chrono::milliseconds write_time{5000};
 };
 
@@ -31,13 +31,13 @@ struct HttpReply {
 
 class HttpServer {
  public:
-  /// The status that refuses a request, or 0: asked when its head is there, before its body is
-  /// read.
+  /// Returns the status that refuses a request, or 0. Called after the head is read and before the
+  /// body.
   using Admit = std::function<int(const HttpHead&)>;
-  /// Called from a thread of each connection.
+  /// Called in the thread of each connection.
   using Answer = std::function<HttpReply(const HttpHead&, const std::string& body)>;
 
-  /// Binds a port of 127.0.0.1; 0: any that is free. Errors: `ErrorKind::cannot_write` for one that
+  /// Binds a port of 127.0.0.1; 0 takes any free port. Errors: `ErrorKind::cannot_write` if it
   /// cannot be bound.
   explicit HttpServer(int port, HttpLimits limits = {});
   ~HttpServer();
@@ -45,7 +45,7 @@ class HttpServer {
   HttpServer& operator=(const HttpServer&) = delete;
 
   int port() const;
-  /// Serves until `stop` is called, then waits until what was being answered is sent.
+  /// Serves until `stop` is called, then waits until replies in progress are sent.
   void serve(const Admit& admit, const Answer& answer);
   /// May be called from any thread.
   void stop();
@@ -56,7 +56,7 @@ class HttpServer {
 
   HttpLimits limits_;
   int listener_ = -1;
-  int stop_ends_[2] = {-1, -1};  // a byte in the second wakes the thread that accepts
+  int stop_ends_[2] = {-1, -1};  // a byte written to the second wakes the accepting thread
   std::shared_ptr<Connections> connections_;
 };
 

@@ -1,4 +1,4 @@
-// kinemend info: shows the content of takes and models.
+// kinemend info: prints the content of takes and models.
 
 #include <fmt/format.h>
 
@@ -99,7 +99,7 @@ std::string unit_text(const Take& clip) {
                      figure(height * unit->metres));
 }
 
-/// `has_subjects`: the table already has a row of them.
+/// `has_subjects` means that the table already has a row of subjects.
 void add_facts(const Looked& subject, const SourceInfo& source, bool has_subjects, Table& table) {
   for (const SourceFact& fact : source.facts) {
     const bool is_said = fact.name == "analog frames" || fact.name == "first frame" ||
@@ -116,7 +116,7 @@ std::string numbered_length(const Take& clip) {
   return first == 1 ? length : fmt::format("{}, from frame {}", length, first);
 }
 
-/// "Ann (41 markers), Bob (39 markers)" for a take of several people, else empty.
+/// "Ann (41 markers), Bob (39 markers)" for several people; empty for one.
 std::string people_text(const Take& clip) {
   const std::vector<Subject> people = subjects_of(clip);
   if (people.size() < 2) return "";
@@ -132,7 +132,7 @@ std::string people_text(const Take& clip) {
 
 /// The missing samples of joints or markers.
 struct Missing {
-  std::vector<std::size_t> samples;  // of each
+  std::vector<std::size_t> samples;  // per joint or marker
   std::size_t gaps = 0, longest = 0, all = 0, possible = 0;
 };
 

@@ -17,7 +17,7 @@ namespace {
   throw Error(ErrorKind::usage, fmt::format("--noise {}: {}", path, reason));
 }
 
-// The entry of the noise of the take's own tracks.
+// The noise entry for the take's own kind of tracks.
 const Json& noise_of_tracks(const Json& take, const std::string& path) {
   const char* quantity = take.at("kind") == "markers" ? "position" : "rotation";
   for (const Json& noise : take.at("noise")) {

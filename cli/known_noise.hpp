@@ -1,4 +1,4 @@
-// Reads what the flag `--noise` says of the noise of a take.
+// Reads the flag `--noise`.
 #pragma once
 
 #include <optional>
@@ -8,9 +8,10 @@
 
 namespace kinemend::cli {
 
-/// What `--noise` says: nothing of "auto", white noise of a measured strength of "white", else what
-/// the report at that path found of the first take in it. Errors: `ErrorKind::usage` for a file
-/// that is no report of `clean` or `check` with noise in it; those of `read_file`.
+/// The noise that `--noise` states: nullopt for "auto", white noise of measured strength for
+/// "white", and otherwise the noise of the first take in the report at that path. Errors:
+/// `ErrorKind::usage` for a file that is not a report of `clean` or `check` with noise; those of
+/// `read_file`.
 std::optional<KnownNoise> known_noise(const std::string& choice);
 
 }  // namespace kinemend::cli

@@ -21,7 +21,7 @@ using Seconds = std::chrono::duration<double>;
 using TimePoint = LiveClock::time_point;
 
 constexpr std::chrono::seconds between_attempts{1};
-/// Time that a client has to take the last frames.
+/// Time that a client has to read the last frames.
 constexpr std::chrono::seconds last_patience{2};
 
 class LiveLoop {
@@ -44,8 +44,8 @@ class LiveLoop {
 
  private:
   void open_input() {
-    // A program that writes to a pipe waits for its reader. A device does not: its frames would
-    // queue up and be late.
+    // A program that writes to a pipe can wait for its reader. A device cannot, and its frames
+    // would queue up and be late.
     output_.set_dropping(plan_.source != LiveSource::standard);
     switch (plan_.source) {
       case LiveSource::standard:
@@ -94,7 +94,7 @@ class LiveLoop {
       ended_ = true;
       return;
     }
-    // While the output is full nothing is read, which is no silence of the sender.
+    // A full output stops reading, which does not count as silence of the sender.
     if (waits[sender].number < 0 && plan_.source == LiveSource::standard)
       last_frame_ = LiveClock::now();
     if (waits[client].is_ready) output_.write_some();
@@ -121,7 +121,7 @@ class LiveLoop {
     return static_cast<int>(std::ceil(1000 * std::clamp(seconds, 0.0, 3600.0)));
   }
 
-  // When to report a silence, or to repeat the last frame.
+  // The time to report a silence or to repeat the last frame.
   std::optional<TimePoint> stall_time() const {
     if (plan_.stall_s <= 0 || session_.counts().frames_in == 0) return std::nullopt;
     if (!is_stalled_) return after(plan_.stall_s);
@@ -203,7 +203,7 @@ class LiveLoop {
     last_frame_ = **plan_.came;
   }
 
-  // `whole`: the sender closed the connection, so that its last line is complete.
+  // `whole` means that the sender closed the connection, so its last line is complete.
   void sender_gone(bool whole) {
     if (whole) session_.end_line();
     input_.close();
@@ -215,7 +215,7 @@ class LiveLoop {
       next_connection_ = LiveClock::now() + between_attempts;
   }
 
-  // Waits for the reader of a pipe, but only so long for a client.
+  // Waits for the reader of a pipe, and for a limited time for a client.
   void drain() {
     const TimePoint end = LiveClock::now() + last_patience;
     while (!output_.is_empty()) {

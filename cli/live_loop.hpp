@@ -21,16 +21,16 @@ struct LivePlan {
   bool holds = false;  ///< repeat the last frame during a silence
   bool once = false;   ///< end with the first connection
   bool quiet = false;
-  LiveStatus* status = nullptr;  ///< null: there is no page
+  LiveStatus* status = nullptr;  ///< null: no status page
   LiveSession* session = nullptr;
   LiveOutput* output = nullptr;
-  /// Set to the time when bytes arrived, before they are fed; to none before the stream is ended.
+  /// Set to the arrival time of bytes before they are fed; none when the stream ends.
   std::optional<LiveClock::time_point>* came = nullptr;
 };
 
-/// Receives, cleans and sends until the input ends or SIGINT or SIGTERM arrives; then gives the
-/// remaining frames. Errors: `ClosedPipe`, `ErrorKind::unreadable_input` for an input that
-/// cannot be opened, `cannot_write`.
+/// Receives, cleans and sends until the input ends or SIGINT or SIGTERM arrives, then sends the
+/// remaining frames. Errors: `ClosedPipe`, `ErrorKind::unreadable_input` for an input that cannot
+/// be opened, `cannot_write`.
 void run_live(const LivePlan& plan);
 
 }  // namespace kinemend::cli

@@ -21,7 +21,7 @@ constexpr double least_s = 1e-6, buckets_per_factor = 50;  // of e
 constexpr std::chrono::seconds between_connections{1};
 constexpr std::size_t most_datagram = 60000;
 
-// A piece of a header that fits a datagram, at the end of a line where there is one.
+// A part of a header that fits into a datagram, cut at a line end if possible.
 std::string_view datagram_of(std::string_view text) {
   if (text.size() <= most_datagram) return text;
   const std::size_t end = text.rfind('\n', most_datagram - 1);
@@ -86,20 +86,19 @@ void LiveOutput::add(bool is_header, std::string_view text,
   frames_waiting_ += is_header ? 0 : 1;
 }
 
-// Headers count too: a sender that gives nothing else must not fill the memory.
+// Headers are included: a sender of only headers must not fill the memory.
 bool LiveOutput::is_full() const {
   return frames_waiting_ >= most_waiting_ || waiting_.size() >= 2 * most_waiting_ + 2;
 }
 
-// A header that is followed by another one at `place`, with no frame between them, is of no use to
-// a client.
+// Drops a header directly before another one at `place`, which no frame uses.
 void LiveOutput::drop_header_before(std::size_t place) {
   const std::size_t first = offset_ > 0 ? 1 : 0;
   if (place <= first || !waiting_[place - 1].is_header) return;
   waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(place - 1));
 }
 
-// A piece that is written in part stays: its rest must follow.
+// A partly written piece is kept, because its rest must follow.
 void LiveOutput::drop_oldest() {
   const auto first = waiting_.begin() + (offset_ > 0 ? 1 : 0);
   const auto frame =
@@ -179,7 +178,7 @@ void LiveOutput::write_tcp() {
   }
 }
 
-// Errors are ignored: a datagram may go to an address that nobody listens at.
+// Errors are ignored, because no receiver may be listening.
 void LiveOutput::write_udp() {
   while (!waiting_.empty()) {
     const std::string_view piece =

@@ -29,7 +29,7 @@ class LatencyHistogram {
     double below_s = 0;
     std::size_t count = 0;
   };
-  /// Bars of equal factors of time, from the first that is not empty to the last.
+  /// Bars of a constant factor in time, from the first non-empty one to the last.
   std::vector<Bar> bars() const;
 
  private:
@@ -39,18 +39,18 @@ class LatencyHistogram {
   double most_ = 0;
 };
 
-/// Where cleaned frames go: standard output or a client. A limited number of frames waits for a
-/// client that does not read; then the oldest are dropped and counted. If a client over TCP
-/// disconnects, the output connects again and sends the header first.
+/// Sends cleaned frames to standard output or a client. A limited number of frames waits for a
+/// client that does not read; then the oldest are dropped and counted. If a TCP client disconnects,
+/// the output connects again and sends the header first.
 class LiveOutput {
  public:
   /// To standard output.
   explicit LiveOutput(std::size_t most_waiting);
-  /// To a client. Errors: `ErrorKind::cannot_write` where it cannot be reached.
+  /// To a client. Errors: `ErrorKind::cannot_write` if it cannot be reached.
   LiveOutput(const Address& address, Transport transport, std::size_t most_waiting);
 
-  /// `came`: when the bytes arrived that made this piece. None for the last frames of a stream,
-  /// which waited for its end: their latency is not counted.
+  /// `came` is the arrival time of the input of this piece. It is none for the last frames of a
+  /// stream, whose latency is not counted because they waited for the end.
   void add(bool is_header, std::string_view text, std::optional<LiveClock::time_point> came);
   /// Whether to drop frames when too many wait. If not, the caller asks `is_full` before it adds.
   void set_dropping(bool drops) { drops_ = drops; }
@@ -59,13 +59,12 @@ class LiveOutput {
 
   /// The descriptor to wait for; -1: none.
   int descriptor() const;
-  /// When to try the client again.
+  /// The time to try the client again.
   std::optional<LiveClock::time_point> next_attempt() const;
   void try_again();
-  /// To be called when the descriptor can be written to. Errors: `ClosedPipe`,
-  /// `ErrorKind::cannot_write`.
+  /// Call it when the descriptor is writable. Errors: `ClosedPipe`, `ErrorKind::cannot_write`.
   void write_some();
-  /// Drops everything that waits.
+  /// Drops all waiting pieces.
   void give_up();
 
   std::size_t dropped() const { return dropped_; }
@@ -96,8 +95,8 @@ class LiveOutput {
   bool drops_ = true;
   std::deque<Waiting> waiting_;
   std::size_t frames_waiting_ = 0;
-  std::size_t offset_ = 0;  ///< bytes of the first piece that are written
-  std::string header_;      ///< the last one
+  std::size_t offset_ = 0;  ///< written bytes of the first piece
+  std::string header_;      ///< the latest header
   std::size_t dropped_ = 0;
   LatencyHistogram latency_;
 };

@@ -24,7 +24,7 @@ struct FreeAddresses {
 };
 using Addresses = std::unique_ptr<addrinfo, FreeAddresses>;
 
-// Empty if the name is unknown; `error` then has the reason.
+// Returns no addresses if the name is unknown; `error` then has the reason.
 Addresses addresses_of(const Address& address, Transport transport, bool passive,
                        std::string& error) {
   addrinfo hints{};
@@ -43,7 +43,7 @@ Descriptor open_socket(const addrinfo& info) {
   return Descriptor(platform::open_socket(info.ai_family, info.ai_socktype, info.ai_protocol));
 }
 
-// True if connected, or if the connection goes on.
+// Returns true if the socket is connected or still connecting.
 bool connects(const Descriptor& socket, const addrinfo& info, Transport transport) {
   if (!socket) return false;
   if (transport == Transport::tcp) platform::send_at_once(socket.number());

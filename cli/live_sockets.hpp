@@ -11,7 +11,7 @@
 
 namespace kinemend::cli {
 
-/// Closes its descriptor on destruction.
+/// Closes its descriptor in its destructor.
 class Descriptor {
  public:
   Descriptor() = default;
@@ -50,7 +50,7 @@ enum class Transport : std::uint8_t { tcp, udp };
 Descriptor listen_at(const Address& address, Transport transport);
 /// The address of a socket: "127.0.0.1:7001".
 std::string place_of(const Descriptor& socket);
-/// A datagram, and the address that it came from. -1: none waits, or an error of an earlier one.
+/// Receives a datagram and the sender's address. Returns -1 if none waits or an earlier one failed.
 std::ptrdiff_t receive_datagram(const Descriptor& socket, std::span<char> bytes,
                                 std::string& sender);
 /// Starts a connection; returns an empty descriptor if that fails at once. The connection is

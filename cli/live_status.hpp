@@ -1,4 +1,4 @@
-// The status page of a live stream: served on 127.0.0.1 by a thread of its own.
+// The status page of a live stream, served on 127.0.0.1 by its own thread.
 #pragma once
 
 #include <functional>
@@ -17,19 +17,18 @@ namespace kinemend::cli {
 /// Serves the page at `/` and its data at `/status.json`, to browsers of this machine only.
 class LiveStatus {
  public:
-  /// `port` 0: any that is free. Errors: `ErrorKind::cannot_write` for a port that cannot be used.
+  /// `port` 0 takes any free port. Errors: `ErrorKind::cannot_write` if it cannot be used.
   explicit LiveStatus(int port);
   ~LiveStatus();
   LiveStatus(const LiveStatus&) = delete;
   LiveStatus& operator=(const LiveStatus&) = delete;
 
   std::string address() const;
-  /// Serves from now on. `report` makes the data; it is called by another thread, which holds the
-  /// lock.
+  /// Starts serving. `report` makes the data; another thread calls it while holding the lock.
   void start(std::function<Json()> report);
   /// Ends the service; `report` is not called again.
   void stop();
-  /// To be held while what the report reads is changed.
+  /// Hold this lock while changing data that the report reads.
   std::unique_lock<std::mutex> lock() { return std::unique_lock(mutex_); }
 
  private:
@@ -41,7 +40,7 @@ class LiveStatus {
   std::thread thread_;
 };
 
-/// The lock of a page; of none, no lock.
+/// Locks the page; returns an empty lock if `status` is null.
 std::unique_lock<std::mutex> locked(LiveStatus* status);
 
 /// Milliseconds: median, 99th percentile, maximum and bars.

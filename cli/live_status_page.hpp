@@ -1,4 +1,4 @@
-// The status page of a live stream, whole in itself: it asks for /status.json every second.
+// The self-contained status page of a live stream, which requests /status.json every second.
 #pragma once
 
 #include <string_view>

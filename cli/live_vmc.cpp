@@ -1,5 +1,5 @@
-// Waits for datagrams, signals and silence, keeps a session for each sender, and sends what these
-// give.
+// Waits for datagrams, signals and silence, keeps a session for each sender, and sends the
+// sessions' output.
 #include "live_vmc.hpp"
 
 #include <fmt/format.h>
@@ -23,11 +23,11 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-// Addresses of senders can be forged: more of them would fill the memory.
+// Sender addresses can be forged, so an unlimited number would fill the memory.
 constexpr std::size_t most_senders = 16;
-// After such a silence the place of a sender is free for another one.
+// After this silence, another sender may take the place.
 constexpr double forgotten_s = 10;
-// Of datagrams that are taken before signals and time are looked at again.
+// Number of datagrams received before signals and time are checked again.
 constexpr int most_in_a_row = 64;
 constexpr std::size_t most_datagram_bytes = std::size_t{1} << 16;
 
@@ -68,7 +68,7 @@ Json json_of_counts(const VmcCounts& c) {
 class VmcLoop {
  public:
   explicit VmcLoop(const VmcPlan& plan) : plan_(plan), buffer_(most_datagram_bytes) {
-    // Says what is wrong with the method before anything is opened.
+    // A method that cannot run live is refused before any socket is opened.
     const auto session = made_session();
     latency_frames_ = session->latency_frames();
     input_ = listen_at(plan.from, Transport::udp);
@@ -157,7 +157,7 @@ class VmcLoop {
     if (sender->session->counts().frames != frames) note_frame();
   }
 
-  // Null: there are too many.
+  // Returns null if there are too many senders.
   VmcSender* sender_of(const std::string& name) {
     const auto found = senders_.find(name);
     if (found != senders_.end()) return &found->second;
@@ -202,8 +202,8 @@ class VmcLoop {
     tell(fmt::format("no frame for {:.3g} s", plan_.stall_s));
   }
 
-  // A datagram that the receiver has refused before is reported with the next one, which then does
-  // not leave: it is sent once more.
+  // If the receiver refused an earlier datagram, the error appears at the next one, which is not
+  // sent then; so it is sent again.
   void send(std::string_view datagram) {
     for (int attempt = 0; attempt < 2; ++attempt) {
       if (platform::send_some(output_.number(), datagram) >= 0) {
@@ -258,11 +258,11 @@ class VmcLoop {
   std::vector<char> buffer_;
   std::size_t latency_frames_ = 0;
   std::map<std::string, VmcSender> senders_;  ///< by address and port
-  VmcCounts gone_;                            ///< of senders that are forgotten
-  std::size_t passed_ = 0;                    ///< datagrams of senders without a place
+  VmcCounts gone_;                            ///< sums over forgotten senders
+  std::size_t passed_ = 0;                    ///< datagrams of further senders, passed unchanged
   std::size_t not_sent_ = 0;
   LatencyHistogram latency_;
-  double came_s_ = 0;  ///< when what is being worked at arrived
+  double came_s_ = 0;  ///< arrival time of the datagram in progress
   double last_frame_s_ = 0;
   bool had_frame_ = false, is_stalled_ = false, ended_ = false;
 };

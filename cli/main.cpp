@@ -1,4 +1,4 @@
-// The program: sets up its streams and runs what the command line asks for.
+// The program: sets up its streams and runs the command line.
 
 #include "platform/console.hpp"
 #include "run_words.hpp"

@@ -7,8 +7,8 @@
 
 namespace kinemend::cli {
 
-/// The choice with exactly this name, else the only one that differs from it in case alone, else
-/// the name unchanged.
+/// The choice with exactly this name, or the only one that matches it ignoring case, or the name
+/// unchanged.
 std::string matching_choice(std::string_view name, const std::vector<std::string>& choices);
 
 }  // namespace kinemend::cli

@@ -1,4 +1,4 @@
-// Gathers the card and the facts of a model and escapes them for each form.
+// Collects the card and facts of a model and escapes them for each output form.
 #include "model_view.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ std::string size_text(std::size_t bytes) {
                          : fmt::format("{:.2f} MB", static_cast<double>(bytes) / 1e6);
 }
 
-// The card and other facts, the most wanted first.
+// The card and other facts, most important first.
 Facts facts_of(const ModelFile& file) {
   const Model& model = file.model;
   const ModelCard& card = model.card;
@@ -74,7 +74,7 @@ std::string numbers_text(const Model& model) {
   return "\n" + table.text();
 }
 
-// Escapes a text of a card, so that Markdown sees a plain paragraph.
+// Escapes text of a card, so that Markdown renders a plain paragraph.
 std::string paragraph(std::string_view text) {
   std::string result;
   for (const char c : printable(text)) {

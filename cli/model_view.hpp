@@ -11,7 +11,7 @@ namespace kinemend::cli {
 
 /// A model and the file it came from.
 struct ModelFile {
-  std::string name;  ///< path, or the method of a model that ships
+  std::string name;  ///< path, or the method of a shipped model
   Model model;
   std::size_t bytes = 0;
   std::string checksum;

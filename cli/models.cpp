@@ -1,5 +1,4 @@
-// kinemend models: lists the learned models that ship, and maps names of a take to those of a
-// model.
+// kinemend models: lists the shipped models, and maps names of a take to those of a model.
 
 #include <fmt/format.h>
 

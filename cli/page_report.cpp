@@ -1,4 +1,4 @@
-// Tells pages from JSON by their endings, checks them before work begins, and writes them.
+// Selects pages or JSON by extension, checks them before work begins, and writes them.
 #include "page_report.hpp"
 
 #include <algorithm>

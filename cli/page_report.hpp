@@ -13,22 +13,22 @@
 
 namespace kinemend::cli {
 
-/// Whether a report of that name is a page and no JSON.
+/// Returns whether a report of that name is a page; otherwise it is JSON.
 bool is_page(const std::string& path);
-/// Refuses a page that this build cannot make, or of several takes, before work is spent on it, and
-/// a report named like a skeleton (FILE.asf), which an AMC file would read. Errors:
+/// Refuses a page that this build cannot make, a page of several takes, and a report named like a
+/// skeleton (FILE.asf), which an AMC file would read. Call it before the work. Errors:
 /// `ErrorKind::usage`.
 void check_page(const std::string& path, std::size_t takes);
 
-/// The reports that a run writes: each --report FILE, of which every FILE.html is a page and every
-/// other JSON.
+/// The reports that a run writes, from each --report FILE: every FILE.html is a page, every other
+/// one is JSON.
 struct ReportFiles {
   std::vector<std::string> paths;
 
   bool empty() const { return paths.empty(); }
   bool with_page() const;
   bool with_json() const;
-  /// Whether one of them goes to standard output.
+  /// Returns whether one of them goes to standard output.
   bool on_out() const;
   /// Adds them to the outputs of a run.
   void add_to(RunFiles& files) const;
@@ -36,16 +36,16 @@ struct ReportFiles {
   void check_free(bool force) const;
   void write(std::string_view document, std::string_view page, bool force) const;
 };
-/// Of a command with `reports_flag`, checked by `check_page`.
+/// The reports of a command with `reports_flag`; checks them with `check_page`.
 ReportFiles report_files(const Arguments& arguments, std::size_t takes);
 
-/// How the program was called, quoted as a shell needs it.
+/// The command line of this run, quoted for a shell.
 std::string command_line_of(const Arguments& arguments);
 PageSettings page_settings(const Arguments& arguments);
 
-/// --report FILE, once.
+/// --report FILE, allowed once.
 Flag report_flag(std::string help, std::string details = {});
-/// --report FILE, as many times as there are reports to write; `details` without a word on pages.
+/// --report FILE, allowed several times; `details` must not explain pages.
 Flag reports_flag(std::string help, const std::string& details = {});
 
 }  // namespace kinemend::cli

@@ -1,4 +1,4 @@
-// kinemend plot: pictures of takes, without a browser.
+// kinemend plot: draws pictures of takes, without a browser.
 
 #include <fmt/format.h>
 
@@ -26,10 +26,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What to draw of which part.
+/// The kind of picture and the part of the take it shows.
 struct Drawing {
   std::string what;
-  std::string track;  ///< empty: the one that differs most, or moves most
+  std::string track;  ///< empty: the track that differs or moves most
   bool is_position = false;
   std::optional<FrameRange> range;
   std::size_t poses = 9;
@@ -45,7 +45,7 @@ std::optional<std::size_t> track_named(const Take& take, const std::string& name
   return track < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(track));
 }
 
-// How much there is to see in curves: the difference, or how far a single take's curves reach.
+// How much the curves show: the difference of two takes, or the range of a single one.
 double weight_of(const TrackCurves& curves, bool two) {
   double sum = 0;
   if (two) {

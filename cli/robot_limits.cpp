@@ -33,7 +33,7 @@ class LimitsReader {
   }
 
  private:
-  // toml++ sorts tables by name; the file's order decides which pattern counts.
+  // toml++ sorts tables by name, but the file's order decides which pattern applies.
   static std::vector<std::pair<std::string, const toml::node*>> in_order_of_lines(
       const toml::table& table) {
     std::vector<std::pair<std::string, const toml::node*>> nodes;

@@ -18,10 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The path behind symlinks. The standard library does not follow one that names no file yet, and
-// an output is written there.
+// The path behind symlinks. The standard library does not follow a symlink whose target does not
+// exist yet, although an output is written there.
 fs::path followed(fs::path path) {
-  constexpr int most_links = 40;  // as in the kernel; more are a circle
+  constexpr int most_links = 40;  // as in the kernel; more are a cycle
   std::error_code error;
   for (int i = 0; i < most_links && fs::is_symlink(path, error); ++i) {
     const fs::path target = fs::read_symlink(path, error);
@@ -31,8 +31,8 @@ fs::path followed(fs::path path) {
   return path;
 }
 
-// The one name of a file: its number on its device, or the path where it will stand. Empty for
-// what nobody can lose: streams, devices and pipes.
+// The unique identity of a file: device and file number, or the path of a new file. Empty for
+// streams, devices and pipes, which cannot be lost.
 std::string identity_of(const std::string& path) {
   if (path.empty() || path == "-") return "";
   if (const auto identity = platform::file_identity(path)) return *identity;
@@ -91,7 +91,7 @@ void RunFiles::check(bool json_to_out) const {
     }
     const auto [found, is_new] = outputs.emplace(identity, &output);
     if (is_new) continue;
-    // What is named later is as a rule what comes beside the take: a report, a plan, a card.
+    // The file named later is usually beside the take: a report, a plan, a card.
     const bool is_other = output.is_written;
     const File &lost = is_other ? *found->second : output,
                &kept = is_other ? output : *found->second;

@@ -8,7 +8,7 @@
 
 namespace kinemend::cli {
 
-/// All files that a run reads and writes. Each command that writes names them here before it works:
+/// All files that a run reads and writes. Each command that writes lists them here before it works:
 ///
 ///     RunFiles()
 ///         .reads("IN", input)
@@ -17,22 +17,23 @@ namespace kinemend::cli {
 ///         .writes("--report", report)
 ///         .check(arguments.flag("json"));
 ///
-/// `check` refuses an output that is the file of an input or of another output. Two paths are the
-/// same file where the system says so: symlinks, hard links and relative paths are followed, also
-/// for a file that does not exist yet. `--force` does not help: it replaces what an earlier run
-/// left. `-` is a standard stream, which can be read once and written once.
+/// `check` refuses an output that is the file of an input or of another output. Two paths name the
+/// same file if the system says so: symlinks, hard links and relative paths are followed, even for
+/// a file that does not exist yet. `--force` does not help, because it only replaces results of an
+/// earlier run. `-` is a standard stream, which can be read once and written once.
 class RunFiles {
  public:
-  /// `option`: what the user calls the file, "--gaps", or "IN" for an input without an option.
+  /// `option` is the user's name for the file: "--gaps", or "IN" for an input without an option.
   RunFiles& reads(std::string option, std::string path);
   RunFiles& reads(const std::string& option, const std::vector<std::string>& paths);
-  /// `replaces`: the input that this output may replace, such as the take that is cleaned in place.
+  /// `replaces` is the input that this output may replace, such as the take that is cleaned in
+  /// place.
   RunFiles& writes(std::string option, std::string path, std::string replaces = {});
-  /// What this run would write, but does not: no output may stand there (`--dry-run`).
+  /// A file that this run would write (`--dry-run`); no output may have the same path.
   RunFiles& would_write(std::string option, std::string path);
 
-  /// `json_to_out`: standard output holds JSON. Errors: `ErrorKind::usage` with both options and
-  /// the path.
+  /// `json_to_out` means that standard output holds JSON. Errors: `ErrorKind::usage` with both
+  /// options and the path.
   void check(bool json_to_out = false) const;
 
  private:
@@ -40,7 +41,7 @@ class RunFiles {
     std::string option;
     std::string path;
     std::string replaces{};
-    bool is_written = true;  // of outputs
+    bool is_written = true;  // applies to outputs
   };
 
   void check_streams(bool json_to_out) const;
@@ -49,8 +50,8 @@ class RunFiles {
   std::vector<File> inputs_, outputs_;
 };
 
-/// Whether both paths name one file, whether it exists yet or not. Streams (`-`) and empty paths
-/// are no files.
+/// Returns whether both paths name one file, even if it does not exist yet. Streams (`-`) and empty
+/// paths are not files.
 bool is_same_file(const std::string& a, const std::string& b);
 
 }  // namespace kinemend::cli

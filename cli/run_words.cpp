@@ -1,4 +1,4 @@
-// Parses the command line, runs the command, turns errors into one line and a code.
+// Parses the command line, runs the command, and converts errors to one line and an exit code.
 #include "run_words.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace kinemend::cli {
 
 namespace {
 
-/// An exception that is no `Error` is reported with the name of the take.
+/// Runs a command; an exception other than `Error` is reported with the name of the take.
 int run_command(const Command& command, const Arguments& arguments) {
   const std::string place =
       arguments.positionals.size() == 1 ? input_name(arguments.positionals[0]) + ": " : "";

@@ -1,4 +1,4 @@
-// The entry of the program, apart from its main, for whoever runs commands in memory.
+// Runs command lines in memory, without `main`.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace kinemend::cli {
 
-/// Runs the command that the words ask for, which are those behind the program's name. Errors are
-/// printed as one line. Returns the exit code.
+/// Runs the command given by the words after the program's name. Prints errors as one line. Returns
+/// the exit code.
 int run_words(const std::vector<std::string>& words);
 
 }  // namespace kinemend::cli

@@ -23,7 +23,7 @@ namespace kinemend::cli {
 
 namespace {
 
-// The option that says where frames come from; empty: from standard input.
+// The option that names the source of frames; empty: standard input.
 std::string source_option(const Arguments& arguments) {
   std::string given;
   for (const char* const option : {"tcp", "udp", "neuron", "vmc"}) {
@@ -68,7 +68,7 @@ LivePlan plan_of(const Arguments& arguments) {
 LiveOptions options_of(const Arguments& arguments, const Method& method) {
   LiveOptions options = live_options(arguments, method);
   options.neuron = arguments.given("neuron");
-  // Only datagrams overtake one another.
+  // Only datagrams can arrive out of order.
   options.datagrams = arguments.given("udp");
   if (options.datagrams)
     options.reorder_frames = static_cast<std::size_t>(arguments.whole("reorder"));
@@ -180,7 +180,7 @@ int run_stream(const Arguments& arguments) {
   try {
     run_live(plan);
   } catch (const ClosedPipe&) {
-    // The reader has closed the pipe, which is not an error.
+    // A closed pipe is not an error.
     if (status) status->stop();
     output->give_up();
   }

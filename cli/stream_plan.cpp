@@ -1,4 +1,4 @@
-// Chooses methods that run live, and turns the flags of a live session into its options.
+// Selects methods that run live, and converts the flags of a live session to options.
 #include "stream_plan.hpp"
 
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ bool has_live_form(const Method& method) {
                      [](const OptionSpec& spec) { return spec.name == "live"; });
 }
 
-// Whether a method runs live: as it is, with an option, or with its model.
+// Returns whether a method runs live by default, with an option, or with its model.
 bool may_run_live(const Method& method) {
   static const std::vector<LiveMethod> list = live_methods();
   return has_live_form(method) || std::any_of(list.begin(), list.end(), [&](const LiveMethod& m) {
@@ -37,7 +37,7 @@ bool may_run_live(const Method& method) {
          });
 }
 
-// For a learned method that has a live form. Errors: those of the model.
+// Makes a learned method with a live form. Errors: those of the model.
 std::unique_ptr<Cleaner> live_with_model(const Method& method, OptionValues values) {
   values.try_emplace("live", true);
   return make_cleaner(method.name, values);
@@ -136,7 +136,7 @@ LiveOptions live_options(const Arguments& arguments, const Method& method) {
   LiveOptions options;
   options.format = arguments.text("format") == "jsonl" ? LiveFormat::jsonl : LiveFormat::bvh;
   options.strength = arguments.number("strength");
-  // This method only repairs spikes, and a repair is made in full at any strength.
+  // This method only repairs spikes, and a repair is complete at any strength.
   if (method.name == "hampel" && options.strength > 0) options.strength = 1;
   options.frame_rate_hz = arguments.given("fps") ? arguments.number("fps") : 0;
   options.feet = arguments.flag("feet");

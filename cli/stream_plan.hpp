@@ -1,4 +1,4 @@
-// The part of `stream` that needs no socket: methods that run live, and the options of a session.
+// The part of `stream` without sockets: methods that run live, and the options of a session.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace kinemend::cli {
 
-/// A cleaner that runs live: an option without which the method does not is set, unless the user
+/// Makes a cleaner that runs live. An option that the method needs for this is set, unless the user
 /// has set it. Errors: `ErrorKind::usage` for a method that needs the whole take, with a list of
 /// the others; those of a model.
 std::unique_ptr<Cleaner> live_cleaner(const Method& method, OptionValues values);
@@ -19,7 +19,7 @@ std::unique_ptr<Cleaner> live_cleaner(const Method& method, OptionValues values)
 std::vector<Flag> live_flags();
 /// Options of the methods that may run live.
 std::vector<OptionGroup> live_groups();
-/// What `live_flags` say.
+/// Converts the values of `live_flags`.
 LiveOptions live_options(const Arguments& arguments, const Method& method);
 
 }  // namespace kinemend::cli

@@ -1,5 +1,5 @@
-// Names results after their inputs, leaves out what an earlier run wrote, and runs jobs on all
-// cores while it announces them in order.
+// Names results after their inputs, leaves out results of an earlier run, and runs jobs on all
+// cores while it reports them in order.
 #include "take_jobs.hpp"
 
 #include <fmt/format.h>
@@ -33,7 +33,7 @@ bool names_folder(const std::string& output) {
   return !output.empty() && (output.back() == '/' || fs::is_directory(output, ignored));
 }
 
-/// The folder that the options name; empty: none.
+/// The folder named by the options; empty if there is none.
 std::string folder_of(const Arguments& arguments, std::size_t inputs) {
   const std::string& command = arguments.command->name;
   std::string output = arguments.text("output"), folder = arguments.text("output_dir");
@@ -72,7 +72,7 @@ bool has_word(const std::string& input, const std::string& word) {
   return !word.empty() && fs::path(input).stem().extension() == "." + word;
 }
 
-/// Moves the inputs that an earlier run wrote from `inputs` to the ones that are left out.
+/// Removes the results of an earlier run from `inputs` and returns them.
 std::vector<std::string> take_earlier_results(std::vector<std::string>& inputs,
                                               const std::string& folder, const ResultNames& names,
                                               const std::string& from) {
@@ -94,7 +94,7 @@ std::vector<std::string> take_earlier_results(std::vector<std::string>& inputs,
   return skipped;
 }
 
-/// Refuses a folder for results that stands below a file, before work is spent.
+/// Refuses a result folder below a file, before work is spent.
 void check_can_make(const fs::path& folder) {
   std::error_code error;
   for (fs::path path = folder; !path.empty(); path = path.parent_path()) {
@@ -106,7 +106,7 @@ void check_can_make(const fs::path& folder) {
   }
 }
 
-/// Says of each take what happened, in the order of the command line, as soon as it is its turn.
+/// Reports on each take in the order of the command line, as early as possible.
 class Announcer {
  public:
   Announcer(const TakeJobs& takes, const TakeRun& run)
@@ -138,7 +138,7 @@ class Announcer {
     if (outcomes_.size() > 1 && failed > 0)
       say_error(fmt::format("{} of {} failed", failed, counted(outcomes_.size(), "take")));
     if (run_.json) write_out(report_document(run_.command, files));
-    // Bad input leaves nothing behind.
+    // If every input fails, no report is written.
     ReportFiles written = run_.reports;
     if (failed == outcomes_.size())
       std::erase_if(written.paths, [&](const auto& path) { return !has_report || path != "-"; });
@@ -162,7 +162,7 @@ class Announcer {
     try {
       write_out(outcome.text);
     } catch (const ClosedPipe&) {
-      // The takes are still to be written.
+      // The remaining takes are still written.
       stdout_is_closed_ = true;
     }
   }
@@ -239,7 +239,7 @@ void refuse_folder(const std::string& input, std::string_view what, std::string_
 
 void check_result(const TakeJob& job, const TakeJobs& takes, bool force) {
   const bool may_replace = force || job.may_replace;
-  // The folder of several results is made once there is one to write.
+  // The folder of several results is created when the first one is written.
   if (takes.folder.empty() && job.row_name.empty()) return check_free(job.output, may_replace);
   check_not_there(job.output, may_replace);
 }
@@ -294,7 +294,7 @@ int run_take_jobs(const TakeJobs& takes, const TakeRun& run,
     announcer.take(0, std::move(outcome));
     return announcer.finish();
   }
-  // Each worker takes the next job in order, so that the first takes are announced first.
+  // Workers take jobs in order, so that the first takes are reported first.
   std::atomic<std::size_t> next{0};
   on_every_thread([&] {
     for (std::size_t i = next++; i < takes.jobs.size(); i = next++)

@@ -1,4 +1,4 @@
-// Chooses output names by the format of the input, writes takes without overwriting, and words
+// Chooses output names by the format of the input, writes takes without overwriting, and makes
 // warnings, limits and shared flags.
 #include "takes.hpp"
 
@@ -42,7 +42,7 @@ const Format* format_named(std::string_view name) {
   return nullptr;
 }
 
-// The format of what a file holds; nullptr where nothing tells.
+// The format of a file's content; nullptr if unknown.
 const Format* format_of_file(const std::string& path, std::string_view from) {
   if (!from.empty()) return format_named(from);
   std::error_code ignored;
@@ -59,14 +59,14 @@ bool is_written(const Format& format) {
   return format.write != nullptr || format.write_markers != nullptr;
 }
 
-// With its dot; empty for a name without an ending, also where the name ends in a dot.
+// The extension with its dot; empty if there is none or the name ends in a dot.
 std::string ending_of(const std::string& output) {
   if (is_stream(output)) return "";
   const std::string ending = fs::path(output).extension().string();
   return ending == "." ? "" : ending;
 }
 
-// The ending for a result of `input` that would be called `name`.
+// The right extension for a result of `input` named `name`.
 std::string right_ending(const std::string& name, const std::string& input, std::string_view from) {
   const Format* const held = format_of_file(input, from);
   if (held == nullptr || !is_written(*held) || held == format_of_path(name)) return ending_of(name);
@@ -177,8 +177,8 @@ bool holds(const std::filesystem::path& path, std::string_view bytes) {
   return std::filesystem::is_regular_file(path, ignored) && read_file(path) == bytes;
 }
 
-// Takes that are written at the same time may share a skeleton, which the second one finds there.
-// Pictures of a scene may stand in a folder below.
+// Takes written at the same time may share a skeleton, so it may exist already. Pictures of a scene
+// may be in a subfolder.
 void write_side_file(const SideFile& file, bool force) {
   std::error_code ignored;
   if (file.path.has_parent_path()) fs::create_directories(file.path.parent_path(), ignored);
@@ -247,7 +247,7 @@ std::vector<std::string> loss_lines(const std::string& name, const Take& take,
   const Diagnostics losses = lost_in_writing(take, format);
   for (const Diagnostic& loss : losses.entries()) {
     lines.push_back(name + ": " + diagnostic_text(format, loss));
-    // Another encoding of the numbers is not a loss.
+    // Another number encoding is not a loss.
     if (strict && loss.name != "encoding_changed")
       throw Error(ErrorKind::quality_limit, lines.back() + " (an error under --strict)");
   }

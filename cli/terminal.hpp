@@ -31,7 +31,7 @@ void say(std::string_view text);
 void say_warning(std::string_view text);
 void say_error(std::string_view text);
 
-/// Colours for a standard stream, if it is a terminal and NO_COLOR is not set.
+/// Colours for a standard stream that is a terminal, unless NO_COLOR is set.
 class Colours {
  public:
   static Colours of_out();
@@ -44,17 +44,16 @@ class Colours {
   bool on_;
 };
 
-/// A progress bar on standard error, if that is a terminal. Thread-safe.
+/// A progress bar on standard error if that is a terminal. Thread-safe.
 class ProgressBar {
  public:
-  /// `work`: total amount of work, in any unit; 0: all takes count the same.
+  /// `work` is the total amount of work in any unit; 0 gives all takes the same weight.
   explicit ProgressBar(std::size_t total, double work = 0);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// One more take is done, with this share of the work; `is_new` is false if it had been done
-  /// before.
+  /// Counts one more take with this share of the work; `is_new` is false if an earlier run did it.
   void step(double work = 1, bool is_new = true);
   /// Erases the bar so that other text can be printed; `step` draws it again.
   void clear();
@@ -65,7 +64,7 @@ class ProgressBar {
   std::mutex mutex_;
   std::size_t total_;
   std::size_t done_ = 0;
-  double work_, work_done_ = 0;  ///< work that had been done before is subtracted from `work_`
+  double work_, work_done_ = 0;  ///< work of earlier runs is subtracted from `work_`
   std::chrono::steady_clock::time_point start_;
   bool on_;
 };
@@ -91,8 +90,8 @@ class ProgressLine {
   bool on_;
 };
 
-/// A `ProgressLine` that appears only if work takes longer than a second, and is erased when the
-/// object is destroyed. Thread-safe.
+/// A `ProgressLine` that appears only if work takes longer than a second, and is erased by the
+/// destructor. Thread-safe.
 class LateProgressLine {
  public:
   explicit LateProgressLine(bool wanted);

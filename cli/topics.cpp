@@ -1,4 +1,4 @@
-// Holds the text of each topic; formats, presets and exit codes come from their tables.
+// The text of each topic; formats, presets and exit codes come from their tables.
 #include "topics.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// kinemend train: learns a model from clean takes.
+// kinemend train: trains a model on clean takes.
 
 #include "kinemend/experimental/train.hpp"
 
@@ -41,10 +41,10 @@ struct Training {
   TrainSettings settings;
   std::vector<std::string> takes;
   ReadOptions reading;
-  std::string fill;  ///< a method of `fill_methods()`; empty: none
+  std::string fill;  ///< a method of `fill_methods()`; empty: no filling
   std::string output, card;
-  std::string checkpoint;  ///< the file; empty: none, as the model goes into no file
-  bool kept = false;       ///< this training has written it
+  std::string checkpoint;  ///< its path; empty: none, as the model goes to no file
+  bool kept = false;       ///< this training has written the checkpoint
   bool force = false, json = false, quiet = false, skip_unreadable = false;
 };
 
@@ -54,7 +54,7 @@ Take read_training_take(const Training& training, const std::string& path) {
   return std::move(read.take);
 }
 
-/// Empty if it cannot be read and such takes are skipped, with a warning.
+/// Returns nullopt, with a warning, for an unreadable take if those are skipped.
 std::optional<Take> training_take(const Training& training, const std::string& path) {
   std::optional<Take> take;
   try {
@@ -104,7 +104,7 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
-/// The command for the card, without options that have no influence on the model.
+/// The command for the card, without options that do not affect the model.
 std::string command_text(const Arguments& arguments) {
   static constexpr std::array<std::string_view, 10> aside = {
       "force", "json", "quiet", "card", "title", "data", "licence", "figures", "jobs", "resume"};
@@ -143,7 +143,7 @@ std::vector<std::string> training_inputs_of(const Arguments& arguments) {
   return takes_below(inputs);
 }
 
-/// Its file, and with --resume its bytes.
+/// Finds the checkpoint file and, with --resume, reads it.
 void find_checkpoint(const Arguments& arguments, Training& training) {
   const bool goes_on = arguments.flag("resume");
   std::error_code ignored;
@@ -276,8 +276,8 @@ int run_train(const Arguments& arguments) {
     say_stopped(training, arguments);
     platform::StopRequest::obey();
   } catch (const Error& error) {
-    // Takes and options that give no model need no checkpoint. A model that could not be written
-    // does.
+    // Takes and options that cannot give a model need no checkpoint; a model that could not be
+    // written does.
     if (error.kind() == ErrorKind::usage && training.kept) remove_checkpoint(training);
     throw;
   }

@@ -1,4 +1,4 @@
-// kinemend view: the page of a take, served to a browser of this machine, with controls.
+// kinemend view: serves the page of a take with controls to a browser on this machine.
 
 #include <fmt/format.h>
 
@@ -20,8 +20,8 @@ namespace kinemend::cli {
 
 namespace {
 
-/// The page runs other commands on the file, whose words begin with its name: one that begins with
-/// a dash must not be read as an option.
+/// The page runs other commands whose words begin with the file name, so a name that begins with a
+/// dash must not look like an option.
 std::string named_as_file(const std::string& input) {
   if (is_stream(input))
     throw Error(ErrorKind::usage, "view: the take is read several times, so it must be a file");
@@ -43,7 +43,7 @@ ViewFiles files_of(const Arguments& arguments) {
   files.gaps = given("gaps", files.gaps);
   files.with_gaps = arguments.given("gaps");
   files.plan = given("plan", files.plan);
-  // One file where --output is given.
+  // With --output, both names are equal.
   for (const std::string& output : std::set<std::string>{files.cleaned, files.filled}) {
     RunFiles()
         .reads("TAKE", files.input)
@@ -75,7 +75,7 @@ int run_view(const Arguments& arguments) {
     warn_of_repairs(read.take.source, read.diagnostics);
     if (input == files.input) files.of_joints = read.take.has_joints();
   }
-  // A missing file of gaps is an error now, not only once the page is open.
+  // A missing file of gaps is an error at once, not only after the page is open.
   if (files.with_gaps) read_file(files.gaps);
   ViewSession session(files);
   serve_view(

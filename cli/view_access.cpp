@@ -1,4 +1,4 @@
-// Compares host, origin, token and content type of a request, and draws tokens.
+// Checks host, origin, token and content type of a request, and generates tokens.
 #include "view_access.hpp"
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@ namespace kinemend::cli {
 
 namespace {
 
-// The time does not depend on where they differ, so that it reveals nothing of the token.
+// Takes the same time wherever the texts differ, so that it reveals nothing of the token.
 bool are_equal(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned difference = 0;
@@ -22,14 +22,14 @@ bool are_equal(std::string_view a, std::string_view b) {
 
 int ViewAccess::refusal(const ViewRequest& request) const {
   constexpr int forbidden = 403, wrong_type = 415;
-  // Another page may use a host name that resolves to this machine: only the number is accepted.
+  // Another page may use a host name that resolves to this machine, so only the number is accepted.
   if (request.host != fmt::format("127.0.0.1:{}", port_)) return forbidden;
   if (!request.origin.empty() && request.origin != fmt::format("http://127.0.0.1:{}", port_))
     return forbidden;
   if (!request.site.empty() && request.site != "same-origin" && request.site != "none")
     return forbidden;
   if (action(request.path).data() == nullptr) return forbidden;
-  // A form of another page cannot send this type without the browser asking first.
+  // A form of another page cannot send this type unless the browser asks first.
   if (request.method == "POST" && request.type != "application/json") return wrong_type;
   return 0;
 }

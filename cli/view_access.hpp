@@ -1,4 +1,4 @@
-// Decides which requests `view` answers: those of its own page, which has the printed address.
+// Decides which requests `view` answers: only those of its own page at the printed address.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace kinemend::cli {
 
-/// The parts of a request's head that the decision needs.
+/// The parts of a request's head used for the decision.
 struct ViewRequest {
   std::string method;  ///< "GET", "POST"
   std::string path;    ///< "/TOKEN/run", without a query
@@ -18,13 +18,13 @@ struct ViewRequest {
 
 class ViewAccess {
  public:
-  /// `token`: must be part of the path; `port`: of the server on 127.0.0.1.
+  /// `token` must be part of the path; `port` is that of the server on 127.0.0.1.
   ViewAccess(std::string token, int port) : token_(std::move(token)), port_(port) {}
 
-  /// 0 for a request that is answered, else the status that refuses it: 403 for another host or
-  /// origin and for a missing token, 415 for a body of another type than JSON.
+  /// 0 for an accepted request, else the status that refuses it: 403 for another host or origin and
+  /// for a missing token, 415 for a body other than JSON.
   int refusal(const ViewRequest& request) const;
-  /// What the path asks for: "" for the page, "run"; null data for a path without the token.
+  /// The action of the path: "" for the page, "run"; null data for a path without the token.
   std::string_view action(std::string_view path) const;
   std::string address() const;
 

@@ -1,4 +1,4 @@
-// Takes the controls of the page from the tables of flags, methods and presets.
+// Builds the controls of the page from the tables of flags, methods and presets.
 #include "view_controls.hpp"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ Settings preset_settings(const Preset& preset) {
   return parse_settings(*find_command("clean"), preset.text, fmt::format("preset {}", preset.name));
 }
 
-/// Flags that the page may set: none that reads or writes a file.
+/// Flags that the page may set; none of them reads or writes a file.
 constexpr std::array page_cleaning_flags = {
     "method", "source",   "strength", "max_change_deg", "max_change",
     "fill",   "fill_all", "feet",     "fix_swaps",      "peak_loss_limit",
@@ -31,7 +31,7 @@ constexpr std::array page_cleaning_flags = {
 constexpr std::array page_filling_flags = {"method", "joints",      "range",
                                            "donor",  "longest_gap", "fill_all"};
 
-/// The method that these flags choose: named, of the preset, or the default.
+/// The method that these flags select: the named one, that of the preset, or the default.
 const Method* method_of(const std::vector<AskedFlag>& flags) {
   const auto text = [&](std::string_view name) {
     const auto found = std::find_if(flags.begin(), flags.end(),
@@ -55,7 +55,7 @@ bool is_option(const Method* method, std::string_view name) {
          });
 }
 
-// With the kind of its control: "switch", "choice" (of names, or any text), "whole" or "number".
+// Adds the kind of control: "switch", "choice" (of names, or any text), "whole" or "number".
 Json control_json(const OptionSpec& spec) {
   Json control = json_of(spec);
   control["kind"] = std::holds_alternative<bool>(spec.default_value)           ? "switch"
@@ -90,7 +90,7 @@ Json methods_json() {
   return list;
 }
 
-// The values that each preset sets, so that the page can show it in its controls.
+// The values that each preset sets, for the controls of the page.
 Json presets_json() {
   Json list = Json::array();
   for (const Preset& preset : presets()) {
@@ -108,7 +108,7 @@ Json presets_json() {
 Json fill_methods_json() {
   Json list = Json::array();
   for (const FillMethod& method : fill_methods()) {
-    if (method.learned) continue;  // the page asks for no model
+    if (method.learned) continue;  // the page cannot choose a model
     list.push_back({{"name", method.name},
                     {"summary", method.summary},
                     {"joints", method.joints},

@@ -1,4 +1,4 @@
-// The controls of the page of `view`: what they may set, with the help, ranges and defaults of the
+// The controls of the `view` page: their settings, with the help, ranges and defaults of the
 // command line.
 #pragma once
 
@@ -10,12 +10,12 @@
 
 namespace kinemend::cli {
 
-/// Flags of `clean` and `fill`, methods with their options, and presets, as web/src/served.ts reads
-/// them.
+/// Flags of `clean` and `fill`, methods with their options, and presets, in the form that
+/// web/src/served.ts reads.
 Json view_controls();
-/// Why methods cannot clean this take, by name; those that can are not listed.
+/// Why each method cannot clean this take, by name; suitable methods are not listed.
 Json why_not_methods(const Take& take);
-/// Refuses a flag that the page may not set: none that reads or writes a file. Errors:
+/// Refuses a flag that the page may not set, such as one that reads or writes a file. Errors:
 /// `ErrorKind::usage`.
 void check_view_flag(const ViewAsked& asked, const std::string& name);
 

@@ -1,5 +1,5 @@
-// Turns requests into command lines, runs them in turn, and answers with pages, curves, progress or
-// saved files.
+// Converts requests to command lines, runs them in turn, and answers with pages, curves, progress
+// or saved files.
 #include "view_session.hpp"
 
 #include <fmt/format.h>
@@ -55,7 +55,7 @@ ViewReply failure(int status, std::string_view words) {
   return {status, "application/json", json_text({{"error", words}})};
 }
 
-/// Without flags that begin so, and what they say.
+/// Removes the flags that begin so, with their values.
 std::vector<std::string> without(std::vector<std::string> words,
                                  std::initializer_list<std::string_view> flags) {
   std::erase_if(words, [&](const std::string& word) {
@@ -80,9 +80,9 @@ Json session_json(const ViewFiles& files) {
           {"controls", view_controls()}};
 }
 
-// Of one axis, frame by frame; null where the sample stays missing.
+// The values of one axis by frame; null where the sample stays missing.
 Json values_json(const std::vector<std::optional<Vec3>>& values, std::size_t axis) {
-  // Curves are drawn, not measured.
+  // Curves are only drawn, so fewer digits are enough.
   constexpr double finest = 1e-5;
   Json list = Json::array();
   for (const std::optional<Vec3>& value : values) {
@@ -323,9 +323,9 @@ ViewReply ViewSession::save(const ViewAsked& asked) {
   const std::string output = output_of(asked);
   const std::optional<std::string>& plan = fills ? asked.plan : asked.contacts;
   const std::string side = fills ? files_.plan : files_.contacts;
-  // An input is never replaced, whatever the person confirms.
+  // An input is never replaced, whatever the user confirms.
   RunFiles().reads("TAKE", inputs()).writes("--output", output).check();
-  // All files are looked at before the first is written.
+  // All files are checked before the first is written.
   Json existing = Json::array();
   const auto look_at = [&](const std::string& path) {
     std::error_code ignored;

@@ -1,4 +1,4 @@
-// Counts the requests of each tab; a run whose count is no longer the latest stops.
+// Counts the requests of each tab; a run that is no longer the latest one stops.
 #include "view_turns.hpp"
 
 #include "kinemend/error.hpp"
@@ -16,7 +16,7 @@ ViewTurns::Turn ViewTurns::begin(const std::string& tab, ViewTurn kind) {
   turn.latest_ = kind == ViewTurn::run ? asking.run : asking.curves;
   turn.ended_ = ended_;
   turn.own_ = ++*turn.latest_;
-  // Curves of a gap are those of the run that they were asked for beside.
+  // A new run also makes the curves of its tab outdated.
   if (kind == ViewTurn::run) ++*asking.curves;
   return turn;
 }

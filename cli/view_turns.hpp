@@ -11,7 +11,7 @@
 
 namespace kinemend::cli {
 
-/// A run cleans or fills the take; curves compare the methods over one gap of it.
+/// A run cleans or fills the take; curves compare the methods for one gap of it.
 enum class ViewTurn { run, curves };
 
 class ViewTurns {
@@ -22,9 +22,9 @@ class ViewTurns {
   /// One run, or one request for curves, of a tab.
   class Turn {
    public:
-    /// True once the same tab has asked again or was closed, or the program ends.
+    /// True once the same tab has sent a newer request or was closed, or the program ends.
     bool is_overtaken() const { return *latest_ != own_ || *ended_; }
-    /// Errors: an `Error` that says `overtaken`.
+    /// Errors: an `Error` with the text `overtaken`.
     void check() const;
 
    private:
@@ -34,8 +34,8 @@ class ViewTurns {
     std::uint64_t own_ = 0;
   };
 
-  /// `tab`: the name that the page gives itself. A run replaces the run and the curves before it,
-  /// curves replace curves. Other tabs are not affected.
+  /// `tab` is the page's own name. A run replaces earlier runs and curves of the tab; curves
+  /// replace curves. Other tabs are not affected.
   Turn begin(const std::string& tab, ViewTurn kind);
   /// The tab was closed.
   void leave(const std::string& tab);

@@ -1,5 +1,5 @@
-// The bytes are a skeleton and its motion, which begins at `:FULLY-SPECIFIED`; without one that
-// could be ASF, the skeleton is a fixed one. Read, written, changed and written again.
+// The bytes are a skeleton and its motion, which begins at `:FULLY-SPECIFIED`; without a possible
+// ASF part, a fixed skeleton is used. The take is read, written, changed and written again.
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -27,7 +27,7 @@ const std::string fixed_skeleton =
     ":hierarchy begin\nroot hip spine\nhip thigh\nthigh shin\nshin foot\nspine arm slider neck\n"
     "slider hand\nend\n";
 
-// `is_mended`: whether the file was cut off, numbers were run together, or one was not finite.
+// `is_mended` is set if the file was cut off, numbers were joined, or one was not finite.
 Take read(const std::string& amc, const std::string& asf, bool* is_mended = nullptr) {
   TakeResult result = read_amc(amc, "fuzz.amc", asf, "fuzz.asf", {});
   if (is_mended != nullptr) {
@@ -54,7 +54,7 @@ bool is_sensible(const Take& clip) {
 void check_same(const Take& clip, const Take& again) {
   check(clip.frame_count() == again.frame_count());
   check(clip.joint_count() == again.joint_count());
-  // A sample that is held follows what was changed before it.
+  // A held sample follows a change of the sample before it.
   if (!is_sensible(clip) || !clip.observed.empty()) return;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     for (std::size_t j = 0; j < clip.joint_count(); ++j) {
@@ -78,8 +78,8 @@ void change(Take& clip, std::uint64_t seed) {
   }
 }
 
-// What is no finite number, half a frame at the end, or two numbers without a blank between them is
-// never written: once it is gone, the text stays as it is.
+// NaN, infinity, a partial last frame, and two numbers without a blank are never written; once they
+// are gone, the text does not change.
 void check_unchanged(const Take& clip, bool is_mended, const std::string& amc,
                      const std::string& asf) {
   const std::string written = write_take(clip, "amc");
@@ -92,7 +92,7 @@ void check_unchanged(const Take& clip, bool is_mended, const std::string& amc,
   check(write_take(finite, "amc") == written);
 }
 
-// Of a pair that was read: nothing of what is written from it may be refused.
+// Every file written from a readable pair must be readable again.
 void check_written(Take clip, bool is_mended, const std::string& amc, const std::string& asf,
                    std::uint64_t seed) {
   check_unchanged(clip, is_mended, amc, asf);

@@ -1,6 +1,5 @@
-// The bytes are a take; their hash chooses what is changed in it. What is written must read back as
-// the clip that was written, whatever the layout, and samples that were not changed must keep their
-// value exactly.
+// The bytes are a take, and their hash selects changes. A written file must read back as the
+// written clip in any layout, and unchanged samples must keep their exact value.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -15,13 +14,13 @@ namespace {
 
 using namespace kinemend;
 
-// Angles and positions of a size for which four decimals say enough.
+// Positions small enough for four decimals.
 bool is_sensible(const Take& clip) {
   const auto sensible = [](Vec3 v) { return norm(v) < 1e6; };
   return std::all_of(clip.positions.begin(), clip.positions.end(), sensible);
 }
 
-// `source`: unless null, what keeps its exact value where the clip has it.
+// `source`, unless null, holds values that the clip must keep exactly where it is equal.
 void check_round_trip(const Take& clip, const Take* source, const std::string& text) {
   const Take again = read_joints(text, "again.bvh").take;
   again.validate();

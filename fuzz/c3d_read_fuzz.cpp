@@ -1,4 +1,4 @@
-// Reads any bytes as C3D and checks the law of readers.
+// Reads any bytes as C3D and checks the requirements on readers.
 #include "read_law.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

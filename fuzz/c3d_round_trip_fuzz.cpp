@@ -1,6 +1,6 @@
-// The bytes are a take; their hash chooses what is changed in it. What is written must read back as
-// the clip that was written, whether in place or as a new file, and samples that were not changed
-// must keep their value: exactly, unless reals take the place of integers.
+// The bytes are a take, and their hash selects changes. A written file must read back as the
+// written clip, in place or as a new file. Unchanged samples must keep their value: exactly, unless
+// reals replace integers.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -21,7 +21,7 @@ Take read(const std::string& bytes) {
   return read_take(bytes, "fuzz.c3d", options).take;
 }
 
-// Positions of a size at which a real holds what is added to them, and nowhere zeros that a reader
+// Positions small enough for a real to hold the added changes, and without zeros that a reader
 // could take for missing.
 bool is_sensible(const Take& clip) {
   for (std::size_t i = 0; i < clip.positions.size(); ++i) {
@@ -31,7 +31,7 @@ bool is_sensible(const Take& clip) {
   return true;
 }
 
-// Between the positions that a file can hold; 0 for reals.
+// The step between positions that a file can represent; 0 for reals.
 double step_of(const Take& clip) {
   const std::string& encoding = clip.source.facts.at(0).text;
   const std::size_t at = encoding.find("steps of ");
@@ -48,7 +48,8 @@ void change(Take& clip, Random& random) {
   }
 }
 
-// `source`: unless null, what keeps its value where the clip has it; positions lie `step` apart.
+// `source`, unless null, holds values that the clip must keep where it is equal; positions are
+// `step` apart.
 void check_round_trip(const Take& clip, const Take* source, double step) {
   const Take again = read(write_take(clip, "c3d"));
   again.validate();
@@ -59,7 +60,7 @@ void check_round_trip(const Take& clip, const Take* source, double step) {
     if (clip.observed[i] == 0) continue;
     const Vec3 now = clip.positions[i];
     const bool kept = source != nullptr && source->observed[i] != 0 && now == source->positions[i];
-    // A new file holds reals, which need not hold the steps of a file of integers exactly.
+    // A new file holds reals, which may not represent the steps of an integer file exactly.
     const double rounding = step_of(again) == step ? 0 : 1e-7 * norm(now);
     check(norm(again.positions[i] - now) <= (kept ? rounding : step + 1e-3));
   }
@@ -89,7 +90,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     clip.events.push_back({"again", "", 2});
     check_round_trip(clip, nullptr, 0);
   } catch (const Error& error) {
-    // A file's parameters may be too many for a new one.
+    // A new file may not hold all parameters of the old one.
     check(error.kind() == ErrorKind::usage);
   }
   return 0;

@@ -1,5 +1,5 @@
-// Any bytes as a configuration file of `clean`: settings that are printed and read back as the same
-// settings, or an error of one line that names the file.
+// Reads any bytes as a configuration file of `clean`: settings that are printed and read back as
+// equal settings, or a one-line error that names the file.
 #include "cli/config.hpp"
 #include "laws.hpp"
 

@@ -1,5 +1,5 @@
-// Any bytes as a file of contacts: contacts of the take, in order, that are written back as the
-// same contacts and can be held, or an error of one line that names the file.
+// Reads any bytes as a file of contacts: sorted contacts of the take that are written back as equal
+// contacts and can be held, or a one-line error that names the file.
 #include <algorithm>
 #include <cmath>
 #include <vector>

@@ -1,5 +1,5 @@
-// Any bytes as a side file of gaps: gaps that are written back as the same gaps and mark samples of
-// a take, or an error of one line that names the file.
+// Reads any bytes as a side file of gaps: gaps that are written back as equal gaps and mark samples
+// of a take, or a one-line error that names the file.
 #include <span>
 #include <vector>
 

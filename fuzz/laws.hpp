@@ -1,4 +1,5 @@
-// Checks that every fuzz target makes: a law holds, and a refusal is one line that names the file.
+// Checks shared by all fuzz targets: a requirement holds, and a refusal is one line that names the
+// file.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 
 #include "kinemend/error.hpp"
 
-/// Ends the program where a law is broken, so that libFuzzer keeps the input.
+/// Ends the program if a requirement is violated, so that libFuzzer keeps the input.
 inline void check(bool holds) {
   if (!holds) std::abort();
 }
@@ -18,7 +19,7 @@ inline std::string text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// A refusal has one of these kinds, names the file and is one line that a terminal can show.
+/// A refusal must have one of these kinds, name the file, and be one printable line.
 inline void check_refusal(const kinemend::Error& error,
                           std::initializer_list<kinemend::ErrorKind> kinds,
                           std::string_view begins = "fuzz") {

@@ -1,6 +1,7 @@
-// Any bytes, in pieces of any size: frames that add up and the same text however the bytes arrive,
-// and never an error. The first byte chooses how lines are read and how large the pieces are. As
-// datagrams, which end at each zero byte: the same, however often the sender goes and frames wait.
+// Feeds any bytes in pieces of any size: frame counts are consistent, the text does not depend on
+// the pieces, and there are no errors. The first byte selects how lines are read and the size of
+// pieces. The same holds for datagrams, which end at each zero byte, however often the sender
+// disconnects and frames wait.
 #include <cstddef>
 #include <string_view>
 
@@ -73,7 +74,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Result whole = in_pieces(bytes, data[0], bytes.size() + 1);
   check(in_pieces(bytes, data[0], 1 + data[0] / 16).text == whole.text);
   const Result datagrams = as_datagrams(bytes, data[0]);
-  // Garbage among datagrams is counted, and only a missing number is a lost frame.
+  // Invalid datagrams are counted, and only a missing number is a lost frame.
   if ((data[0] & 1) == 0) check(datagrams.counts.made_up == 0);
   check(datagrams.counts.reordered <= datagrams.counts.frames_in);
   return 0;

@@ -1,5 +1,5 @@
-// Any bytes as a model: a body that keeps the rules, and a method that cleans a take with finite
-// numbers, or errors of one line.
+// Reads any bytes as a model: a valid body and a method that cleans a take with finite numbers, or
+// one-line errors.
 #include <cmath>
 #include <memory>
 

@@ -1,5 +1,5 @@
-// Any bytes: a model whose body keeps the rules and that is written back as the same model, or an
-// error of one line that names the file.
+// Reads any bytes as a model: it has a valid body and is written back as an equal model, or gives a
+// one-line error that names the file.
 #include <cstdint>
 #include <string>
 

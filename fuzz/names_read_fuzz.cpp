@@ -1,5 +1,4 @@
-// Any bytes as a file of names (`--map`): names that a take can be known by, or an error of one
-// line.
+// Reads any bytes as a file of names (`--map`): names that fit a take, or a one-line error.
 #include <vector>
 
 #include "kinemend/experimental/body.hpp"

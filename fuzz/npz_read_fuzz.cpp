@@ -4,7 +4,7 @@
 
 namespace {
 
-// The same archive with checksums that match, which the fuzzer would not find.
+// The same archive with correct checksums, which the fuzzer would not find.
 std::string with_checksums(const std::string& bytes) {
   using namespace kinemend;
   std::vector<ZipContent> contents;
@@ -24,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     bytes = with_checksums(bytes);
   } catch (const kinemend::Error&) {
-    // No archive: the reader refuses it.
+    // The bytes are not an archive, so the reader refuses them.
   }
   return check_read_law(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), "npz");
 }

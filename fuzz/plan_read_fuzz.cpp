@@ -1,6 +1,5 @@
-// Any bytes as a gap plan, of joints and of markers: rows that name gaps of the take and are
-// written back as the same plan, as a table and as JSON, or an error of one line that names the
-// file.
+// Reads any bytes as a gap plan of joints and of markers: rows that name gaps of the take and are
+// written back as the same plan, as a table and as JSON, or a one-line error that names the file.
 #include <vector>
 
 #include "kinemend/experimental/gap_plan.hpp"
@@ -35,7 +34,7 @@ void check_plan(const std::string& text, const Take& clip) {
     check_refusal(error, {ErrorKind::unreadable_input});
     return;
   }
-  // JSON replaces bytes that are not UTF-8, once.
+  // JSON replaces bytes that are not UTF-8 the first time only.
   const std::string json = plan_json(clip, plan);
   check(plan_json(clip, parse_plan(json, "again", clip)) == json);
   check_same(plan, parse_plan(plan_csv(clip, plan), "again", clip));

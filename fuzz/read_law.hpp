@@ -1,4 +1,4 @@
-// The law that every reader of takes keeps for any bytes.
+// The requirements on every reader of takes, for any bytes.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 #include "kinemend/io.hpp"
 #include "laws.hpp"
 
-/// Any bytes give a take that keeps the rules and is written back to the byte, or an error of one
-/// line that names the file. A take that the reader mended may be written with other bytes, which
-/// are then written back to the byte.
+/// Any bytes give a valid take that is written back byte for byte, or a one-line error that names
+/// the file. A take that the reader repaired may be written with other bytes, which are then
+/// written back byte for byte.
 inline int check_read_law(const std::uint8_t* data, std::size_t size, std::string_view format) {
   using namespace kinemend;
   const std::string bytes = text_of(data, size);

@@ -1,12 +1,12 @@
-// Any bytes as a request of the page of `view`: a request, or a refusal of one line. JSON that is
-// nested deeply is refused before anything walks through it.
+// Reads any bytes as a request of the page of `view`: a request, or a one-line refusal. Deeply
+// nested JSON is refused before it is traversed.
 #include "cli/view_asked.hpp"
 #include "laws.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace kinemend;
   const std::string text = text_of(data, size);
-  // Short inputs reach a depth that only long ones have: each `~` opens a thousand levels.
+  // Each `~` opens a thousand levels, so that short inputs can be nested deeply.
   std::string body;
   for (const char c : text) body += c == '~' ? std::string(1000, '[') : std::string(1, c);
   try {

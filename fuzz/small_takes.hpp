@@ -7,7 +7,7 @@
 #include "kinemend/io.hpp"
 #include "kinemend/take.hpp"
 
-/// Two legs and a spine, standing and walking on the spot, 24 frames at 60 Hz.
+/// Two legs and a spine that stand and walk on the spot, 24 frames at 60 Hz.
 inline kinemend::Take small_clip() {
   std::string text =
       "HIERARCHY\nROOT Hips\n{\n OFFSET 0 0 0\n CHANNELS 6 Xposition Yposition "

@@ -1,5 +1,5 @@
-// Any bytes: tensors that are written back as the same tensors, and then always as the same bytes,
-// or an error of one line that names the file.
+// Reads any bytes as tensors: they are written back as equal tensors, and from then on as the same
+// bytes, or give a one-line error that names the file.
 #include <cstdint>
 #include <string>
 

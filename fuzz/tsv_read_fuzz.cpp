@@ -1,4 +1,4 @@
-// Reads any bytes as a TSV table and checks the law of readers.
+// Reads any bytes as a TSV table and checks the requirements on readers.
 #include "read_law.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

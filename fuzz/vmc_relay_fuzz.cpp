@@ -1,5 +1,5 @@
-// Any datagrams at any times: as many leave as came, in their order and with their sizes; what is
-// not OSC leaves as it came, and what waits is bounded. The first byte chooses the bones, then each
+// Relays any datagrams at any times: the output has the same number, order and sizes; bytes that
+// are not OSC pass unchanged, and waiting data is bounded. The first byte selects the bones; each
 // datagram has a byte for the time before it and two for its size.
 #include <algorithm>
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Bytes on the heap, for laws about memory. `counting_allocation.hpp` counts them in the programs
-// that include it once; they stay zero where a sanitizer counts itself.
+// Counts bytes on the heap, for tests of memory use. A program counts if one of its sources
+// includes `counting_allocation.hpp`; the counts stay zero under a sanitizer with its own counting.
 #pragma once
 
 #include <atomic>
@@ -8,9 +8,9 @@
 namespace kinemend::test {
 
 inline std::atomic<std::size_t> memory_now{0}, memory_peak{0};
-inline std::atomic<std::size_t> memory_taken{0};  ///< ever, freed or not
+inline std::atomic<std::size_t> memory_taken{0};  ///< total ever allocated, freed or not
 
-/// Most memory that `action` held at once beyond what was held before.
+/// Peak memory of `action` beyond the amount held before it.
 template <class Action>
 std::size_t peak_memory(Action&& action) {
   const std::size_t before = memory_now;

@@ -1,5 +1,5 @@
-// Replaces the allocation functions of the C library, on which all others stand, by ones that
-// count: for one source of a program.
+// Replaces the allocation functions of the C library, which all others use, by counting ones.
+// Exactly one source of a program includes this file.
 #pragma once
 
 #include <cerrno>

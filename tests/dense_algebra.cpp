@@ -1,4 +1,4 @@
-// Calls Eigen's dense solvers and decompositions, so that their templates are compiled once.
+// Instantiates Eigen's dense solvers and decompositions once.
 #include "dense_algebra.hpp"
 
 #include <Eigen/Cholesky>

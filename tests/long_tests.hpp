@@ -1,5 +1,5 @@
-// Tests that take longer than ten seconds and seldom fail alone run where KINEMEND_LONG is set, as
-// `make nightly` does.
+// Selects the tests that take longer than ten seconds and seldom fail alone; they run where
+// KINEMEND_LONG is set, as in `make nightly`.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 
 namespace kinemend::test {
 
-/// Whether tests that take long are to run.
+/// Returns whether long tests run.
 inline bool runs_long_tests() { return std::getenv("KINEMEND_LONG") != nullptr; }
 
 }  // namespace kinemend::test

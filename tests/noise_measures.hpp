@@ -1,4 +1,4 @@
-// Figures of a series of errors by their definitions, for tests and the page of noise.
+// Figures of a series of errors by their definitions, for tests and the noise page.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ inline double mean_of(const std::vector<double>& x) {
   return x.empty() ? 0 : sum / static_cast<double>(x.size());
 }
 
-/// About the mean.
+/// Variance about the mean.
 inline double variance_of(const std::vector<double>& x) {
   const double mean = mean_of(x);
   double sum = 0;
@@ -41,7 +41,7 @@ inline double correlation_of(const std::vector<double>& x, const std::vector<dou
   return sum / static_cast<double>(x.size()) / std::sqrt(variance_of(x) * variance_of(y));
 }
 
-/// Of the series with itself `lag` samples later; the sum is over what there is, divided by all.
+/// Autocorrelation at `lag` samples; the sum over the existing pairs is divided by the full length.
 inline double autocorrelation(const std::vector<double>& x, std::size_t lag) {
   const double mean = mean_of(x);
   double sum = 0;
@@ -49,11 +49,11 @@ inline double autocorrelation(const std::vector<double>& x, std::size_t lag) {
   return sum / static_cast<double>(x.size()) / variance_of(x);
 }
 
-/// One-sided density (1/Hz) at k * `step_hz`.
+/// One-sided density (1/Hz) at frequency k * `step_hz`.
 struct Spectrum {
   double step_hz = 0;
   std::vector<double> density;
-  /// Variance between two frequencies, the first included.
+  /// Variance between two frequencies, including the first.
   double between(double low_hz, double high_hz) const {
     double sum = 0;
     for (std::size_t k = 0; k < density.size(); ++k) {
@@ -64,8 +64,8 @@ struct Spectrum {
   }
 };
 
-/// Welch's method: the mean over half-overlapping segments of `segment` samples (at most the
-/// series), each without its mean, of the periodogram under a Hann window.
+/// Welch's method: the mean periodogram of half-overlapping segments with a Hann window. A segment
+/// has `segment` samples (at most the series), and its mean is removed.
 inline Spectrum welch(const std::vector<double>& x, double rate_hz, std::size_t segment) {
   segment = std::min(segment, x.size());
   Spectrum spectrum;

@@ -9,7 +9,7 @@
 
 namespace kinemend::test {
 
-/// Normal, of deviation 1.
+/// Normal numbers with deviation 1.
 inline std::vector<double> random_values(std::size_t count, std::uint64_t seed) {
   Random random(seed);
   std::vector<double> values(count);

@@ -1,2 +1,2 @@
-// Carries the precompiled headers of the tests.
+// Holds the precompiled headers of the tests.
 int main() {}

@@ -1,5 +1,4 @@
-// Runs layers, draws first weights, and makes the steps of the optimiser with their running
-// averages.
+// Runs layers, draws initial weights, and makes the steps of the optimiser with running averages.
 #include "descent.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +12,7 @@ namespace kinemend::train {
 
 namespace {
 
-// Brings the values of a tensor of the same shape into `target`.
+// Copies the values of a tensor into `target`. Errors: `unreadable_input` for another size.
 void take_values(const Tensor& from, torch::Tensor& target, const std::string& name) {
   if (from.values.size() != static_cast<std::size_t>(target.numel()))
     throw Error(ErrorKind::unreadable_input, fmt::format("{}: expected {} numbers, found {}", name,
@@ -23,7 +22,7 @@ void take_values(const Tensor& from, torch::Tensor& target, const std::string& n
   target.copy_(torch::from_blob(const_cast<float*>(floats.data()), target.sizes()));
 }
 
-// Frames t - d, t and t + d of each frame side by side, zeros beyond the ends.
+// Places frames t - d, t and t + d of each frame side by side, with zeros beyond the ends.
 torch::Tensor with_neighbours(const torch::Tensor& x, std::int64_t dilation,
                               const torch::Tensor& looks_ahead) {
   const std::int64_t frames = x.size(-2);

@@ -18,7 +18,7 @@ namespace kinemend::train {
 namespace {
 
 constexpr double gaussian_s = 0.058;  // the paper's first baseline
-// Smaller errors count for less; straight lines that are right to a degree need no network.
+// Smaller errors have less weight: straight lines within a degree need no network.
 constexpr double least_error_deg = 0.03, least_gap_error_deg = 1;
 constexpr std::size_t axes = 3;
 
@@ -85,7 +85,7 @@ double rate_at(std::size_t batch, std::size_t batches, double highest) {
   return cosine_rate(batch, batches, warm_up, highest, least);
 }
 
-// Straight lines in the gaps.
+// Fills the gaps with straight lines.
 void bridge(BodyChannels& channels) {
   std::vector<std::uint8_t> missing(channels.observed.size());
   bool any = false;
@@ -96,7 +96,7 @@ void bridge(BodyChannels& channels) {
   if (any) fill_linear(channels.poses, missing);
 }
 
-// The part of a body's mirror that is of the joints but the root.
+// The mirror of a body without the root.
 BodyMirror without_root(const BodyMirror& whole) {
   BodyMirror mirror;
   for (std::size_t n = 1; n < whole.turns; ++n) mirror.partners.push_back(whole.partners[n] - 1);
@@ -104,7 +104,8 @@ BodyMirror without_root(const BodyMirror& whole) {
   return mirror;
 }
 
-// A mirror turns the angular velocity about the two axes that lie in it; time its sign.
+// Mirroring changes the sign of the angular velocity about the two axes in the mirror plane;
+// reversing time changes all signs.
 void turn_in_form(std::vector<float>& turning, MotionForm form) {
   if (form.is_reversed) {
     for (std::size_t low = 0, high = turning.size() / axes; low + 1 < high; ++low, --high) {
@@ -130,7 +131,7 @@ void marks_in_form(std::vector<std::uint8_t>& marks, MotionForm form, const Body
   marks = std::move(result);
 }
 
-// Mean over frames of the root mean square over channels, of missing samples alone where asked.
+// Mean over frames of the root mean square over channels; optionally over missing samples only.
 double mean_error(const FilterTake& take, const std::vector<float>& values,
                   const std::vector<float>& truth, bool only_missing) {
   double sum = 0, counted = 0;
@@ -257,7 +258,7 @@ std::vector<double> FilterTrainer::best_constants() {
   return best;
 }
 
-// Each take is cut anew in each epoch; chunks in an order of the epoch's own.
+// Cuts each take anew for each epoch and returns the chunks in a new order.
 std::vector<FilterTrainer::Chunk> FilterTrainer::chunks_of(std::size_t epoch) const {
   Random random = Random(settings_.seed ^ 0x5eed).fork(epoch);
   std::vector<Chunk> chunks;
@@ -265,7 +266,7 @@ std::vector<FilterTrainer::Chunk> FilterTrainer::chunks_of(std::size_t epoch) co
   while (chunks.size() < chunks_of_epoch_) {
     for (std::size_t i = 0; i < takes_.size(); ++i) {
       const auto frames = static_cast<std::ptrdiff_t>(takes_[i].frame_count());
-      // Where the cuts fall; of a take that is no longer than a chunk, its beginning.
+      // Random place of the cuts; a take no longer than a chunk uses its beginning.
       const std::ptrdiff_t shift =
           frames > length
               ? static_cast<std::ptrdiff_t>(random.below(static_cast<std::uint64_t>(length / 2)))
@@ -282,7 +283,7 @@ std::vector<FilterTrainer::Chunk> FilterTrainer::chunks_of(std::size_t epoch) co
   return chunks;
 }
 
-// With the frames on either side that filters reach to; padding repeats the ends.
+// Includes the frames on either side that filters reach; padding repeats the ends.
 FilterTrainer::Rows FilterTrainer::rows_of(const Chunk& chunk) const {
   const Sample& sample = samples_[chunk.take];
   const std::size_t channels = sample.take.channels, tracks = channels / axes;
@@ -326,7 +327,7 @@ double FilterTrainer::step() {
     const Chunk& chunk =
         chunks[((batch_ % batches_an_epoch) * settings_.batch + i) % chunks.size()];
     rows.push_back(rows_of(chunk));
-    // Squares over the square of the noise: takes with weak and strong noise count alike.
+    // Dividing by the squared noise gives takes with weak and strong noise the same weight.
     const double scale = samples_[chunk.take].scale;
     for (float& weight : rows.back().weight) weight /= static_cast<float>(scale * scale);
     const std::vector<float> own = filter_features(rows.back().take, statistics_, inputs());

@@ -12,7 +12,7 @@ namespace {
 using torch::autograd::AutogradContext;
 using torch::autograd::tensor_list;
 
-// Of B sequences at one moment: gates B x 4 H, with their functions applied; the rest B x H.
+// State of B sequences in one frame: gates B x 4 H after activation; the others B x H.
 struct Moment {
   std::int64_t rows, units;
   float *gates, *cell, *squashed, *hidden;
@@ -39,8 +39,8 @@ void run_gates(const Moment& m, const float* cell_before) {
   }
 }
 
-// From d loss / d hidden and cell (which becomes that of the frame before) to that of the sums that
-// the gates are functions of.
+// Converts d loss / d hidden and d loss / d cell (which becomes that of the previous frame) to the
+// gradient of the gates' inputs.
 void gates_adjoint(const Moment& m, const float* cell_before, const float* d_hidden, float* d_cell,
                    float* d_gates) {
   const auto units = static_cast<std::size_t>(m.units);
@@ -107,7 +107,7 @@ class LstmFunction : public torch::autograd::Function<LstmFunction> {
                     d_gates.data_ptr<float>() + t * rows * 4 * units);
     }
     const torch::Tensor flat = d_gates.view({steps * rows, 4 * units});
-    // The states that the first frame of each direction did not have are zeros.
+    // The first frame of each direction starts with a zero state.
     const torch::Tensor later =
         is_backward ? d_gates.narrow(0, 0, steps - 1) : d_gates.narrow(0, 1, steps - 1);
     const torch::Tensor earlier =

@@ -1,4 +1,4 @@
-// kinemend-train: fits the networks. All that it needs to know of takes comes from the library.
+// kinemend-train: trains the networks. The library provides all knowledge of takes.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -33,7 +33,8 @@ int start(int count, char** values) {
 }  // namespace kinemend::train
 
 int main(int count, char** values) {
-  // OpenBLAS with threads makes small products slower; it reads this as it is loaded.
+  // Threads in OpenBLAS make small products slower; the variable is read when the library is
+  // loaded.
   if (std::getenv("OPENBLAS_NUM_THREADS") == nullptr) {
     setenv("OPENBLAS_NUM_THREADS", "1", 1);
     setenv("OMP_NUM_THREADS", "1", 0);

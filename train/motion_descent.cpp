@@ -1,4 +1,4 @@
-// Computes the loss of a batch in parts, one thread each, and adds up their gradients in a fixed
+// Computes the loss of a batch in parts, one thread each, and adds their gradients in a fixed
 // order.
 #include "motion_descent.hpp"
 
@@ -29,7 +29,7 @@ struct Inputs {
   torch::Tensor features, take_features, levels, changes, scales, truth, truth_changes, alive,
       known, looks_ahead;
 
-  // At most `count` of them, from the `first` one on.
+  // At most `count` samples from `first` on.
   Inputs samples(std::size_t first, std::size_t count) const {
     const std::int64_t from = whole(first), n = std::min(whole(count), alive.size(0) - from);
     const auto part = [&](const torch::Tensor& x) { return x.narrow(0, from, n); };
@@ -52,7 +52,7 @@ Inputs inputs_of(const MotionBatch& batch) {
           tensor_of(batch.looks_ahead, {b, 1, 1})};
 }
 
-// Changes of a sequence of steps, from the ones before and behind, per 1/120 s.
+// Central differences of a sequence of steps, per 1/120 s.
 torch::Tensor slope_of(const torch::Tensor& x) {
   const std::int64_t n = x.size(2);
   const torch::Tensor before = torch::cat({x.narrow(2, 0, 1), x.narrow(2, 0, n - 1)}, 2);
@@ -60,7 +60,7 @@ torch::Tensor slope_of(const torch::Tensor& x) {
   return (behind - before) / 8;
 }
 
-// How a sequence changes from one step to the next.
+// Differences between successive steps.
 torch::Tensor step_changes(const torch::Tensor& x) {
   const std::int64_t n = x.size(2);
   return x.narrow(2, 1, n - 1) - x.narrow(2, 0, n - 1);
@@ -125,7 +125,7 @@ struct MotionDescent::Body {
         3);
   }
 
-  // Values and changes that the outputs make of a batch.
+  // Values and changes that the outputs give for a batch.
   std::pair<torch::Tensor, torch::Tensor> results(const torch::Tensor& outputs,
                                                   const Inputs& in) const {
     const std::int64_t levels = whole(bank_levels), inner = levels - 2;
@@ -145,7 +145,7 @@ struct MotionDescent::Body {
     return {values, changes};
   }
 
-  // Root mean squares over channels, of each step that counts: B x steps.
+  // Root mean squares over the known channels of each step: B x steps.
   static torch::Tensor size_of(const torch::Tensor& x, const Inputs& in) {
     const torch::Tensor square =
         (x * x * in.alive.unsqueeze(2)).sum(1) / in.alive.sum(1, true).clamp_min(1);
@@ -181,7 +181,7 @@ MotionDescent::MotionDescent(const MotionShape& shape, const std::vector<float>&
   maker.add_dense("to_all", hidden, shape.head);
   maker.add_dense("head", 2 * encoded + shape.slot_units, shape.head);
   maker.add_dense("output", shape.head, motion_outputs, 0.1);
-  // To begin with, most of what was measured stays.
+  // Initially, most of the measurement is kept.
   std::vector<double> outset(motion_outputs, 0);
   outset.front() = 2;
   maker.set("output.bias", outset);
@@ -194,8 +194,8 @@ double MotionDescent::step(const MotionBatch& batch, const MotionLoss& loss, dou
   Body& body = *body_;
   const Inputs all = inputs_of(batch);
   const double counted = all.alive.sum().item<double>() * static_cast<double>(batch.steps);
-  // Each part's graph is walked by a thread of its own. How many parts there are does not depend on
-  // the cores, nor does the order in which they are added.
+  // A separate thread differentiates each part's graph. The number of parts and the order of
+  // addition do not depend on the number of cores.
   const std::size_t parts = (batch.samples + samples_of_part - 1) / samples_of_part;
   std::vector<std::vector<torch::Tensor>> gradients(parts);
   std::vector<double> shares(parts);

@@ -1,4 +1,4 @@
-// `kinemend-train learned`: the network of the method `learned`.
+// `kinemend-train learned`: trains the network of the method `learned`.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -40,8 +40,8 @@ MotionPair pair_of(const std::string& name, const Take& noisy, const Take& refer
   return mapped_pair({name, {std::move(tracks.take), std::move(truth)}}, least_deg);
 }
 
-// Lines `noisy reference`, with a tab between. Channels that move by less than two degrees, or half
-// a hundredth of a body height, say little of motion.
+// Reads lines of `noisy<tab>reference`. Channels that move by less than two degrees, or half a
+// hundredth of a body height, say little about motion.
 std::vector<MotionPair> pairs_of(const std::string& list) {
   constexpr double least_turn_deg = 2, least_move_deg = 3.4;
   std::vector<MotionPair> pairs;
@@ -69,7 +69,7 @@ MarkerMotion marker_motion_of(const Take& markers) {
   return motion;
 }
 
-// Joints of the takes, as markers. A few of the first frames may be a calibration pose.
+// Joints of the takes as markers. The first few frames may be a calibration pose.
 std::vector<MarkerMotion> marker_motions_of(const std::vector<std::string>& paths) {
   std::vector<MarkerMotion> motions;
   for (const std::string& path : paths) {
@@ -80,7 +80,7 @@ std::vector<MarkerMotion> marker_motions_of(const std::vector<std::string>& path
   return motions;
 }
 
-// Clean takes of other rigs, in the channels in which the method sees them.
+// Clean takes of other rigs, in the channels that the method uses.
 RigMotion rig_motion_of(const Take& clip, const BodyLayout& layout,
                         std::span<const float> deviation) {
   const TakeView view = view_of(clip);
@@ -94,7 +94,7 @@ RigMotion rig_motion_of(const Take& clip, const BodyLayout& layout,
   return motion;
 }
 
-// What is learned from beside the takes of the body.
+// Training data besides the takes of the body.
 struct OtherMotion {
   std::vector<MotionPair> pairs;
   std::vector<MarkerMotion> markers;
@@ -146,7 +146,7 @@ void train(const Arguments& arguments) {
     MotionSampling damaged = arguments.training.sampling;
     damaged.clean_share = damaged.live_share = damaged.pair_share = damaged.marker_share = 0;
     damaged.rig_share = 0;
-    damaged.has_slow_noise = true;  // whatever is learned from
+    damaged.has_slow_noise = true;  // whatever the training data
     const auto with = [&](double MotionSampling::*share) {
       MotionSampling sampling = damaged;
       sampling.*share = 1;

@@ -1,5 +1,4 @@
-// Reads samples as the network sees them, draws the next batch beside each step, and makes the
-// model.
+// Converts samples to network inputs, draws the next batch during each step, and builds the model.
 #include "motion_training.hpp"
 
 #include <algorithm>
@@ -29,7 +28,7 @@ void append(std::vector<float>& all, const std::vector<float>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-// A sample as the network sees it, with features of the take at every step.
+// A sample as network input, with features of the take at every step.
 struct ReadSample {
   MotionSteps steps;
   std::vector<std::uint8_t> is_alive;

@@ -13,14 +13,14 @@
 
 namespace kinemend::train {
 
-/// How the network of the method `learned` is trained.
+/// Settings of training the network of the method `learned`.
 struct MotionTraining {
   std::uint64_t seed = 1;
   std::size_t batches = 12'000;  ///< steps of the descent
-  std::size_t batch = 8;         ///< samples a step
-  double rate = 2e-3;            ///< of learning, at its highest
+  std::size_t batch = 8;         ///< samples per step
+  double rate = 2e-3;            ///< peak learning rate
   MotionSampling sampling;
-  MotionShape shape;  ///< its slots are those of the takes
+  MotionShape shape;  ///< its slots are set by the takes
   MotionLoss loss;
   DescentSettings descent;
 };
@@ -28,8 +28,8 @@ struct MotionTraining {
 /// Samples of `channels` channels and `steps` steps, as a batch.
 MotionBatch batch_of(const std::vector<MotionSample>& samples, std::size_t steps);
 
-/// Samples are drawn and damaged beside each step, on a thread of their own, and never again: the
-/// takes give as many as are asked for.
+/// Samples are drawn and damaged on a separate thread during each step and never reused; the takes
+/// give any number of samples.
 class MotionTrainer {
  public:
   MotionTrainer(const TrainingSequences& sequences, std::vector<MotionPair> pairs,
@@ -38,18 +38,18 @@ class MotionTrainer {
   ~MotionTrainer();
 
   std::size_t batch() const noexcept { return batch_; }
-  /// One step of the descent; its loss.
+  /// Makes one step and returns its loss.
   double step();
-  /// Share of the damage that is left on samples that are not learned from, drawn by `seed`.
+  /// Remaining share of the damage on samples outside the training, drawn with `seed`.
   double share_left(const MotionSources& sources, const MotionSampling& sampling,
                     std::size_t samples, std::uint64_t seed) const;
   const BodyMirror& mirror() const noexcept { return mirror_; }
-  /// What the network makes of a batch (`MotionDescent::outputs`).
+  /// Outputs of the network for a batch (`MotionDescent::outputs`).
   std::vector<float> outputs(const MotionBatch& batch) const { return descent_.outputs(batch); }
-  /// The model as it is now. Card, takes and seconds are the caller's.
+  /// The current model. The caller sets card, takes and seconds.
   Model model() const;
-  /// Begins with the weights of a model; inputs that it lacks count for nothing, and blocks that it
-  /// lacks add nothing. Errors: `ErrorKind::unreadable_input` where its shape is another otherwise.
+  /// Starts with the weights of a model. Inputs and blocks that it lacks have no effect at first.
+  /// Errors: `ErrorKind::unreadable_input` if its shape differs otherwise.
   void begin_with(const Model& model) { descent_.begin_with(model.tensors); }
   std::string checkpoint() const;
   void resume(std::string_view bytes, std::string_view name);

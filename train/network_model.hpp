@@ -1,4 +1,4 @@
-// Puts trained weights and numbers into models, and gives the learning rate over time.
+// Writes trained weights and numbers into models, and computes the learning rate over time.
 #pragma once
 
 #include <cstddef>
@@ -9,13 +9,13 @@
 
 namespace kinemend::train {
 
-/// Weights by the names of their layers: matrices in half precision, biases in single.
+/// Writes weights by layer name: matrices in half precision, biases in single.
 void put_weights(const Weights& weights, Model& model);
 void put_numbers(const char* name, const std::vector<float>& values, Model& model);
-/// `blocks` and the dilation of each.
+/// Writes `blocks` and the dilation of each block.
 void put_dilations(const std::vector<std::size_t>& dilations, Model& model);
 
-/// The rate of learning at a batch: rises over the first `warm_up` batches to `highest`, then falls
+/// The learning rate of a batch: rises over the first `warm_up` batches to `highest`, then falls
 /// along a cosine to the share `least` of it.
 double cosine_rate(std::size_t batch, std::size_t batches, double warm_up, double highest,
                    double least);

@@ -1,4 +1,4 @@
-// kinemend-train paper: the networks of Mall et al. 2017, EBF, BF, NN and EBD.
+// kinemend-train paper: trains the networks of Mall et al. 2017, EBF, BF, NN and EBD.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -23,7 +23,7 @@ struct Arguments {
   FilterTraining training;
 };
 
-// NAME:OPTION=VALUE,OPTION=VALUE
+// Parses NAME:OPTION=VALUE,OPTION=VALUE.
 FilterDamage damage_of(const std::string& text) {
   FilterDamage damage{text.substr(0, text.find(':')), {}};
   if (damage.name == "none") return {};

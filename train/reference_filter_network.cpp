@@ -1,6 +1,6 @@
-// Small networks of Mall et al. 2017 by LibTorch: writes
-// tests/fixtures/nn/filter_<kind>.safetensors (ebf, bf, nn, ebd), which
-// tests/learned/papers/filter_network_test.cpp compares with. Built where LibTorch is found:
+// Writes small LibTorch networks of Mall et al. 2017 to tests/fixtures/nn/filter_<kind>.safetensors
+// (ebf, bf, nn, ebd), which tests/learned/papers/filter_network_test.cpp compares with. Built where
+// LibTorch is found:
 //   cmake --build build/release --target reference_filter_network
 //   build/release/train/reference_filter_network FOLDER
 #include <fstream>

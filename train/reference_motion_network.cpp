@@ -1,4 +1,4 @@
-// A small network of the method learned by LibTorch: writes tests/fixtures/nn/motion.safetensors,
+// Writes a small LibTorch network of the method learned to tests/fixtures/nn/motion.safetensors,
 // which tests/learned/corrector/motion_network_test.cpp compares with. Built where LibTorch is
 // found:
 //   cmake --build build/release --target reference_motion_network

@@ -1,5 +1,4 @@
-// Makes small LibTorch networks with random weights, whose outputs the tests of the library compare
-// with.
+// Makes small LibTorch networks with random weights, as references for the library's tests.
 #pragma once
 
 #include <string>
@@ -10,9 +9,8 @@
 
 namespace kinemend::train {
 
-/// A small network of this shape by LibTorch with random weights: these, random features of so many
-/// steps and what it makes of them. The last layer, which begins with zeros, is drawn with this
-/// deviation.
+/// Makes a small LibTorch network of this shape: its random weights, random features of `steps`
+/// steps, and its outputs. The last layer, which would start at zero, is drawn with `deviation`.
 inline TensorFile reference_network(const BidirectionalShape& shape, std::size_t steps,
                                     double deviation, const std::string& made_by) {
   SequenceNetwork network(shape, {}, 3);

@@ -1,5 +1,5 @@
-// Builds dense and LSTM layers, runs them both ways, and adds up gradients from the derivatives of
-// the outputs.
+// Builds dense and LSTM layers, runs them forward and backward, and adds gradients from the
+// derivatives of the outputs.
 #include "sequence_network.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace kinemend::train {
 
 namespace {
 
-// Frames of each sequence with their neighbours side by side, zeros beyond the ends.
+// Places neighbouring frames of each sequence side by side, with zeros beyond the ends.
 torch::Tensor windows_of(const torch::Tensor& x, std::int64_t reach) {
   const torch::Tensor pad = torch::zeros({x.size(0), reach, x.size(2)});
   const torch::Tensor padded = torch::cat({pad, x, pad}, 1);
@@ -24,8 +24,8 @@ torch::Tensor windows_of(const torch::Tensor& x, std::int64_t reach) {
                            {padded.stride(0), padded.stride(1), 1});
 }
 
-// T x B x inputs to T x B x 2 H: LibTorch's layer, or where gradients are wanted one that is as
-// exact and quicker to differentiate.
+// T x B x inputs to T x B x 2 H: LibTorch's layer, or if gradients are wanted, an equally exact one
+// that is faster to differentiate.
 torch::Tensor both_ways(const LayerCall& call, std::size_t layer, const torch::Tensor& x) {
   const auto weight = [&](const char* way, const char* part) {
     return call.weights.at(fmt::format("{}{}{}", way, layer, part));
@@ -71,15 +71,15 @@ void add_lstm(WeightMaker& maker, const std::string& name, std::size_t inputs, s
   maker.add(name + ".state.weight", {4 * out, out}, std::sqrt(1.0 / static_cast<double>(units)));
   maker.add(name + ".input.bias", {4 * out}, 0);
   maker.add(name + ".state.bias", {4 * out}, 0);
-  // The gates that forget begin nearly open: what is far in time has a gradient.
+  // The forget gates start nearly open, so that distant frames have a gradient.
   std::vector<double> open(4 * units);
   std::fill_n(open.begin() + static_cast<std::ptrdiff_t>(units), units, 1.0);
   maker.set(name + ".input.bias", open);
 }
 
 void make(const BidirectionalShape& shape, WeightMaker& maker) {
-  // Sums of as much variance as what goes in: at smaller ones every layer of ten would make the
-  // signal smaller by a factor, and little but the biases would reach the outputs.
+  // Layer outputs have the variance of their inputs. With smaller weights, each of ten layers would
+  // shrink the signal, and almost only the biases would reach the outputs.
   std::size_t width = shape.inputs * (2 * shape.reach + 1);
   const auto add_dense = [&](const std::string& name, std::size_t outputs) {
     const double by_width = std::sqrt(3.0 / static_cast<double>(width));
@@ -106,7 +106,7 @@ void make(const BidirectionalShape& shape, WeightMaker& maker) {
 struct SequenceNetwork::Body {
   BidirectionalShape shape;
   Descent descent;
-  torch::Tensor last;  // outputs of the last forward
+  torch::Tensor last;  // outputs of the last forward pass
 
   Body(const BidirectionalShape& made, const DescentSettings& given, std::uint64_t seed)
       : shape(made), descent{given, {}, {}, {}, {}} {

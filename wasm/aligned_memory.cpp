@@ -1,5 +1,5 @@
-// Memory of C++ aligned to 16 bytes, as on 64-bit systems. Emscripten aligns to 8, and Eigen sums
-// from the first aligned number on: the order of a sum, and its last bit, would be others.
+// Aligns C++ memory to 16 bytes, as on 64-bit systems. Emscripten aligns to 8, and Eigen sums from
+// the first aligned number on, so the order of a sum and its last bit would differ.
 #include <cstdlib>
 #include <new>
 

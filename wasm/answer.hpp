@@ -1,4 +1,4 @@
-// What the last call of the module wrote, and the files in memory that calls work on.
+// The output of the module's last call, and the files in memory that calls use.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace kinemend::wasm {
 
-inline constexpr int usage_error = 2;  // as of the program
+inline constexpr int usage_error = 2;  // as in the program
 
 struct Answer {
   int code = 0;
@@ -18,19 +18,20 @@ struct Answer {
 };
 extern Answer answer;
 
-/// The folder of takes and of what lies beside them; relative names are in it.
+/// The folder of takes and the files beside them; relative names refer to it.
 inline const std::filesystem::path input_folder = "/in";
 inline const std::filesystem::path output_folder = "/out";
 
 void make_folders();
 /// The last part of a name, so that it cannot leave its folder.
 std::string plain_name(const char* name);
-/// {"method": "butterworth", "cutoff_hz": 6, "despike": false} as words of the command line.
+/// Converts {"method": "butterworth", "cutoff_hz": 6, "despike": false} to words of the command
+/// line.
 std::vector<std::string> words_of(std::string_view options);
 void put(const std::filesystem::path& path, const std::uint8_t* bytes, std::size_t size);
 
-/// Runs `work` after clearing `answer`, and keeps what it printed. An exception becomes a message
-/// and the code of a usage error. Returns the code.
+/// Clears `answer`, runs `work`, and keeps its output. An exception becomes a message and the exit
+/// code of a usage error. Returns the exit code.
 template <class Work>
 int answered(const Work& work);
 void begin_answer();

@@ -1,4 +1,4 @@
-// Standard streams of the module: texts that JavaScript fetches.
+// Standard streams of the module, as texts that JavaScript fetches.
 #include "captured_streams.hpp"
 
 #include "platform/console.hpp"

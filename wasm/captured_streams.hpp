@@ -1,4 +1,4 @@
-// What a command of the module writes to its standard streams.
+// The text that a command of the module writes to its standard streams.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// The core as a module for JavaScript: each call runs one command on files in memory and keeps what
-// it wrote. Exit codes and reports are those of the program.
+// The core as a module for JavaScript: each call runs one command on files in memory and keeps its
+// output. Exit codes and reports are those of the program.
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -117,13 +117,13 @@ void kinemend_put_file(const char* name, const std::uint8_t* bytes, std::size_t 
 
 void kinemend_remove_file(const char* name) { fs::remove(input_folder / plain_name(name)); }
 
-/// Gives a file beside the takes as bytes of the answer. Returns 0, or 2 where it is missing.
+/// Returns a file beside the takes as bytes of the answer. Returns 0, or 2 if it is missing.
 int kinemend_read_file(const char* name) {
   return answered([&] { answer.bytes = kinemend::read_file(input_folder / plain_name(name)); });
 }
 
-/// Runs a command ("clean", "fill", "check", "info", "convert") on a take. `output`: the name of
-/// what it writes, whose ending is the format; empty: it writes nothing. `options`: a JSON object
+/// Runs a command ("clean", "fill", "check", "info", "convert") on a take. `output` is the name of
+/// its output, whose extension selects the format; empty for no output. `options` is a JSON object
 /// with the names of the command line. Returns the program's exit code.
 int kinemend_run(const char* command, const char* name, const std::uint8_t* bytes, std::size_t size,
                  const char* output, const char* options) {

@@ -1,4 +1,4 @@
-// `kinemend stream` without its sockets: text goes in, and cleaned frames come out as text.
+// `kinemend stream` without sockets: text comes in, and cleaned frames go out as text.
 #include <map>
 #include <memory>
 #include <string>
@@ -19,7 +19,7 @@ int refuse_stream(const Arguments& /*arguments*/) {
 
 }  // namespace
 
-/// The flags that a stream without sockets has.
+/// The command `stream` with the flags that need no sockets.
 Command stream_command() {
   Command command;
   command.name = "stream";
@@ -85,14 +85,14 @@ void finish(int id) {
 
 extern "C" {
 
-/// Begins a stream with options of the command line (a JSON object). Returns its number, or 0:
-/// the message says why.
+/// Opens a stream with options of the command line (a JSON object). Returns its number, or 0 with
+/// the reason in the message.
 int kinemend_stream_open(const char* options) {
   return answered([&] { open(options); }) == 0 ? last_stream : 0;
 }
 
-/// Takes bytes as they arrive. The report is what has been cleaned by them, the message what there
-/// is to say. Returns 0, or the code of an error.
+/// Feeds bytes as they arrive. The report holds the frames cleaned by them, the message the notes.
+/// Returns 0 or an error code.
 int kinemend_stream_push(int id, const char* bytes, std::size_t size) {
   return answered([&] {
     Stream& stream = stream_of(id);
@@ -101,15 +101,15 @@ int kinemend_stream_push(int id, const char* bytes, std::size_t size) {
   });
 }
 
-/// Ends the stream: the report is what is left of it.
+/// Ends the stream; the report holds the remaining frames.
 int kinemend_stream_finish(int id) {
   return answered([&] { finish(id); });
 }
 
-/// Ends it without the rest.
+/// Ends the stream without the remaining frames.
 void kinemend_stream_close(int id) { streams.erase(id); }
 
-/// How many frames the output is behind the input; 0 before a header.
+/// The delay of the output in frames; 0 before a header.
 std::size_t kinemend_stream_delay(int id) {
   const auto found = streams.find(id);
   return found == streams.end() ? 0 : found->second.session->latency_frames();

@@ -11,7 +11,7 @@
 #include "kinemend/io.hpp"
 #include "view_session.hpp"
 
-// Tells the page how far a run is, where it listens.
+// Reports the progress of a run to the page if it listens.
 EM_JS(void, kinemend_tell, (const char* stage, double done), {
   if (Module["tell"]) Module["tell"](UTF8ToString(stage), done);
 });
@@ -22,7 +22,7 @@ using namespace kinemend::wasm;
 
 std::unique_ptr<kinemend::cli::ViewSession> session;
 
-constexpr std::size_t sniffed_bytes = 4096;  // as kinemend/io.hpp has it
+constexpr std::size_t sniffed_bytes = 4096;  // as in kinemend/io.hpp
 
 bool is_of_joints(const std::string& name) {
   std::string head(sniffed_bytes, '\0');
@@ -30,7 +30,7 @@ bool is_of_joints(const std::string& name) {
   file.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(file.gcount()));
   const kinemend::Format* format = kinemend::format_of_content(head);
-  // The first run reads the take: where the format tells what it holds, it is not read twice.
+  // If the format implies the kind of take, the take is read only by the first run.
   if (format != nullptr && format->read != nullptr &&
       (format->write == nullptr) != (format->write_markers == nullptr))
     return format->write != nullptr;
@@ -51,16 +51,16 @@ void open(const std::string& name) {
 
 extern "C" {
 
-/// Begins a session on a take that `kinemend_put_file` has kept; one before it ends. The
-/// skeleton of an AMC file is the ASF file beside it. The report is the session
-/// (web/src/served.ts). Returns the program's exit code.
+/// Opens a session on a take kept by `kinemend_put_file`, and ends the previous one. The skeleton
+/// of an AMC file is the ASF file beside it. The report is the session (web/src/served.ts). Returns
+/// the program's exit code.
 int kinemend_view_open(const char* name) {
   session.reset();
   return answered([&] { open(plain_name(name)); });
 }
 
-/// Answers a request of the page as the server of `view` does: the report is the body. Returns the
-/// status of HTTP.
+/// Answers a request of the page as the server of `view` does; the report is the body. Returns the
+/// HTTP status.
 int kinemend_view_ask(const char* action, const char* body) {
   constexpr int gone = 410;
   answered([&] {

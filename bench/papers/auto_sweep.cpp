@@ -1,6 +1,6 @@
-// What each constant of the method `auto` does: one at a time is made half, 0.8, 1.25 and 2 times
-// as large, and the change of the error measured on takes of subjects that no other table
-// of `auto` uses. tools/sweep runs it.
+// Effect of each constant of the method `auto`: one at a time is multiplied by 0.5, 0.8, 1.25 and
+// 2, and the change of the error is measured on takes of subjects that no other table of `auto`
+// uses. tools/sweep runs it.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -153,7 +153,7 @@ std::vector<Constant> constants_of_held() {
   return all.list;
 }
 
-// The rotations as the method `auto` cleans them, with other constants.
+// Cleans the rotations with the method `auto` and other constants.
 Take cleaned_with(const Tuning& tuning, Take clip) {
   const std::size_t frames = clip.frame_count();
   std::vector<std::size_t> joints, track_of(clip.joint_count(), clip.joint_count());
@@ -192,7 +192,7 @@ Take cleaned_with(const Tuning& tuning, Take clip) {
   return clip;
 }
 
-// The positions of a clip's joints, as markers of the scale on which `auto` cleans these.
+// The positions of a clip's joints as markers, at the scale at which `auto` cleans markers.
 VectorMotion markers_of(const Take& clip) {
   constexpr double degrees_per_height = 1150;
   const double scale = degrees_per_height / body_height(clip.skeleton);
@@ -250,7 +250,7 @@ struct Damage {
   std::function<Take(const Take&)> apply;
 };
 
-// Noise with a colour, and takes that are easily taken for such.
+// Coloured noise, and clean takes that are easily mistaken for noisy ones.
 std::vector<Damage> coloured_damages() {
   const auto ar1 = [](double correlation) {
     return [=](const Take& c) {
@@ -272,7 +272,7 @@ std::vector<Damage> coloured_damages() {
           {"clean_30_hz", 30, [](const Take& c) { return c; }}};
 }
 
-// Samples of a lower rate with noise of 1 degree, held or joined by lines, and clean ones.
+// Samples of a lower rate with 1 degree of noise, held or interpolated, and clean ones.
 std::vector<Damage> held_damages() {
   const auto lower = [](double noise_deg, const char* join, double rate_hz) {
     return [=](const Take& c) {
@@ -288,11 +288,11 @@ std::vector<Damage> held_damages() {
           {"clean", 120, [](const Take& c) { return c; }}};
 }
 
-// The same of markers.
+// A kind of damage on markers.
 struct MarkerDamage {
   std::string name;
   double rate_hz;
-  std::string family;  // of systems; none: clean
+  std::string family;  // family of systems; empty: clean
 };
 
 std::vector<MarkerDamage> marker_damages() {
@@ -322,7 +322,7 @@ std::vector<Damage> damages() {
           {"third_deg_few_spikes", 120, [](const Take& c) { return noisy(c, 0.3, 0.001, 7); }}};
 }
 
-// 5 s of each take.
+// Five seconds of each take.
 std::vector<Take> takes_of(const Arguments& arguments) {
   std::vector<Take> takes;
   for (const char* name : {"111_24", "118_13", "13_12", "13_29", "39_05", "82_02", "83_47"}) {
@@ -338,8 +338,13 @@ Take at_rate(const Take& clip, double rate_hz) {
   return resample(clip, rate_hz);
 }
 
+<<<<<<< HEAD
 // A kind of damage on all takes: the error that cleaning leaves on each.
 struct SweptKind {
+=======
+// A kind of damage, with the error that cleaning leaves on each take.
+struct Kind {
+>>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
   std::string name;
   std::vector<std::function<double(const Tuning&)>> errors;
 };
@@ -373,9 +378,15 @@ void add_markers(const std::vector<Take>& takes, std::vector<SweptKind>& kinds) 
   }
 }
 
+<<<<<<< HEAD
 // Of each kind the mean over the takes of the logarithm of the error in degrees, to which a
 // hundredth is added: smaller errors do not differ for any use.
 std::vector<double> log_errors(const std::vector<SweptKind>& kinds, const Tuning& tuning) {
+=======
+// For each kind, the mean over takes of log(error in degrees + 0.01); smaller errors do not matter
+// in practice.
+std::vector<double> log_errors(const std::vector<Kind>& kinds, const Tuning& tuning) {
+>>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
   std::vector<double> result;
   for (const SweptKind& kind : kinds) {
     double sum = 0;
@@ -385,7 +396,7 @@ std::vector<double> log_errors(const std::vector<SweptKind>& kinds, const Tuning
   return result;
 }
 
-// Each constant times each factor, on these kinds of damage.
+// Multiplies each constant by each factor, for these kinds of damage.
 void vary(const Arguments& arguments, const std::vector<Constant>& list,
           const std::vector<SweptKind>& kinds, const std::vector<double>& factors, Table& table) {
   const std::vector<double> usual = log_errors(kinds, {});
@@ -429,7 +440,7 @@ void vary(const Arguments& arguments, const std::vector<Constant>& list,
 void sweep(const Arguments& arguments) {
   const std::vector<Take> takes = takes_of(arguments);
   const std::string columns = "constant,value,factor,mean,largest";
-  // What estimates the colour is slow: fewer values.
+  // Colour estimation is slow, so fewer values are tried.
   Table special(arguments, "auto_sweep_colour.csv", columns);
   vary(arguments, constants_of_held(), kinds_of(takes, held_damages()), {0.5, 2}, special);
   std::vector<SweptKind> coloured = kinds_of(takes, coloured_damages());

@@ -12,8 +12,8 @@
 
 namespace kinemend::papers {
 
-/// After the reference was given a gain and an offset for each channel, which calibration would
-// mend; channels that hardly move are left out.
+/// Errors after fitting a gain and an offset per channel of the reference, as calibration would do;
+/// channels that hardly move are left out.
 inline PairErrors errors_of(const Take& reference, const Take& noisy, const Take& clip) {
   MarkerComparisonSettings settings;
   settings.fit = MarkerFit::gain_offset;
@@ -23,7 +23,7 @@ inline PairErrors errors_of(const Take& reference, const Take& noisy, const Take
   return {all.rms, all.velocity_rms, all.above_6_hz.value()};
 }
 
-/// Without data: walks with the noise of such systems.
+/// Real pairs, or without data walks with the noise of such systems.
 inline std::vector<MarkerPair> camera_pairs(const Arguments& arguments) {
   std::vector<MarkerPair> pairs;
   const std::filesystem::path folder = arguments.data / "real";

@@ -1,4 +1,4 @@
-// Clean takes of other worlds, from a few of which the model of `learned` has learned.
+// Clean takes of other worlds; the model of `learned` was trained on a few of these worlds.
 #pragma once
 
 #include <algorithm>
@@ -14,10 +14,10 @@
 
 namespace kinemend::papers {
 
-/// By world and unit, each take of it.
+/// The takes of each world and unit.
 using Worlds = std::map<std::pair<std::string, std::string>, std::vector<Take>>;
 
-/// Whether `tools/train_learned` shows its takes to the network.
+/// Returns whether `tools/train_learned` trains the network on this world.
 inline bool is_learned_from(const std::string& world) {
   static const std::set<std::string> learned{
       "animated-drawings", "biomechzoo-hockey",   "kaykit",
@@ -60,7 +60,7 @@ inline Worlds made_worlds() {
   return worlds;
 }
 
-/// Made takes for the quick form, and where there is no data.
+/// Recorded takes; synthetic takes in the quick form and without data.
 inline Worlds clean_worlds(const Arguments& arguments) {
   Worlds worlds;
   if (!arguments.quick && !arguments.data.empty())

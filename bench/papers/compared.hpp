@@ -8,7 +8,7 @@
 
 namespace kinemend::papers {
 
-/// A method, and what it is told of the takes.
+/// A method with the stated source of the takes.
 struct Compared {
   std::string label, method;
   OptionValues options{};

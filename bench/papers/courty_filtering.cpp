@@ -14,8 +14,8 @@
 namespace kinemend::papers {
 namespace {
 
-// The paper's units are those of the quaternion's logarithm: half the rotation angle. sigma_t is in
-// frames.
+// The paper's angles are those of the quaternion's logarithm: half the rotation angle. sigma_t is
+// in frames.
 constexpr double paper_noise = 0.18;
 constexpr double paper_sigma_g = 0.1;
 constexpr double paper_sigma_t_frames = 1.0;
@@ -41,7 +41,7 @@ bool is_arm(const std::string& name) {
   return name.find("Arm") != std::string::npos || name.ends_with("Hand");
 }
 
-// The `frames` frames, every `step`-th, in which the arms turn the most.
+// The part of `frames` frames, taking every `step`-th, in which the arms turn most.
 Take busiest_part(const Take& clip, std::size_t step, std::size_t frames) {
   std::size_t best = 0;
   double most = -1;
@@ -83,7 +83,7 @@ double arms_mse(const Take& truth, const Take& other) {
   return sum / count;
 }
 
-// Figure 3. One filter of so wide a sigma_g that it sees no edge is the Gaussian.
+// Figure 3. A filter with a sigma_g so large that it sees no edges is the Gaussian.
 void mean_square_errors(const Arguments& arguments, const Take& truth, const Take& noisy) {
   const std::vector<double> sigmas{0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 8.0};
   const int passes = arguments.quick ? 6 : 20;
@@ -185,7 +185,7 @@ void hand_paths(const Arguments& arguments, std::vector<Version>& versions) {
   table.close();
 }
 
-// One line a version: what the page prints.
+// Prints one line per version.
 void summary(const Arguments& arguments, const std::vector<Version>& versions) {
   Table table(arguments, "courty_versions.csv",
               "version,mean_speed_rad_s,peak_speed_rad_s,joint_mse_rad2,arms_mse_rad2,path_length,"
@@ -211,9 +211,9 @@ void courty_filtering(const Arguments& arguments) {
   const Take truth = busiest_part(take.clip, 4, 150);
   Take noisy = truth;
   Random random(2008);
-  // Read as the root mean square of the whole turn: with 0.18 rad on each axis, or on each
-  // component of the quaternion's logarithm, sigma_g = 0.1 would take nearly every neighbour for an
-  // edge. The damage's unit is half of an axis's angle.
+  // The paper's value is read as the root mean square of the whole turn. With 0.18 rad on each
+  // axis, or on each component of the quaternion's logarithm, sigma_g = 0.1 would take nearly every
+  // neighbour for an edge. The damage's unit is half of an axis's angle.
   apply_damage(noisy, "gaussian-log",
                {{"sigma", paper_noise / std::sqrt(3.0) / 2}, {"about", std::string("sample")}},
                random);

@@ -36,7 +36,7 @@ Take damaged(const Take& truth, const Noise& noise) {
   return clip;
 }
 
-// A row of the table: a method with the settings among which the best is taken, as the paper did
+// A row of the table: a method with several settings, of which the best is shown, as in the paper
 // ("care was taken to find the optimal input parameters").
 struct MethodRow {
   std::string name;
@@ -124,8 +124,8 @@ std::size_t knee_of(const Take& clip) {
   return static_cast<std::size_t>(std::max(0, clip.skeleton.find("RightLeg")));
 }
 
-// Figure 3 and 4: all channels of the truth, the noisy take and the result, at three strengths;
-// figures 5 and 6: the knee's first channel, of these and of every method of the table, under every
+// Figures 3 and 4: all channels of the truth, the noisy take and the result, at three strengths.
+// Figures 5 and 6: the knee's first channel of these and of every method in the table, for every
 // noise.
 void curves(const Arguments& arguments, const std::vector<Shown>& shown) {
   Table all(arguments, "dean_channels.csv", "noise,version,frame,channel,value"),
@@ -149,8 +149,8 @@ void curves(const Arguments& arguments, const std::vector<Shown>& shown) {
   one.close();
 }
 
-// What figure 6 shows, as a number: how far the knee's first channel is from that of the truth,
-// root mean square in degrees of rotation.
+// Figure 6 as a number: the root mean square error of the knee's first channel, in degrees of
+// rotation.
 void knee(const Arguments& arguments, const Take& truth, const std::vector<Shown>& shown) {
   Table table(arguments, "dean_knee.csv", "noise,version,rms_deg");
   for (const auto& [noise, version, clip] : shown) {

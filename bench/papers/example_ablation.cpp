@@ -1,7 +1,7 @@
-// What each switch and constant of `example` brings: the error without it, or with another value,
-// over that of the method as it is, on takes that no other table uses. Walks of two subjects with
-// models of them, six takes with a mixed model that knows the subjects or does not, and three takes
-// with a model of something else (kicks).
+// Effect of each switch and constant of `example`: the error without it, or with another value,
+// relative to the error of the unchanged method, on takes that no other table uses. The takes are
+// walks of two subjects with models of them, six takes with a mixed model with or without the
+// subjects, and three takes with a model of other motion (kicks).
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -61,7 +61,7 @@ bool is_arm_joint(const std::string& name) {
          name.find("Finger") != std::string::npos || name.find("Thumb") != std::string::npos;
 }
 
-// Arms that are missing from `first` for `count` frames.
+// Hides the arms in `count` frames from `first` on.
 Take without_arms(Take clip, std::size_t first, std::size_t count) {
   clip.observed.assign(clip.rotations.size(), 1);
   for (std::size_t f = first; f < std::min(clip.frame_count(), first + count); ++f) {
@@ -74,7 +74,7 @@ Take without_arms(Take clip, std::size_t first, std::size_t count) {
   return clip;
 }
 
-// Root mean square of the angles between the rotations that are missing.
+// Root mean square angle over the missing rotations.
 double filling_error(const Take& truth, const Take& damaged, const Take& other) {
   double sum = 0, count = 0;
   for (std::size_t i = 0; i < damaged.observed.size(); ++i) {
@@ -113,7 +113,7 @@ struct Group {
   std::vector<Take> tests;
 };
 
-// The middle five seconds.
+// The middle five seconds of a take.
 Take middle_of(const Take& clip) {
   const auto most = static_cast<std::size_t>(std::lround(5 * clip.frame_rate_hz));
   const std::size_t count = std::min(most, clip.frame_count());
@@ -140,8 +140,13 @@ std::vector<Group> groups(const Arguments& arguments) {
   return list;
 }
 
+<<<<<<< HEAD
 // For each condition and take.
 using AblationErrors = std::vector<std::vector<double>>;
+=======
+// Errors by condition and take.
+using Errors = std::vector<std::vector<double>>;
+>>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
 
 AblationErrors errors_of(const std::vector<Group>& tried, const Variant& v) {
   AblationErrors errors;
@@ -161,10 +166,15 @@ AblationErrors errors_of(const std::vector<Group>& tried, const Variant& v) {
   return errors;
 }
 
+<<<<<<< HEAD
 // Mean over takes from the first to the last of the logarithm of how many times as large, as a
 // percentage.
 double change(const AblationErrors& errors, const AblationErrors& usual, std::size_t first,
               std::size_t last) {
+=======
+// Mean logarithm of the error ratio over takes `first` to `last`, as a percentage.
+double change(const Errors& errors, const Errors& usual, std::size_t first, std::size_t last) {
+>>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
   double sum = 0, count = 0;
   for (std::size_t c = 0; c < errors.size(); ++c) {
     for (std::size_t i = first; i < last; ++i) {

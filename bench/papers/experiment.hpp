@@ -1,4 +1,4 @@
-// Arguments, takes and tables that the programs which repeat a paper's experiments share.
+// Arguments, takes and tables shared by the programs that repeat a paper's experiments.
 #pragma once
 
 #include <fmt/core.h>
@@ -19,9 +19,9 @@
 namespace kinemend::papers {
 
 struct Arguments {
-  std::filesystem::path data;          ///< folder of real takes; empty: synthetic takes
+  std::filesystem::path data;          ///< folder of real takes; empty: uses synthetic takes
   std::filesystem::path output = ".";  ///< folder for CSV files
-  std::filesystem::path models = "bench/papers/models";  ///< of networks that a paper's tables need
+  std::filesystem::path models = "bench/papers/models";  ///< networks for a paper's tables
   bool quick = false;                                    ///< short takes and coarse grids
 };
 
@@ -49,7 +49,7 @@ inline Arguments parse_arguments(const std::vector<std::string>& words) {
   return arguments;
 }
 
-/// The file of that name anywhere below the folder.
+/// Finds a file by name anywhere below the folder.
 inline std::optional<std::filesystem::path> find_take(const std::filesystem::path& folder,
                                                       const std::string& name) {
   if (folder.empty() || !std::filesystem::is_directory(folder)) return std::nullopt;
@@ -64,7 +64,7 @@ struct NamedTake {
   Take clip;
 };
 
-/// The real take without its calibration frames, or the synthetic one where there is none.
+/// The real take without its calibration frames, or a synthetic one if it does not exist.
 inline NamedTake load_take(const Arguments& arguments, const std::string& file,
                            const SynthOptions& otherwise) {
   if (const auto path = find_take(arguments.data, file)) {
@@ -114,19 +114,19 @@ class Table {
   std::ofstream file_;
 };
 
-/// An experiment of the program `kinemend_papers`, under the name by which it is called.
+/// An experiment of the program `kinemend_papers`, with the name that runs it.
 struct Experiment {
   std::string name;
   void (*run)(const Arguments&);
 };
 
-/// All experiments that the program holds, in no particular order.
+/// All experiments in the program, in no particular order.
 inline std::vector<Experiment>& experiments() {
   static std::vector<Experiment> all;
   return all;
 }
 
-/// Enters an experiment; one constant of this type stands at the end of each file.
+/// Registers an experiment; each file ends with one constant of this type.
 struct Registration {
   Registration(const char* name, void (*run)(const Arguments&)) {
     experiments().push_back({name, run});

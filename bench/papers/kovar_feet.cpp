@@ -1,6 +1,5 @@
-// Footskate after Kovar, Schreiner & Gleicher 2002: how far feet slide before and after their
-// clean-up, in takes that were damaged and smoothed, takes as recorded, and pairs that somebody
-// else cleaned.
+// Footskate after Kovar, Schreiner & Gleicher 2002: how far feet slide before and after clean-up,
+// in damaged and smoothed takes, in takes as recorded, and in pairs cleaned by others.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -34,8 +33,8 @@ std::size_t count_held(const FeetReport& report) {
   return static_cast<std::size_t>(std::count(report.held.begin(), report.held.end(), 1));
 }
 
-// How far knees pop before and after, take by take: the one that rises most above both what it was
-// and what was recorded, and how many rise above that by more than a tenth and half a degree.
+// How far knees pop before and after, by take: the largest rise above both the input and the
+// recording, and the number of takes that rise above that by more than a tenth and half a degree.
 struct Pops {
   std::string worst;
   std::size_t takes = 0, above = 0;
@@ -59,7 +58,7 @@ struct Pops {
   }
 };
 
-// One a group of takes and a way to clean them.
+// The pops of a group of takes for one way of cleaning.
 struct NamedPops {
   std::string group;
   Pops pops;
@@ -79,7 +78,7 @@ double legs_deg(const Take& truth, const Take& result) {
   return count > 0 ? std::sqrt(sum / count) : 0;
 }
 
-// Mean distance of knees, ankles and toes to the truth.
+// Mean distance of knees, ankles and toes from the truth.
 double legs_distance(const Take& truth, const Take& result) {
   double sum = 0, count = 0;
   for (std::size_t f = 0; f < truth.frame_count(); ++f) {
@@ -202,7 +201,7 @@ void as_recorded(const Arguments& arguments, std::vector<NamedPops>& all_pops) {
   table.close();
 }
 
-// Every take of the folder cmu/bvh, by `auto` and by `force`.
+// Cleans every take of the folder cmu/bvh with `auto` and with `force`.
 void survey(const Arguments& arguments, std::vector<NamedPops>& all_pops) {
   const std::filesystem::path folder = arguments.data / "cmu" / "bvh";
   if (arguments.quick || !std::filesystem::is_directory(folder)) return;
@@ -231,7 +230,8 @@ struct FeetPair {
   Take raw, fixed;
 };
 
-// Without data: walks whose feet slide after noise was smoothed, and the same as they were made.
+// Real pairs, or without data walks whose feet slide after smoothing of noise, paired with the
+// clean walks.
 std::vector<FeetPair> pairs_of(const Arguments& arguments) {
   std::vector<FeetPair> pairs;
   const std::string stem = "style_transfer_demo_results_";

@@ -1,4 +1,4 @@
-// Takes that experiments with live methods use, and takes as a stream gives them.
+// Takes for experiments with live methods, and takes as a stream delivers them.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace kinemend::papers {
 
-/// Six CMU takes with which no setting was chosen; the first three are enough for the quick form.
+/// Six CMU takes on which no setting was chosen; the quick form uses the first three.
 inline std::vector<Take> live_takes(const Arguments& arguments) {
   std::vector<Take> truths;
   for (const auto& [name, motion] :
@@ -48,7 +48,7 @@ inline double live_delay_ms(const Cleaner& cleaner, const Take& like) {
          static_cast<double>(make_stream(cleaner, like)->latency_frames());
 }
 
-/// The error that is left, as a share of that of the damaged take: the mean over takes. `damage`
+/// The remaining error as a share of that of the damaged take, averaged over takes. `damage`
 /// damages a take.
 template <class Damage>
 double live_error_share(const std::vector<Take>& truths, const Cleaner& cleaner,

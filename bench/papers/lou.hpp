@@ -22,16 +22,16 @@ namespace kinemend::papers {
 
 constexpr double lou_rate_hz = 30;  // the paper's: 120 Hz, thinned
 
-/// Clips that a model is fitted to, and clips that it is tried on, which are not among them.
+/// Clips for fitting a model, and other clips for testing it.
 struct LouGroup {
   std::string name;
-  std::vector<Take> training;  ///< at their own rate: all four phases are learned from
+  std::vector<Take> training;  ///< at their own rate: all four phases are used for training
   std::vector<Take> tests;     ///< at 30 Hz
 };
 
 inline Take at_lou_rate(const Take& clip) { return resample(clip, lou_rate_hz); }
 
-/// The takes of these names (`08_01`); synthetic ones of `motion` where there is no data.
+/// The takes of these names (`08_01`), or synthetic ones of `motion` without data.
 inline std::vector<Take> lou_takes(const Arguments& arguments,
                                    const std::vector<std::string>& names, const std::string& motion,
                                    std::uint64_t first_seed) {
@@ -55,8 +55,8 @@ inline LouGroup lou_group(const Arguments& arguments, const std::string& name,
   return group;
 }
 
-/// Five walks of a subject with different speeds and steps for training, as in the paper, and
-/// others of the same subject to try them on.
+/// Five training walks of a subject with different speeds and steps, as in the paper, and other
+/// walks of the same subject for tests.
 inline std::vector<LouGroup> walking_groups(const Arguments& arguments) {
   std::vector<LouGroup> groups;
   groups.push_back(lou_group(arguments, "subject 08", {"08_01", "08_02", "08_06", "08_07", "08_11"},
@@ -89,7 +89,7 @@ inline bool is_trained(const std::string& method) {
   return false;
 }
 
-/// The models that the methods of a comparison need.
+/// The models for the methods of a comparison.
 struct LouModels {
   std::shared_ptr<const Model> example, kalman, wiener;
 };
@@ -101,7 +101,7 @@ inline LouModels lou_models(const std::vector<Take>& training) {
 struct LouMethod {
   std::string name;
   bool is_of_the_paper = false;
-  /// The best of these counts: more than one where the truth chooses the settings.
+  /// Several cleaners if the truth selects the settings; the best of them is shown.
   std::vector<std::unique_ptr<Cleaner>> cleaners;
 };
 
@@ -112,9 +112,9 @@ inline LouMethod lou_method(std::string name, bool is_of_the_paper,
   return method;
 }
 
-/// The paper's four, then others. A Gaussian window of 11 frames has a deviation of 2 (that of the
-/// usual window function); the general Kalman filter takes the pose for constant, and has the best
-/// of a grid of process noises.
+/// The paper's four methods, then others. A Gaussian window of 11 frames has a deviation of 2 (that
+/// of the usual window function). The general Kalman filter assumes a constant pose and has the
+/// best of a grid of process noises.
 inline std::vector<LouMethod> lou_methods(const LouModels& models) {
   std::vector<LouMethod> methods;
   methods.push_back(lou_method("Gaussian, window 11", true, make_gaussian({2 / lou_rate_hz})));
@@ -149,7 +149,7 @@ inline Take cleaned(const Cleaner& cleaner, Take clip) {
   return clip;
 }
 
-/// Gaussian noise on every joint angle, then outliers.
+/// Adds Gaussian noise to every joint angle, then outliers.
 inline Take lou_noise(Take clip, double std_deg, double share_of_outliers, std::uint64_t seed) {
   const Random random(seed);
   Random noise = random.fork(0), jumps = random.fork(1);
@@ -158,7 +158,7 @@ inline Take lou_noise(Take clip, double std_deg, double share_of_outliers, std::
   return clip;
 }
 
-/// Errors of one setting of the noise: for each method the mean over takes and seeds.
+/// Errors for one noise setting: for each method the mean over takes and seeds.
 class LouErrors {
  public:
   void add(std::size_t method, std::size_t cleaner, double error) {
@@ -167,7 +167,7 @@ class LouErrors {
     sums_[method][cleaner].first += error;
     sums_[method][cleaner].second += 1;
   }
-  /// Of the method's best cleaner.
+  /// The error of the method's best cleaner.
   double of(std::size_t method) const {
     double best = 1e300;
     for (const auto& [sum, count] : sums_[method]) best = std::min(best, sum / count);
@@ -178,7 +178,7 @@ class LouErrors {
   std::vector<std::vector<std::pair<double, double>>> sums_;
 };
 
-/// Rows of names and columns of numbers, on the terminal.
+/// Prints rows of names and columns of numbers on the terminal.
 class TextTable {
  public:
   explicit TextTable(const std::vector<std::string>& columns) {

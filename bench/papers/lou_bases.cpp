@@ -1,5 +1,5 @@
-// Figure 3 of Lou & Chai 2010, Example-based Human Motion Denoising: error of walks that are
-// expressed in few filter bases, learned from the other walks.
+// Figure 3 of Lou & Chai 2010, Example-based Human Motion Denoising: error of walks expressed in
+// few filter bases, learned from the other walks.
 #include <algorithm>
 #include <cmath>
 
@@ -31,8 +31,8 @@ Bases bases_of(const std::vector<Take>& training, std::size_t most) {
   return bases;
 }
 
-// Sum of squares of what is left of a window, over the channels of joints below the root, after 0,
-// 1, ... bases.
+// Sum of squared residuals of a window, over the channels of joints below the root, after 0, 1, ...
+// bases.
 std::vector<double> residuals(const Bases& bases, const PoseMatrix& poses, std::size_t first) {
   const std::size_t size = window_frames * bases.channels, joints = 3, place = bases.channels - 3;
   std::vector<double> left(size);
@@ -58,8 +58,8 @@ std::vector<double> residuals(const Bases& bases, const PoseMatrix& poses, std::
   return sums;
 }
 
-// Root mean square per joint angle of a walk that the bases were not learned from, after 0, 1, ...
-// of them.
+// Root mean square error per joint angle of a walk outside the bases' training, after 0, 1, ...
+// bases.
 std::vector<double> errors_of(const std::vector<Take>& walks, std::size_t left_out,
                               std::size_t most) {
   std::vector<Take> training;

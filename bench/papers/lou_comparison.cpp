@@ -14,7 +14,8 @@ struct Damaged {
 
 std::size_t seeds(const Arguments& arguments) { return arguments.quick ? 1 : 3; }
 
-// Errors of every method for one damage, over groups, their tests and seeds; the input's come last.
+// Errors of every method for one damage, over groups, tests and seeds; those of the input come
+// last.
 LouErrors errors_of(const Arguments& arguments, const std::vector<LouGroup>& groups,
                     const std::vector<std::vector<LouMethod>>& methods, const Damaged& damage) {
   LouErrors errors;

@@ -1,6 +1,5 @@
 // The curves of figures 1, 4 and 8 of Lou & Chai 2010, Example-based Human Motion Denoising: angles
-// of a knee and of the thorax, of walks learned from, of a damaged walk and of what filters make of
-// it.
+// of a knee and of the thorax, for training walks, a damaged walk and its filtered versions.
 #include <memory>
 
 #include "lou.hpp"
@@ -8,7 +7,7 @@
 namespace kinemend::papers {
 namespace {
 
-// A turn's size about its mean, signed by the first axis: one curve a joint.
+// The rotation vector's first component as one curve per joint.
 double angle_deg(const Take& clip, std::size_t frame, const std::string& joint) {
   const auto j = static_cast<std::size_t>(std::max(0, clip.skeleton.find(joint)));
   return degrees_per_radian * log(align_hemisphere(clip.rotation(frame, j), Quat{})).x;
@@ -30,7 +29,7 @@ void curves(const Arguments& arguments) {
   const std::string knee = "RightLeg", thorax = "Spine1";
   Table table(arguments, "lou_curves.csv", "figure,version,joint,frame,angle_deg");
 
-  // Figures 1 and 4: the knee is hit throughout, the thorax is not.
+  // Figures 1 and 4: outliers hit the knee throughout, but not the thorax.
   Take hit = truth;
   Random random(4);
   apply_damage(hit, "outliers", {{"share", 0.3}, {"joints", knee}}, random);
@@ -42,7 +41,7 @@ void curves(const Arguments& arguments) {
     add(table, "4", "noisy", hit, joint);
     add(table, "4", "filtered", mended, joint);
   }
-  // Figure 8: noise and outliers in every joint, the thorax by the four methods.
+  // Figure 8: noise and outliers in every joint; the thorax cleaned by the four methods.
   const Take noisy = lou_noise(truth, 3, 0.1, 8);
   KalmanLearnedOptions of_the_past;
   of_the_past.smoother = false;

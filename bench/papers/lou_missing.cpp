@@ -17,7 +17,7 @@ bool has_part(const std::string& name, const auto& parts) {
 
 bool is_of_an_arm(const std::string& name) {
   constexpr std::array parts = {"Arm", "Hand", "Finger", "Thumb"};
-  constexpr std::array markers = {"UPA", "ELB", "FRM", "WRA", "WRB", "FIN"};  // of C3D takes
+  constexpr std::array markers = {"UPA", "ELB", "FRM", "WRA", "WRB", "FIN"};  // names in C3D takes
   return has_part(name, parts) || has_part(name, markers);
 }
 
@@ -34,7 +34,7 @@ Take without_arms(Take clip) {
   return clip;
 }
 
-// Mean distance of what is of an arm, centimetres.
+// Mean distance over the points of the arms, centimetres.
 double arm_distance(std::span<const Vec3> truth, std::span<const Vec3> other,
                     const std::vector<std::string>& names, double cm_per_unit) {
   double sum = 0, count = 0;
@@ -110,7 +110,8 @@ void joints_and_joint_markers(const std::vector<LouGroup>& groups, std::vector<R
   }
 }
 
-// Captured markers: another sequence of the same subject (breakdance, so no two are alike).
+// Captured markers: another sequence of the same subject. The motion is breakdance, so sequences
+// differ.
 void captured_markers(const Arguments& arguments, std::vector<Result>& results) {
   const auto training = find_take(arguments.data, "85_12.c3d");
   const auto test = find_take(arguments.data, "85_02.c3d");

@@ -15,8 +15,8 @@ struct Prior {
   std::vector<Take> training;
 };
 
-// The takes of the library that are described as of this motion and that there are, but for those
-// that are tried, at 30 Hz: a quarter of the room, and as many frames as the paper counts.
+// The available takes of the library described as this motion, except the tested ones, at 30 Hz:
+// this needs a quarter of the memory and gives as many frames as the paper states.
 struct Library {
   std::vector<Take> clips;
   std::size_t subjects = 0;

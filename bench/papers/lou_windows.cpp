@@ -1,5 +1,5 @@
-// Figure 9 of Lou & Chai 2010, Example-based Human Motion Denoising: error against the size of the
-// window, for a noisy walk and for missing limbs in jumps.
+// Figure 9 of Lou & Chai 2010, Example-based Human Motion Denoising: error against window size, for
+// a noisy walk and for missing limbs in jumps.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ const std::vector<std::vector<std::string>> limbs = {{"LeftArm", "LeftForeArm", 
                                                      {"LeftUpLeg", "LeftLeg", "LeftFoot"},
                                                      {"RightUpLeg", "RightLeg", "RightFoot"}};
 
-// Each limb missing for a second in the middle of the take, one at a time.
+// Hides each limb in turn for a second in the middle of the take.
 double filling_error(const Cleaner& cleaner, const Take& truth) {
   const std::size_t frames = truth.frame_count();
   const std::size_t length = std::min<std::size_t>(30, frames / 2), first = (frames - length) / 2;

@@ -1,4 +1,4 @@
-// Pairs of one motion by two systems, for the quick forms of experiments on real pairs.
+// Pairs of one motion from two systems, for the quick forms of experiments on real pairs.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ struct MarkerPair {
   Take reference, noisy;  ///< millimetres
 };
 
-/// Five seconds of a synthetic motion, and the same with the noise of a family of systems
-/// (`corrupt::system_families`).
+/// Five seconds of a synthetic motion, paired with the same motion with the noise of a family of
+/// systems (`corrupt::system_families`).
 inline MarkerPair made_pair(const std::string& motion, double frame_rate_hz,
                             const std::string& family, std::uint64_t seed = 1) {
   MarkerPair pair;

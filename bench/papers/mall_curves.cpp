@@ -1,5 +1,5 @@
 // Mall et al. 2017, figures 3 and 4: the error of each method over time on eight takes of the first
-// hold-out, and the shapes that a network chooses which may choose any.
+// hold-out, and the filter shapes of a network with free shapes.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double curve_step_s = 0.1;
 
-// The take without noise as each method of figure 4 has it back; EBD where its network is there.
+// The results of the methods in figure 4 for a noise-free take; EBD if its network exists.
 std::map<std::string, Take> cleaned_by_all(const Arguments& arguments, const Take& clip) {
   std::map<std::string, Take> results;
   results["gaussian 58 ms"] = cleaned(clip, "gaussian", {{"width_s", 0.058}});
@@ -27,7 +27,7 @@ std::map<std::string, Take> cleaned_by_all(const Arguments& arguments, const Tak
   return results;
 }
 
-// Two walks and all others: the paper shows eight.
+// Two walks and all other takes; the paper shows eight takes.
 std::vector<HeldOut> shown_takes(const Arguments& arguments) {
   std::vector<HeldOut> shown;
   std::size_t walks = 0;
@@ -92,7 +92,7 @@ std::vector<double> gaussian_kernel(double width_frames) {
 
 struct NearestGaussian {
   double width_frames = 0;
-  double distance = 1;  // half the sum of absolute differences: 0 the same, 1 nothing in common
+  double distance = 1;  // half the sum of absolute differences: 0 is equal, 1 is disjoint
 };
 
 NearestGaussian nearest_gaussian(Kernel kernel) {
@@ -106,7 +106,7 @@ NearestGaussian nearest_gaussian(Kernel kernel) {
   return nearest;
 }
 
-// Of a network with the head shape: the weights of each frame, F x 31.
+// The weights of each frame (F x 31) from a network with the head shape.
 std::vector<double> kernels_of(const PaperNetwork& paper, const Take& clip) {
   const FilterTake take =
       filter_take_of(encode_body(clip, paper.layout, match_body(paper.layout, clip)), paper.layout);

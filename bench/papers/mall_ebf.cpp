@@ -1,7 +1,6 @@
 // Mall et al. 2017, figures 6 and 8: EBF, its ablations BF and NN, and forms of EBF, on the takes
-// of a hold-out that they have not seen, beside the paper's two Gaussians, the best constant
-// Gaussian of each noise, and the methods of this project. The networks are made by
-// tools/train_paper.
+// of a hold-out outside their training, beside the paper's two Gaussians, the best constant
+// Gaussian for each noise, and the methods of this project. tools/train_paper makes the networks.
 #include <cmath>
 #include <map>
 
@@ -18,7 +17,7 @@ struct Noise {
   OptionValues options;
 };
 
-// EBD, which makes poses, is a denoiser here, as in the paper's figures 4 and 5.
+// EBD, which outputs poses, is used as a denoiser here, as in the paper's figures 4 and 5.
 const std::vector<std::string> network_names{"ebf", "ebf-biased", "ebf-shape", "ebf-spatial",
                                              "bf",  "nn",         "ebd"};
 const std::vector<std::string> other_methods{"auto", "example", "wiener"};
@@ -64,7 +63,7 @@ class Comparison {
   }
 
  private:
-  // Group plain: without the joints that turn over.
+  // The group "plain" excludes joints that turn over.
   void measure(const TakeErrors& errors, const Take& clip,
                std::map<std::string, EbfErrors>& groups) const {
     const auto add = [&](const std::string& method, const Take& result) {
@@ -85,9 +84,15 @@ class Comparison {
     for (const std::string& method : other_methods) add(method, cleaned(clip, method));
   }
 
+<<<<<<< HEAD
   // Of the constant Gaussians the best stands for all.
   static void write(Table& table, const Noise& noise, const std::string& group, EbfErrors& errors) {
     EbfSums best;
+=======
+  // Only the best of the constant Gaussians is listed.
+  static void write(Table& table, const Noise& noise, const std::string& group, Errors& errors) {
+    Sums best;
+>>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
     for (const auto& [method, sums] : errors) {
       if (method.rfind("constant", 0) == 0 && (best.count == 0 || sums.moving < best.moving))
         best = sums;

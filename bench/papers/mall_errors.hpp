@@ -15,9 +15,10 @@
 
 namespace kinemend::papers {
 
-/// Errors of a take, with and without the joints that turn over: those with an Euler channel that
-/// spans more than a whole turn. Its deviation, by which noise of k is drawn, is that of the turn
-/// and not of a motion, so that one such channel decides the error of a take.
+/// Errors of a take, with and without the joints that turn over, that is, joints with an Euler
+/// channel that spans more than a whole turn. The deviation of such a channel, by which noise of k
+/// is scaled, is that of the turn and not of a motion, so one such channel would decide the error
+/// of a take.
 class TakeErrors {
  public:
   explicit TakeErrors(Take truth) : truth_(std::move(truth)), turns_over_(truth_.joint_count()) {
@@ -44,12 +45,12 @@ class TakeErrors {
 
   const Take& truth() const { return truth_; }
   bool has_turning() const { return plain_factor_ > 1; }
-  /// Channels that move over all, with and without the joints that turn over: the others have no
+  /// Share of moving channels, with and without the joints that turn over; other channels have no
   /// error.
   double share_that_moves(bool plain) const {
     return plain ? plain_share_that_moves_ : share_that_moves_;
   }
-  /// `rms_deg_per_frame`.
+  /// `rms_deg_per_frame` of a result.
   std::vector<double> per_frame(const Take& result, bool plain) const {
     if (!plain || !has_turning()) return rms_deg_per_frame(truth_, result);
     Take own = result;
@@ -84,7 +85,7 @@ class TakeErrors {
   }
 
   Take truth_;
-  std::vector<std::uint8_t> turns_over_;  // of each joint
+  std::vector<std::uint8_t> turns_over_;  // per joint
   double plain_factor_ = 1, share_that_moves_ = 1, plain_share_that_moves_ = 1;
 };
 

@@ -1,5 +1,5 @@
-// Mall et al. 2017, figures 9 and 10: takes with noise and gaps, and takes with long gaps. The
-// network that fills, EBD, is made by tools/train_paper; without it there is nothing to measure.
+// Mall et al. 2017, figures 9 and 10: takes with noise and gaps, and takes with long gaps.
+// tools/train_paper makes EBD, the network that fills; without it, this program measures nothing.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace kinemend::papers {
 namespace {
 
-// By the EBD; the root and what it does not know stay as they are.
+// Fills with EBD; the root and joints unknown to EBD are unchanged.
 Take filled_by_ebd(const PaperNetwork& ebd, const Take& clip) {
   const BodyMatch match = match_body(ebd.layout, clip);
   BodyChannels channels = encode_body(clip, ebd.layout, match);
@@ -43,7 +43,7 @@ Take filled_by(const Take& clip, const std::string& method) {
   return result;
 }
 
-// Root mean square angle over the samples that are missing in `damaged`, degrees.
+// Root mean square angle over the samples missing in `damaged`, degrees.
 double gap_error(const Take& truth, const Take& damaged, const Take& result) {
   double square = 0, count = 0;
   for (std::size_t i = 0; i < damaged.observed.size(); ++i) {
@@ -106,14 +106,14 @@ struct LongGap {
   double length_s;
 };
 
-// Joints of CMU; other takes lack the lower back.
+// Joints of CMU skeletons; other skeletons have no lower back.
 std::string joints_with_gaps(const Take& clip) {
   const std::string all = "*Leg,*Foot,*Arm,*ForeArm,Spine*,Neck1,Head";
   const auto& names = clip.skeleton.names;
   return std::count(names.begin(), names.end(), "LowerBack") > 0 ? all + ",LowerBack" : all;
 }
 
-// The methods' errors of one take, a number of gaps each.
+// Adds the methods' errors over `draws` gaps of one take.
 void fill_long_gaps(const Take& truth, const LongGap& gap, const PaperNetwork& ebd,
                     const std::vector<std::string>& methods, std::uint64_t first_seed,
                     std::uint64_t draws, std::map<std::string, GapSums>& errors) {
@@ -153,9 +153,9 @@ void long_gaps(const Arguments& arguments, const std::vector<HeldOut>& takes,
   table.close();
 }
 
-// Takes that EBD has not learned from and that are longer than those that it has, with the longest
-// take of the hold-out: 20 s of each, and parts that are hardly longer than the gap. Methods of
-// `fill` alone.
+// Takes outside EBD's training and longer than its training takes, together with the longest take
+// of the hold-out: 20 s of each, and parts hardly longer than the gap. Only methods of `fill` are
+// tried.
 void gaps_of_other_takes(const Arguments& arguments, const PaperNetwork& ebd) {
   struct Case {
     std::string words;
@@ -188,7 +188,7 @@ void gaps_of_other_takes(const Arguments& arguments, const PaperNetwork& ebd) {
   table.close();
 }
 
-// One channel through a long gap of a take with noise, as figure 10 draws it.
+// One channel through a long gap of a noisy take, as in figure 10.
 void gap_curves(const Arguments& arguments, const PaperNetwork& ebd) {
   struct Drawn {
     const char *take, *joint;
@@ -219,7 +219,7 @@ void gap_curves(const Arguments& arguments, const PaperNetwork& ebd) {
       versions["lerp and ebf"] = by_network(*ebf, lines);
       versions["ebd and ebf"] = by_network(*ebf, filled_by_ebd(ebd, clip));
     }
-    // About the axis of the knee.
+    // The angle is that about the knee's axis.
     const RotationOrder order = truth.skeleton.rotation_order(joint);
     const auto axis = static_cast<std::size_t>(
         std::find(order.axes.begin(), order.axes.end(), Axis::x) - order.axes.begin());

@@ -34,14 +34,14 @@ inline std::vector<HeldOut> hold_outs_of(const Arguments& arguments) {
   return takes;
 }
 
-/// A trained network with the body that it knows.
+/// A trained network with the body it was trained on.
 struct PaperNetwork {
   BodyLayout layout;
   FilterNetwork network;
 };
 
-/// `<models>/<name>.kmodel`, as `tools/train_paper` leaves it; without that file `ebf` is the model
-/// that ships.
+/// `<models>/<name>.kmodel`, written by `tools/train_paper`; without that file, `ebf` is the
+/// shipped model.
 inline std::optional<PaperNetwork> paper_network(const Arguments& arguments,
                                                  const std::string& name) {
   const std::filesystem::path path = arguments.models / (name + ".kmodel");
@@ -51,7 +51,7 @@ inline std::optional<PaperNetwork> paper_network(const Arguments& arguments,
   return PaperNetwork{model.layout, filter_network_of(model)};
 }
 
-/// What a network makes of a take at its rate; the root stays.
+/// Applies a network to a take at its rate; the root is unchanged.
 inline Take by_network(const PaperNetwork& paper, const Take& clip) {
   const BodyMatch match = match_body(paper.layout, clip);
   BodyChannels channels = encode_body(clip, paper.layout, match);
@@ -63,12 +63,12 @@ inline Take by_network(const PaperNetwork& paper, const Take& clip) {
   return result;
 }
 
-/// The take of a hold-out, or a synthetic one where there is no data.
+/// The take of a hold-out, or a synthetic one without data.
 inline Take take_of(const Arguments& arguments, const HeldOut& take) {
   return load_take(arguments, take.name + ".bvh", {.motion = take.name, .duration_s = 2}).clip;
 }
 
-/// The takes of some hold-outs ("12345"); of the quick form and without data two synthetic ones.
+/// The takes of some hold-outs ("12345"); in the quick form and without data, two synthetic ones.
 inline std::vector<HeldOut> takes_of_hold_outs(const Arguments& arguments,
                                                std::string_view holdouts) {
   std::vector<HeldOut> takes;

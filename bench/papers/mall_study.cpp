@@ -1,7 +1,7 @@
-// Mall et al. 2017 with networks that were trained as the paper's were, by tools/train_study: EBF
-// beside its ablations over all hold-outs (figures 5 and 8) with paired differences, EBD as a
-// denoiser, EBF that has not seen an action (section 4.1), models of one strength of noise and of
-// all (figure 6, left), and biases (figure 7). --models names the folder of the networks.
+// Mall et al. 2017 with networks trained as in the paper by tools/train_study: EBF beside its
+// ablations over all hold-outs (figures 5 and 8) with paired differences, EBD as a denoiser, EBF
+// not trained on one action (section 4.1), models of one noise strength and of all (figure 6,
+// left), and biases (figure 7). --models names the folder of the networks.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -21,7 +21,7 @@ struct StudyNetwork {
   PaperNetwork paper;
 };
 
-// In the quick form those of bench/papers/models take their place.
+// The quick form uses the networks of bench/papers/models instead.
 std::vector<StudyNetwork> study_networks(const Arguments& arguments) {
   std::vector<StudyNetwork> networks;
   if (arguments.quick) {
@@ -48,7 +48,7 @@ std::vector<StudyNetwork> study_networks(const Arguments& arguments) {
   return networks;
 }
 
-// What a network makes of a take when each channel keeps the mean of the widths that it predicts.
+// Filters a take with each channel's mean predicted width in all frames.
 Take by_held_widths(const PaperNetwork& paper, const Take& clip) {
   const FilterNetwork& network = paper.network;
   const BodyMatch match = match_body(paper.layout, clip);
@@ -93,23 +93,22 @@ double bias_of(const PaperNetwork& paper, const Take& clip) {
   return std::sqrt(square / static_cast<double>(take.frames * take.channels));
 }
 
-// How a network with Gaussian filters decides, on some takes with noise.
+// Statistics of a network with Gaussian filters, on some noisy takes.
 struct NetworkFacts {
-  double over_time = 0;         // deviation of a channel's logarithms of widths
+  double over_time = 0;         // deviation of a channel's log widths
   double between_channels = 0;  // deviation of the channels' means
   double saturated = 0;         // share of the encoder's values beyond 0.95
-  double code_dimensions = 0;   // over how many the variance of the code is spread
+  double code_dimensions = 0;   // number of dimensions that share the variance of the code
 };
 
-// The code of a network: what its encoder makes of a take, frames x size.
+// The code of a network: the output of its encoder for a take, frames x size.
 std::vector<float> code_of(FilterNetwork network, std::span<const float> features) {
   network.recurrent.clear();
   network.decoder.clear();
   return run(network, features);
 }
 
-// Sum of the variances squared over the sum of squared covariances: n where n directions vary
-// alike.
+// (Sum of variances)^2 over the sum of squared covariances: n if n directions vary equally.
 double dimensions_of(const std::vector<float>& codes, std::size_t size) {
   const std::size_t rows = codes.size() / size;
   std::vector<double> means(size);
@@ -188,7 +187,7 @@ void network_facts(const Arguments& arguments, const std::vector<StudyNetwork>& 
   table.close();
 }
 
-// Of one method, from take to error: the mean over draws, degrees.
+// Errors of one method by take: the mean over draws, degrees.
 using ByTake = std::map<std::size_t, double>;
 // Methods are called "bf" (seed 1), "bf 2" (seed 2), "gaussian 58 ms".
 using StudyErrors = std::map<std::string, ByTake>;
@@ -201,7 +200,8 @@ std::string words_of(const StudyNetwork& own) {
   return own.seed == "1" ? own.network : own.network + " " + own.seed;
 }
 
-// With noise of k = 0.5 and Gaussian filters or a pose; "bound": begun with the paper's weights.
+// Networks for noise of k = 0.5 with Gaussian filters or a pose; "bound" ones start with the
+// paper's weights.
 const std::set<std::string> compared_networks{"ebf",      "bf",      "nn",     "ebd",
                                               "ebfbound", "bfbound", "nnbound"};
 
@@ -261,7 +261,7 @@ std::vector<StudyGroup> study_groups() {
   return groups;
 }
 
-// Rows of the methods that have errors of all takes of a group.
+// Writes rows of the methods that have errors for all takes of a group.
 void write_means(Table& table, const std::string& joints, const StudyErrors& errors,
                  const std::vector<HeldOut>& takes) {
   for (const StudyGroup& group : study_groups()) {
@@ -284,7 +284,7 @@ void write_means(Table& table, const std::string& joints, const StudyErrors& err
   }
 }
 
-// Mean of differences, with its standard error.
+// Writes the mean of differences with its standard error.
 void write_pair(Table& table, const std::vector<std::string>& names, const std::string& over,
                 const std::vector<double>& differences) {
   if (differences.size() < 2) return;
@@ -310,7 +310,7 @@ struct StudyPair {
   std::string method, base;
 };
 
-// What a method leaves less what another leaves of the same takes with the same noise.
+// Writes the paired differences of two methods' errors on the same takes with the same noise.
 void write_pairs(Table& table, const std::string& joints, const StudyErrors& errors,
                  const std::vector<HeldOut>& takes) {
   for (const StudyPair& pair : std::vector<StudyPair>{{"bf", "ebf"},
@@ -353,7 +353,7 @@ void write_pairs(Table& table, const std::string& joints, const StudyErrors& err
   }
 }
 
-// Those for which each of the three networks is there.
+// Hold-outs for which all three networks exist.
 std::string trained_hold_outs(const std::vector<StudyNetwork>& networks) {
   std::string found;
   for (const char* holdout : {"1", "2", "3", "4", "5"}) {
@@ -389,7 +389,7 @@ struct StudyNoise {
   std::vector<std::pair<std::string, OptionValues>> damages;
 };
 
-// As tools/train_study trains on them.
+// The noises on which tools/train_study trains.
 std::vector<StudyNoise> study_noises() {
   const auto noise = [](double k) {
     return std::pair<std::string, OptionValues>{"gaussian-channels", {{"k", k}}};
@@ -405,7 +405,7 @@ std::vector<StudyNoise> study_noises() {
        {noise(0.5), {"sinusoid", {{"amplitude_deg", 5.0}, {"frequency_hz", 0.5}, {"axis", x}}}}}};
 }
 
-// Networks of other noise and with other heads, on hold-out 1.
+// Measures networks for other noise and with other heads, on hold-out 1.
 void other_noises(const Arguments& arguments, const std::vector<StudyNetwork>& networks) {
   Table table(arguments, "ablation_mall_noise.csv",
               "noise,method,takes,rms_deg,of_gaussian_58,bias_deg");

@@ -1,4 +1,4 @@
-// Markers of bodies, in millimetres, and noise and motion that experiments put into them.
+// Markers of bodies in millimetres, and noise and motion that experiments add to them.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace kinemend::papers {
 
 struct MarkerNoise {
   std::string name;
-  double std_mm;       ///< of each axis
+  double std_mm;       ///< per axis
   double correlation;  ///< from frame to frame; 0: white
 };
 
@@ -39,7 +39,7 @@ inline Take with_marker_noise(Take clip, const MarkerNoise& noise, std::uint64_t
   return clip;
 }
 
-/// Millimetres, root mean square of distances.
+/// Root mean square distance, millimetres.
 inline double distance_mm(const Take& a, const Take& b) {
   double square = 0;
   for (std::size_t i = 0; i < a.positions.size(); ++i) {
@@ -49,7 +49,7 @@ inline double distance_mm(const Take& a, const Take& b) {
   return std::sqrt(square / static_cast<double>(a.positions.size()));
 }
 
-/// Markers of the hands shake up and down by 6 cm for two seconds, from a third of the take on.
+/// Shakes the hand markers up and down by 6 cm for two seconds, from a third of the take on.
 inline Take with_shaking_hands(Take still, double frequency_hz) {
   constexpr double size_mm = 60;
   const std::size_t markers = still.marker_count(), first = still.frame_count() / 3,

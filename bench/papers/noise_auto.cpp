@@ -1,5 +1,5 @@
-// What `auto` leaves of six kinds of noise, as a share of what the best Gaussian leaves: white,
-// correlated from frame to frame, and of samples of a lower rate that were held or interpolated.
+// Errors that `auto` leaves for six kinds of noise, as a share of those of the best Gaussian:
+// white, correlated from frame to frame, and samples of a lower rate, held or interpolated.
 #include <algorithm>
 #include <cmath>
 #include <functional>

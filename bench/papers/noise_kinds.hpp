@@ -1,4 +1,4 @@
-// Noise of joints that no damage of the program makes: its spectrum is shaped.
+// Noise of joints with a shaped spectrum, which the program's damages do not offer.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@
 
 namespace kinemend::papers {
 
-/// A deviation of `std_deg` per axis, shaped by `shape` (F x 3 J, from white noise).
+/// Adds noise with a deviation of `std_deg` per axis, shaped from white noise by `shape` (F x 3 J).
 inline Take with_shaped_noise(Take clip, double std_deg, std::uint64_t seed,
                               const std::function<void(PoseMatrix&)>& shape) {
   PoseMatrix noise(clip.frame_count(), 3 * clip.joint_count());
@@ -33,14 +33,14 @@ inline Take with_shaped_noise(Take clip, double std_deg, std::uint64_t seed,
   return clip;
 }
 
-/// As pipelines filter takes before they hand them over.
+/// Noise after a low-pass filter, as in many capture pipelines.
 inline Take low_passed_noise(const Take& clip, std::uint64_t seed) {
   return with_shaped_noise(clip, 3, seed, [&](PoseMatrix& noise) {
     filter_zero_phase(noise, butterworth_lowpass(2, 4, clip.frame_rate_hz));
   });
 }
 
-/// As of a system of 30 Hz whose poses were brought to the rate of the take.
+/// Noise of a 30 Hz system whose poses were interpolated to the rate of the take.
 inline Take noise_of_30_hz(const Take& clip, std::uint64_t seed) {
   return with_shaped_noise(clip, 1.5, seed, [&](PoseMatrix& noise) {
     const auto step = static_cast<std::size_t>(std::lround(clip.frame_rate_hz / 30));

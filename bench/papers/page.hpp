@@ -1,5 +1,4 @@
-// Damage, cleaning and number formats for the programs that measure the figures of the
-// documentation.
+// Damage, cleaning and number formats for the programs that measure figures of the documentation.
 #pragma once
 
 #include <cstdint>

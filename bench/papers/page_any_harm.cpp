@@ -1,5 +1,5 @@
-// Figures of docs/methods/learned.md: what is left of motion that cleaning must not take away, on
-// motions that its model has not seen.
+// Figures of docs/methods/learned.md: how much cleaning keeps of real motion, on motions outside
+// the model's training.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -18,8 +18,8 @@ std::size_t joint_named(const Take& clip, const std::string& name) {
   return static_cast<std::size_t>(joint);
 }
 
-// Of the joints that turn by 200 degrees a second and more, the least share of the peak speed that
-// is left.
+// The smallest remaining share of peak speed, over joints that turn by 200 degrees per second or
+// more.
 double peak_left(const Take& truth, const Take& result) {
   const auto before = peak_angular_speed_deg_s(truth), after = peak_angular_speed_deg_s(result);
   double least = 1e9;
@@ -29,7 +29,7 @@ double peak_left(const Take& truth, const Take& result) {
   return least;
 }
 
-// By how much the rotations of a joint of `result` swing with those of `truth`.
+// The amplitude of a joint's rotation in `result` relative to that in `truth`.
 double swing_left(const Take& truth, const Take& result, std::size_t joint) {
   const Quat reference = truth.rotation(0, joint);
   const auto vectors_of = [&](const Take& clip) {
@@ -71,7 +71,7 @@ Take with(const Oscillation& motion, Take clip) {
   return clip;
 }
 
-// The share of the oscillation that `result` still has over `clip`, which is without.
+// The share of the oscillation that `result` still has; `clip` has none.
 double oscillation_left(const Oscillation& motion, const Take& clip, const Take& result) {
   const std::size_t joint = joint_named(clip, motion.joint);
   double xx = 0, xy = 0;

@@ -1,4 +1,4 @@
-// Figures of docs/methods/learned.md: markers of bodies that travel, under noise and clean.
+// Figures of docs/methods/learned.md: markers of moving bodies, noisy and clean.
 #include <algorithm>
 #include <map>
 
@@ -46,7 +46,7 @@ void markers_under_noise(const Arguments& arguments) {
   table.close();
 }
 
-// Optical takes as they were recorded: what changes of them.
+// Measures how much optical takes change as recorded.
 void optical_takes(const Arguments& arguments) {
   Table table(arguments, "any_optical.csv", "method,takes,median_mm,most_mm");
   std::vector<Take> takes;
@@ -71,7 +71,7 @@ void optical_takes(const Arguments& arguments) {
   table.close();
 }
 
-// Markers of the hands of a clean take that shake: the share of that which is left.
+// Measures the remaining share of shaking hand markers in a clean take.
 void shaking_hands(const Arguments& arguments) {
   Table table(arguments, "any_shaking.csv", "frequency_hz,method,share");
   const Take still = in_millimetres(kept_take(arguments, kept_takes(arguments).back()));

@@ -1,5 +1,5 @@
-// Figures of docs/methods/learned.md: noise of every kind on takes that its model has not seen,
-// and what happens to takes that are clean.
+// Figures of docs/methods/learned.md: noise of every kind on takes outside the model's training,
+// and the changes to clean takes.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -83,7 +83,8 @@ void every_noise(const Arguments& arguments) {
   table.close();
 }
 
-// White noise of 1.5 degrees and spikes, on the three clips of the project's first tables.
+// Measures white noise of 1.5 degrees with spikes, on the three clips of the project's first
+// tables.
 void white_and_spikes(const Arguments& arguments) {
   Table table(arguments, "any_spikes.csv", "take,method,rms_deg");
   std::vector<std::string> names{"35_01", "02_05", "09_03"};
@@ -98,8 +99,13 @@ void white_and_spikes(const Arguments& arguments) {
   table.close();
 }
 
+<<<<<<< HEAD
 // What is done to takes that need nothing.
 void any_noise_on_clean_takes(const Arguments& arguments) {
+=======
+// Measures the changes to clean takes.
+void clean_takes(const Arguments& arguments) {
+>>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
   Table table(arguments, "any_clean.csv", "method,takes,median_deg,worst_deg");
   std::vector<std::string> names;
   std::ifstream list(arguments.data / "cmu" / "recurrent-100.csv");

@@ -1,5 +1,5 @@
-// Figures of docs/methods/learned.md: takes of markerless systems and of depth cameras beside
-// markers of the same motion, of systems and persons that no model that ships has seen.
+// Figures of docs/methods/learned.md: takes of markerless systems and depth cameras beside markers
+// of the same motion, from systems and persons outside the training of the shipped models.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,7 +26,7 @@ struct Source {
   std::size_t takes = 0;
   double within = 0;  ///< summed over takes
   std::map<std::string, PairErrors> shares;
-  // Of each method, what it does to the references, which are clean: degrees, of each take.
+  // For each method, the change of each clean reference take, degrees.
   std::map<std::string, std::vector<double>> reference_changes;
 };
 
@@ -37,7 +37,7 @@ double root_mean_square_of_difference(const std::vector<float>& a, const std::ve
   return std::sqrt(square / static_cast<double>(a.size()));
 }
 
-// The share of errors that are no larger than the deviation that the network states.
+// The share of errors not larger than the deviation that the network states.
 double share_within(const MotionSample& pair) {
   static const MotionNetwork network = motion_network_of(*shipped_model("learned"));
   MotionTake take = pair.take;
@@ -90,7 +90,7 @@ void add_pair(const Take& noisy, const Take& reference, double least_deg, Source
   ++source.takes;
 }
 
-// Without data: walks with the noise of such systems.
+// Adds walks with the noise of such systems, for use without data.
 void add_made_pairs(std::map<std::string, Source>& sources) {
   const MarkerPair depth = made_pair("walk", 30, "depth");
   add_pair(depth.noisy, depth.reference, least_move_deg, sources["depth"]);

@@ -1,5 +1,5 @@
-// Figures of docs/methods/learned.md: what becomes of clean takes of other worlds: studios, rigs,
-// rates and styles from which no model that ships has learned.
+// Figures of docs/methods/learned.md: the changes to clean takes of other worlds, that is, studios,
+// rigs, rates and styles outside the training of the shipped models.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -15,7 +15,7 @@ namespace kinemend::papers {
 namespace {
 
 struct Harm {
-  double rms = 0;        ///< over all tracks: degrees, or millimetres of markers
+  double rms = 0;        ///< over all tracks: degrees, or millimetres for markers
   double peak_loss = 0;  ///< of the track that loses most, of those faster than 100 degrees/s or
                          ///< 500 mm/s
 };

@@ -1,5 +1,5 @@
-// Figures of docs/bodies.md: how little noise moves the frame of a body, and how much alike the
-// channels of one motion are in two formats, and of walks by other makers.
+// Figures of docs/bodies.md: how little noise moves the frame of a body, and how similar the
+// channels are for one motion in two formats and for walks from other programs.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -26,7 +26,7 @@ struct FrameError {
   double heading_deg = 0, place_mm = 0, floor_mm = 0;
 };
 
-// Root mean square over the frames, of the floor the difference.
+// Root mean square over the frames; for the floor, the difference.
 FrameError frame_error(const BodyChannels& truth, const BodyChannels& found, double metres) {
   FrameError error;
   for (std::size_t f = 0; f < truth.headings.size(); ++f) {
@@ -42,7 +42,7 @@ FrameError frame_error(const BodyChannels& truth, const BodyChannels& found, dou
   return error;
 }
 
-// Two degrees in every joint, and a centimetre in the place: ten draws.
+// Adds two degrees to every joint and a centimetre to the place, in ten draws.
 void noise(const Arguments& arguments) {
   Table table(arguments, "page_body_noise.csv", "take,rate_hz,heading_deg,place_mm,floor_mm");
   for (const auto& [name, motion] :
@@ -72,7 +72,8 @@ void noise(const Arguments& arguments) {
   table.close();
 }
 
-// How far a walk of 1.3 m/s on a circle of a metre comes inside of it, a second from the ends.
+// How far the smoothed path of a walk of 1.3 m/s on a circle of 1 m radius lies inside it, a second
+// from the ends.
 double circle_cut_cm() {
   std::vector<Vec3> path;
   for (int f = 0; f < 600; ++f) path.push_back({std::cos(1.3 * f / 60), 0, std::sin(1.3 * f / 60)});
@@ -83,7 +84,7 @@ double circle_cut_cm() {
   return 100 * most;
 }
 
-// The takes there are as BVH and as AMC, two of each subject: the track whose channels differ most.
+// Takes that exist as BVH and as AMC, two per subject: the track whose channels differ most.
 void formats(const Arguments& arguments, Table& table) {
   std::map<std::string, int> taken;
   double worst = 0, takes = 0;
@@ -113,7 +114,7 @@ struct NamedMotion {
   Take clip;
 };
 
-// Walks by other makers; without data, other walks of the generator.
+// Walks from other programs; without data, other synthetic walks.
 std::vector<NamedMotion> other_walks(const Arguments& arguments) {
   std::vector<NamedMotion> walks;
   if (!std::filesystem::is_directory(arguments.data / "bvh-other")) {
@@ -153,7 +154,7 @@ void makers(const Arguments& arguments) {
   table.close();
 }
 
-// How much the other channels of a take of markers change without both arms.
+// How much the other channels of a take of markers change if both arms are missing.
 double armless_deg(const Arguments& arguments) {
   const Take clip = read_take(*find_take(arguments.data, "85_12.c3d")).take;
   const BodyLayout layout = layout_of(clip);

@@ -1,5 +1,5 @@
-// Figures of docs/check.md: labels of markers exchanged at random, and found; takes that are noisy
-// although nothing shows, and clean takes.
+// Figures of docs/check.md: detection of randomly exchanged marker labels; takes whose noise does
+// not show, and clean takes.
 #include <map>
 
 #include "check/marker_support.hpp"
@@ -18,7 +18,8 @@ void exchanged_labels(const Arguments& arguments) {
     const auto path = find_take(arguments.data, file);
     const Take clean = path ? read_take(*path).take : test::synthetic_markers("walk");
     test::Tally tally;
-    // Two centimetres apart: the files are in millimetres, the synthetic markers in centimetres.
+    // At least two centimetres apart: the files are in millimetres, the synthetic markers in
+    // centimetres.
     for (std::uint64_t seed = 1; seed <= (arguments.quick ? 2 : 10); ++seed) {
       const auto trial = test::with_random_swaps(clean, 8, path ? 20 : 2, seed);
       tally.add(trial.swaps, find_swaps(trial.clip));
@@ -31,10 +32,10 @@ void exchanged_labels(const Arguments& arguments) {
   table.close();
 }
 
-// The number of takes of which something is said that is no fault.
+// Counts takes with findings that are not faults.
 struct Doubts {
   std::size_t takes = 0, expected_noise = 0, no_contact = 0, either = 0;
-  std::size_t nothing = 0;  ///< neither, and no warning
+  std::size_t nothing = 0;  ///< neither finding, and no warning
 
   void add(const Take& take) {
     bool expects = false, never_stands = false, is_faulty = false;

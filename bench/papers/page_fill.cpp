@@ -1,5 +1,5 @@
-// Figures of docs/methods/fill.md and fill-joints.md: what is promised of filled gaps and what
-// becomes of it, and the methods for joints by the length of the gap.
+// Figures of docs/methods/fill.md and fill-joints.md: expected and real errors of filled gaps, and
+// the methods for joints by gap length.
 #include <algorithm>
 
 #include "fill/made_gaps.hpp"
@@ -10,7 +10,7 @@
 namespace kinemend::papers {
 namespace {
 
-// `least`: the error of a short gap that counts, millimetres or degrees.
+// `least` is the smallest error of a short gap that is counted, millimetres or degrees.
 void add_promises(Table& table, const std::string& takes, const std::vector<fill::Kept>& kept,
                   double least) {
   const fill::Figures f = fill::figures_of(kept, least);
@@ -34,7 +34,7 @@ void promises(const Arguments& arguments) {
                            "sample21.c3d", "S02-Trial-Walk-1-vicon.c3d", "SprintMotion.trc",
                            "ballet_reduced.trc", "depth-RTK.reference.trc"}) {
     const auto path = find_take(arguments.data, file);
-    const bool is_hdm = std::string(file).starts_with("HDM");  // of which the first are no markers
+    const bool is_hdm = std::string(file).starts_with("HDM");  // their first points are not markers
     const Take truth =
         path ? quality::points_of(*path, is_hdm ? 3 : 0, 41) : test::marker_take("walk", 5);
     keep(truth, fill::whole_markers(truth));
@@ -52,7 +52,7 @@ void promises(const Arguments& arguments) {
   table.close();
 }
 
-// Three gaps in each of five joints that move, at places drawn by the seed.
+// Adds three gaps to each of five moving joints, at random places.
 Take with_gaps(const Take& truth, std::size_t length, std::uint64_t seed) {
   constexpr std::size_t apart = 3;
   Random random(seed);
@@ -90,7 +90,7 @@ void joints_by_length(const Arguments& arguments) {
       double mean = 0, count = 0;
       for (const Take& truth : truths) {
         const auto length = static_cast<std::size_t>(length_s * truth.frame_rate_hz);
-        if (truth.frame_count() < 3 * length + 30) continue;  // a run, for gaps of a second
+        if (truth.frame_count() < 3 * length + 30) continue;  // too short, as a run is
         for (std::uint64_t seed = 1; seed <= (arguments.quick ? 1 : 10); ++seed) {
           const Take damaged = with_gaps(truth, length, seed);
           Take filled = fill::spoilt(damaged);

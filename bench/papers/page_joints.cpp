@@ -1,5 +1,4 @@
-// Figures of README.md and docs that are of joints: methods on the project's own takes, `auto` on
-// damaged takes.
+// Figures of README.md and docs about joints: methods on synthetic takes, `auto` on damaged takes.
 #include <algorithm>
 #include <array>
 
@@ -10,7 +9,7 @@
 namespace kinemend::papers {
 namespace {
 
-// Every method on the project's own takes of 6 s at 120 Hz, as its page has it.
+// Every method on synthetic takes of 6 s at 120 Hz, as shown on its page.
 void methods_on_own_takes(const Arguments& arguments) {
   Table table(arguments, "page_methods.csv", "method,damage,walk,run,punch");
   const std::vector<std::pair<std::string, std::pair<double, double>>> damages{
@@ -36,14 +35,13 @@ void methods_on_own_takes(const Arguments& arguments) {
   table.close();
 }
 
-// White noise of 1.5 degrees and 0.4 % of the samples thrown off, by `auto` and by what its users
-// do by script.
+// White noise of 1.5 degrees and 0.4 % outliers, cleaned by `auto` and by its users' scripts.
 void damaged_takes(const Arguments& arguments) {
   Table table(arguments, "page_auto.csv", "take,way,rms_deg,p99_deg");
   const std::uint64_t seeds = arguments.quick ? 2 : 40;
   for (const auto& [name, motion] :
        {std::pair{"35_01", "walk"}, std::pair{"02_05", "punch"}, std::pair{"09_03", "run"}}) {
-    const std::string take = name;  // of which a lambda may speak
+    const std::string take = name;  // a copy that a lambda can capture
     const Take truth = load_take(arguments, take + ".bvh", {.motion = motion}).clip;
     const auto add = [&](const std::string& way, const auto& clean) {
       double rms = 0, p99 = 0, worst_rms = 0, worst_p99 = 0;
@@ -81,8 +79,8 @@ Take of_the_world(const Take& clip) {
   return result;
 }
 
-// Of the rotations against the world, half a second and more from the ends: how much it makes that
-// those against the parents were filtered.
+// The difference between filtering local and world rotations, as world rotations, half a second or
+// more from the ends.
 std::vector<std::string> difference_of_frames(const Take& clip, const Cleaner& cleaner) {
   Take local = clip, global = of_the_world(clip);
   clean_in_place(cleaner, local);
@@ -101,8 +99,8 @@ std::vector<std::string> difference_of_frames(const Take& clip, const Cleaner& c
           figure(geodesic_rms_deg(local, global))};
 }
 
-// Joints against their parents or against the world: the bilateral filter is the same in frames
-// that stand still, not in those of parents that turn.
+// Filters joints relative to their parents or to the world: the bilateral filter gives the same in
+// frames at rest, but not in frames of turning parents.
 void frames_of_joints(const Arguments& arguments) {
   Table table(arguments, "page_frames.csv", "take,setting,noise_deg,joint,largest_deg,rms_deg");
   const auto add = [&](const std::string& take, const Take& clip) {
@@ -127,7 +125,7 @@ void frames_of_joints(const Arguments& arguments) {
   table.close();
 }
 
-// Noise that is not white: what is left of jitter with a correlation of 0.5 from frame to frame.
+// Correlated noise: the remaining error for jitter with a correlation of 0.5 between frames.
 void correlated_noise(const Arguments& arguments) {
   Table table(arguments, "page_jitter.csv", "take,noisy,best_gaussian,auto,wiener");
   for (const auto& [name, motion] :

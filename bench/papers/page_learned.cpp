@@ -1,5 +1,5 @@
-// Figures of README.md and docs that take minutes: how many clean takes come back bit for bit, and
-// learned methods on hold-outs.
+// Figures of README.md and docs that take minutes: the number of clean takes returned bit for bit,
+// and learned methods on hold-outs.
 #include <algorithm>
 #include <memory>
 #include <set>
@@ -22,8 +22,13 @@ std::vector<std::string> names_below(const std::filesystem::path& folder) {
   return {names.begin(), names.end()};
 }
 
+<<<<<<< HEAD
 // Clean takes, every fourth of the library: how many come back bit for bit.
 void learned_on_clean_takes(const Arguments& arguments) {
+=======
+// Counts the clean takes that are returned bit for bit, over every fourth take of the library.
+void clean_takes(const Arguments& arguments) {
+>>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
   Table table(arguments, "page_clean.csv", "method,takes,unchanged,hardly_changed");
   std::vector<std::string> names;
   const std::vector<std::string> all = names_below(arguments.data);
@@ -43,7 +48,7 @@ void learned_on_clean_takes(const Arguments& arguments) {
   table.close();
 }
 
-// The takes that no model that ships has seen.
+// Takes outside the training of every shipped model.
 std::vector<std::string> hold_outs(const Arguments& arguments) {
   std::vector<std::string> names;
   std::ifstream list(arguments.data / "cmu" / "recurrent-100.csv");
@@ -63,8 +68,8 @@ double best_gaussian(const Take& truth, const Take& clip) {
   return best;
 }
 
-// Error as a share of that of the best Gaussian; of `wiener` with a model of one's own, or with
-// that which ships.
+// Errors as a share of that of the best Gaussian; `wiener` uses the given model, or the shipped one
+// if it is null.
 void shares_of_gaussian(const Arguments& arguments, const std::string& file,
                         const std::vector<std::string>& names,
                         const std::shared_ptr<const Model>& model) {
@@ -104,8 +109,8 @@ bool is_dance(const std::string& name) {
   return name.starts_with("05_") || name.starts_with("49_");
 }
 
-// Dances, cartwheels and balances of subjects 05 and 49, by a model that has seen neither these
-// subjects nor the hold-outs, nor takes with known defects. Without data: a punch, by a model of
+// Dances, cartwheels and balances of subjects 05 and 49, with a model trained without these
+// subjects, the hold-outs and takes with known defects. Without data: a punch, with a model of
 // other motions.
 void dances(const Arguments& arguments) {
   std::vector<std::string> names, training;

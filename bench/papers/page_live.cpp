@@ -1,11 +1,11 @@
-// Figures of docs/live.md: what each method that runs live leaves of noise, and its delay.
+// Figures of docs/live.md: the noise that each live method leaves, and its delay.
 #include "kinemend/experimental/live.hpp"
 #include "live_takes.hpp"
 
 namespace kinemend::papers {
 namespace {
 
-// Errors as shares of that of the take that came in, means over takes.
+// Errors as shares of that of the input, averaged over takes.
 void methods_that_run_live(const Arguments& arguments) {
   Table table(arguments, "page_live.csv", "method,delay_ms,white,spikes,inertial");
   const std::vector<Take> truths = live_takes(arguments);

@@ -1,4 +1,4 @@
-// Figures of docs/live.md: error against delay, of the methods that run live at several settings.
+// Figures of docs/live.md: error against delay, for live methods at several settings.
 #include "live_takes.hpp"
 
 namespace kinemend::papers {
@@ -6,11 +6,11 @@ namespace {
 
 struct LiveSetting {
   std::string method;
-  std::string name;  ///< "passes 2"; empty: as the method comes
+  std::string name;  ///< "passes 2"; empty: default settings
   OptionValues options;
 };
 
-// A method at several values of one of its options, beside options that it needs to run live.
+// Adds a method at several values of one option, with the options that it needs to run live.
 void add_settings(std::vector<LiveSetting>& all, const std::string& method,
                   const std::string& option, const std::vector<OptionValue>& values,
                   const OptionValues& needed = {}) {
@@ -27,7 +27,7 @@ void add_settings(std::vector<LiveSetting>& all, const std::string& method,
   }
 }
 
-// A grid about the defaults: none was chosen by what it gives here.
+// A grid around the defaults; no default was chosen by these results.
 std::vector<LiveSetting> live_settings() {
   using Whole = std::int64_t;
   std::vector<LiveSetting> all;

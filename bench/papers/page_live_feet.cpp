@@ -1,4 +1,4 @@
-// Figures of docs/live.md: how far feet slide in a stream, before and after they are held.
+// Figures of docs/live.md: how far feet slide in a stream, before and after holding them.
 #include <array>
 
 #include "feet/live_feet.hpp"
@@ -23,7 +23,7 @@ struct FeetSums {
   double slide = 0, knee_pop = 0, error = 0, position = 0;
 };
 
-// Contacts are those of the truth.
+// Adds figures of a result; the contacts come from the truth.
 void add_feet(const Take& truth, const std::vector<FootContact>& contacts, const Take& made,
               FeetSums& sums) {
   const double height = body_height(truth.skeleton);

@@ -1,5 +1,5 @@
-// Figures of README.md and docs that are of markers: noise on optical takes, and gaps made in takes
-// that have none.
+// Figures of README.md and docs about markers: noise on optical takes, and artificial gaps in takes
+// without gaps.
 #include <algorithm>
 
 #include "experiment.hpp"
@@ -14,13 +14,13 @@ using quality::cleaned_markers, quality::damaged_markers, test::rms_distance;
 
 std::string figure(double value) { return fmt::format("{:.5g}", value); }
 
-/// Of a real take the first points, of a synthetic walk without data.
+/// The first points of a real take, or markers of a synthetic walk without data.
 Take points(const Arguments& arguments, const char* file, std::size_t skip, std::size_t most) {
   const auto path = find_take(arguments.data, file);
   return path ? quality::points_of(*path, skip, most) : test::marker_take("walk", 5);
 }
 
-// As much of the take as says enough: 10 s of 41 markers, 2 s of 330.
+// Uses a part that is long enough: 10 s of 41 markers, 2 s of 330.
 void noise(const Arguments& arguments) {
   Table table(arguments, "page_marker_noise.csv", "take,noise_mm,noisy,auto,other,method");
   for (const char* file : {"85_02.c3d", "85_12.c3d", "05_13.c3d"}) {

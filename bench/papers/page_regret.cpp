@@ -1,5 +1,5 @@
 // Figures of docs/methods/regret.md: the default beside every method of the program, on every kind
-// of noise and source, with what each does to clean takes.
+// of noise and source, with each method's changes to clean takes.
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -13,10 +13,10 @@ namespace {
 
 const std::string untouched = "untouched", best_cut = "best cut", default_method = "learned";
 
-// Minutes for a take of minutes.
+// These methods need minutes for a take of minutes.
 bool is_slow(const std::string& method) { return method == "sparse" || method == "example"; }
 
-// A cleaner reads its model once.
+// A cleaner that loads its model only once.
 struct NamedCleaner {
   std::string label, method;
   Source source = Source::unknown;
@@ -33,21 +33,26 @@ std::vector<NamedCleaner> cleaners_compared() {
     try {
       cleaners.push_back({by.label, by.method, by.source, make_cleaner(by.method, by.options)});
     } catch (const Error& error) {
-      // A method whose model everybody trains for himself has no defaults.
+      // A method whose model every user trains has no defaults.
       if (error.kind() != ErrorKind::usage) throw;
     }
   }
   return cleaners;
 }
 
-// Nobody gets the oracle's cut, and the others are the default with options that somebody has to
-// choose.
+// Excludes the oracle's cut, which no user has, and the default with options that a user would have
+// to choose.
 bool counts_for_regret(const std::string& method) {
   return method != untouched && method != best_cut && !method.starts_with("learned ");
 }
 
+<<<<<<< HEAD
 // The figures of each take on which the method ran, by the number of the take.
 using RegretErrors = std::map<std::size_t, std::vector<double>>;
+=======
+// Figures of each take on which the method ran, by take number.
+using Errors = std::map<std::size_t, std::vector<double>>;
+>>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
 
 Take cleaned_case(const RegretRow& row, const RegretCase& given, const Cleaner& cleaner,
                   Source source = Source::unknown) {
@@ -74,15 +79,14 @@ std::map<std::string, RegretErrors> measured(const RegretRow& row) {
   for (std::size_t i = 0; i < row.cases.size(); ++i) {
     const RegretCase given = row.cases[i]();
     errors[untouched][i] = given.errors(given.take);
-    // A cut does not help a take that needs none.
+    // Cutting cannot improve a clean take.
     if (!row.is_clean) errors[best_cut][i] = best_cut_errors(row, given);
     for (const NamedCleaner& by : all) {
       if (is_slow(by.method) && (!row.has_slow || i > 0)) continue;
       try {
         errors[by.label][i] = given.errors(cleaned_case(row, given, *by.cleaner, by.source));
       } catch (const Error& error) {
-        // A method for joints refuses markers, and one that learned refuses bodies it does not
-        // know.
+        // A method for joints refuses markers, and a learned method refuses unknown bodies.
         if (error.kind() != ErrorKind::usage) throw;
       }
     }
@@ -94,9 +98,14 @@ struct Mean {
   double error = 0, share = 0, worst = 0;
 };
 
+<<<<<<< HEAD
 // Over the takes on which `other` ran.
 Mean mean_of(const RegretErrors& errors, const RegretErrors& before, const RegretErrors& other,
              std::size_t figure) {
+=======
+// Means over the takes on which `other` ran.
+Mean mean_of(const Errors& errors, const Errors& before, const Errors& other, std::size_t figure) {
+>>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
   Mean mean;
   const auto count = static_cast<double>(other.size());
   for (const auto& [number, unused] : other) {
@@ -108,14 +117,19 @@ Mean mean_of(const RegretErrors& errors, const RegretErrors& before, const Regre
   return mean;
 }
 
+<<<<<<< HEAD
 // The methods that ran on all that the default ran on, or on the first take where they are slow.
 bool is_comparable(const std::string& method, const RegretErrors& errors,
                    const RegretErrors& of_default) {
+=======
+// Methods that ran on all takes of the default, or on the first take if they are slow.
+bool is_comparable(const std::string& method, const Errors& errors, const Errors& of_default) {
+>>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
   return counts_for_regret(method) && (is_slow(method) || errors.size() == of_default.size());
 }
 
 struct Regret {
-  std::string best;  ///< the method
+  std::string best;  ///< name of the best method
   double regret = 0;
 };
 

@@ -1,4 +1,4 @@
-// Figures of docs/report-html.md: how much a page holds of takes of 31 joints at 120 Hz.
+// Figures of docs/report-html.md: the size of a page for takes of 31 joints at 120 Hz.
 #include "kinemend/clean.hpp"
 #include "kinemend/experimental/page.hpp"
 #include "kinemend/methods.hpp"
@@ -14,7 +14,7 @@ void repeat(std::vector<Value>& values, std::size_t times) {
   for (std::size_t i = 1; i < times; ++i) values.insert(values.end(), once.begin(), once.end());
 }
 
-// The take over and over.
+// The take repeated several times.
 Take repeated(Take clip, std::size_t times) {
   repeat(clip.rotations, times);
   repeat(clip.positions, times);
@@ -24,7 +24,7 @@ Take repeated(Take clip, std::size_t times) {
   return clip;
 }
 
-// The data alone: the page's program is the same for all takes, and changes by itself.
+// Size of the data alone: the page's program is the same for all takes and changes independently.
 double megabytes(const Report& report, const Take& before, const Take* after) {
   const std::size_t program = served_page("", "", {}).size();
   return static_cast<double>(report_page(report, before, after, {}).size() - program) / 1e6;

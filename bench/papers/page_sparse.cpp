@@ -1,5 +1,5 @@
-// Figures of `sparse` on takes that its model has not seen: what it leaves of noise of several
-// kinds, how far it fills an arm, and what it changes of clean takes.
+// Figures of `sparse` on takes outside its model's training: the error left for several kinds of
+// noise, the error of a filled arm, and the changes to clean takes.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -34,8 +34,8 @@ std::vector<SparseKind> sparse_kinds() {
           {"inertial", of("system", {{"kind", std::string("inertial")}})}};
 }
 
-// Three seconds of each of ten hold-outs of cmu/recurrent-100.csv, which the models measured here
-// have not seen.
+// Three seconds of each of ten hold-outs of cmu/recurrent-100.csv, which are outside the training
+// of these models.
 std::vector<Take> takes(const Arguments& arguments) {
   std::vector<std::string> names{"02_02", "05_01", "07_02", "08_01", "16_15",
                                  "26_01", "35_02", "09_01", "10_01", "135_04"};
@@ -71,7 +71,7 @@ void noises(const Arguments& arguments, const std::vector<Take>& truths) {
   table.close();
 }
 
-// The joints of the left arm that a gap of the shoulder, elbow and hand moves, centimetres.
+// Error of the left arm's joints that a gap of shoulder, elbow and hand affects, centimetres.
 double arm_distance_cm(const Take& truth, const Take& filled, std::size_t first, std::size_t last,
                        const std::vector<std::size_t>& arm) {
   const auto unit = guess_length_unit(truth.skeleton);
@@ -84,7 +84,7 @@ double arm_distance_cm(const Take& truth, const Take& filled, std::size_t first,
   return (unit ? 100 * unit->metres : 1) * sum / static_cast<double>((last - first) * arm.size());
 }
 
-// White noise of 1 degree, and the left arm unseen for a while in the middle.
+// White noise of 1 degree, and the left arm hidden for a while in the middle.
 void gaps(const Arguments& arguments, const std::vector<Take>& truths) {
   Table table(arguments, "sparse_gaps.csv", "gap,takes,example,wiener,sparse");
   for (const auto& [name, seconds] : {std::pair{"0.1 s", 0.1}, {"0.25 s", 0.25}, {"1 s", 1.0}}) {
@@ -108,7 +108,7 @@ void gaps(const Arguments& arguments, const std::vector<Take>& truths) {
           clip.rotation(f, joint) = {};
         }
       }
-      arm.erase(arm.begin());  // the shoulder itself stays where it is
+      arm.erase(arm.begin());  // the shoulder itself does not move
       for (std::size_t m = 0; m < sums.size(); ++m) {
         const char* method = m == 0 ? "example" : m == 1 ? "wiener" : "sparse";
         sums[m] += arm_distance_cm(truth, cleaned(clip, method), first, last, arm) /
@@ -124,8 +124,13 @@ void gaps(const Arguments& arguments, const std::vector<Take>& truths) {
   table.close();
 }
 
+<<<<<<< HEAD
 // Every fourth of the library.
 void sparse_on_clean_takes(const Arguments& arguments) {
+=======
+// Uses every fourth take of the library.
+void clean_takes(const Arguments& arguments) {
+>>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
   Table table(arguments, "sparse_clean.csv", "method,takes,unchanged,mean_deg,largest_deg");
   std::set<std::string> all;
   for (const char* part : {"cmu/bvh", "cmu/bvh-rotations"}) {

@@ -1,9 +1,9 @@
-// The errors of one of two systems that saw the same motion.
+// The errors of one of two systems that captured the same motion.
 #pragma once
 
 namespace kinemend::papers {
 
-/// Root mean squares of the error, of its velocity, and of what of it is above 6 Hz.
+/// Root mean squares of the error, of its velocity, and of its part above 6 Hz.
 struct PairErrors {
   double value = 0, velocity = 0, fast = 0;
 };

@@ -92,7 +92,7 @@ std::vector<NamedDamage> marker_damages() {
   return all;
 }
 
-// The first is short, for methods that take minutes: walk, run, dance, punch.
+// The first one is short, for methods that take minutes: walk, run, dance, punch.
 std::vector<std::string> regret_takes(const Arguments& arguments) {
   if (arguments.quick || arguments.data.empty()) return {"walk"};
   return {"35_01", "09_03", "49_17", "02_05"};
@@ -112,16 +112,16 @@ void add_damaged(const Arguments& arguments, const std::vector<NamedDamage>& dam
   for (const NamedDamage& damage : damages) {
     RegretRow row{damage.name, unit};
     row.has_gaps = damage.has_gaps;
-    // A second of such a method for each row is too long for the quick form.
+    // In the quick form, even a second of a slow method for each row would take too long.
     row.has_slow = !arguments.quick || rows.empty();
     std::vector<std::string> names = regret_takes(arguments);
-    // To fill gaps takes longer than all methods together.
+    // Filling gaps takes longer than all methods together.
     if (row.has_gaps) names.resize(std::min<std::size_t>(2, names.size()));
     for (const std::string& name : names) {
       row.cases.push_back([=] {
         const Take truth = prepare(regret_take(arguments, name));
         Take take = damage.damage(truth);
-        // Samples held to the next measurement end with one.
+        // Samples held until the next measurement end with a measurement.
         const Take cut = slice(truth, 0, take.frame_count());
         return RegretCase{std::move(take), [cut, error](const Take& cleaned) {
                             return std::vector<double>{error(cut, cleaned)};
@@ -132,7 +132,7 @@ void add_damaged(const Arguments& arguments, const std::vector<NamedDamage>& dam
   }
 }
 
-// Compares the samples that both have.
+// Compares the samples observed in both takes.
 double seen_distance_mm(const Take& truth, const Take& cleaned) {
   return compare_markers(truth, cleaned, {}).all.rms_distance;
 }
@@ -148,7 +148,7 @@ RegretRow pair_row(const std::string& name) {
   return row;
 }
 
-// Every fourth Kinect take: they are many and alike.
+// Uses every fourth Kinect take, because they are many and similar.
 void add_system_pairs(const Arguments& arguments, std::vector<RegretRow>& rows) {
   RegretRow markerless = pair_row("markerless systems"), kinect = pair_row("Kinect");
   const auto case_of = [](const Take& noisy, const Take& reference) {
@@ -185,7 +185,7 @@ void add_camera_pairs(const Arguments& arguments, std::vector<RegretRow>& rows) 
   Arguments of_pairs = arguments;
   if (arguments.quick) of_pairs.data.clear();
   for (MarkerPair& pair : camera_pairs(of_pairs)) {
-    // Drumming has ten markers, a depth camera nineteen; made pairs are walks by both.
+    // Drumming has ten markers, a depth camera nineteen; synthetic pairs are walks from both.
     const bool is_depth = pair.noisy.marker_count() > 10;
     (is_depth ? depth : drumming).cases.push_back([pair] {
       return RegretCase{pair.noisy, [pair](const Take& cleaned) {
@@ -197,7 +197,7 @@ void add_camera_pairs(const Arguments& arguments, std::vector<RegretRow>& rows) 
     if (!row.cases.empty()) rows.push_back(std::move(row));
 }
 
-// A clean take, of at most ten seconds: the error is the change.
+// A clean take of at most ten seconds; its error is the change.
 std::function<RegretCase()> clean_case(Take take) {
   take = slice(
       take, 0,
@@ -230,7 +230,7 @@ void add_clean(const Arguments& arguments, std::vector<RegretRow>& rows) {
   }
   const Take still = in_millimetres(regret_take(arguments, regret_takes(arguments).back()));
   hands.cases.push_back(clean_case(with_shaking_hands(still, 7)));
-  // Two takes of each; a made one is enough.
+  // Two takes of each world; one synthetic take is enough.
   const std::size_t most = arguments.quick ? 1 : 2;
   for (const auto& [world, takes] : clean_worlds(arguments)) {
     for (std::size_t i = 0; i < std::min(most, takes.size()); ++i)

@@ -9,24 +9,24 @@
 
 namespace kinemend::papers {
 
-/// A take, and what is measured of it.
+/// A take and its measured figures.
 struct RegretCase {
   Take take;
-  /// One figure for each of `RegretRow::figures`.
+  /// Returns one figure for each of `RegretRow::figures`.
   std::function<std::vector<double>(const Take& cleaned)> errors{};
 };
 
 struct RegretRow {
   std::string name;
-  std::string unit;  ///< of the errors; empty: they have several
-  /// The figures that are measured: one, named "", or several, each of which is a row of the table.
+  std::string unit;  ///< unit of the errors; empty: they have several units
+  /// The measured figures: one named "", or several, each of which is a row of the table.
   std::vector<std::string> figures{""};
   std::size_t cut_by = 0;            ///< the figure by which the best cut is chosen
-  std::vector<double> cutoffs_hz{};  ///< that are tried for it
+  std::vector<double> cutoffs_hz{};  ///< cutoffs tried for the best cut
   bool is_clean = false;             ///< errors are changes of takes that need none
   bool has_gaps = false;             ///< gaps are filled after cleaning
-  bool has_slow = true;              ///< methods that take minutes are tried, on the first take
-  /// Each makes its take when it is called, so that one at a time is in memory.
+  bool has_slow = true;              ///< slow methods are tried on the first take
+  /// Each function makes its take when called, so that only one is in memory at a time.
   std::vector<std::function<RegretCase()>> cases{};
 };
 

@@ -1,5 +1,5 @@
-// Figures of docs/noise.md: errors of real systems, measured on one motion seen by two of them, and
-// of the damage `system` on the same motions, by the same code.
+// Figures of docs/noise.md: errors of real systems, measured on one motion captured by two of them,
+// and of the damage `system` on the same motions, by the same code.
 #include <algorithm>
 #include <functional>
 
@@ -15,7 +15,7 @@ namespace {
 
 using Series = std::vector<double>;
 
-/// One motion as a system saw it and as optical markers did: a series for each channel.
+/// One motion from a system and from optical markers, with a series for each channel.
 struct Pair {
   double rate_hz = 0;
   std::vector<std::string> names;
@@ -38,7 +38,7 @@ PoseMatrix matrix_of(const std::vector<Series>& channels) {
   return matrix;
 }
 
-/// Markers [first, last); missing samples on straight lines.
+/// Markers [first, last); missing samples are bridged by straight lines.
 std::vector<Series> tracks_of(const Take& clip, std::size_t first, std::size_t last, Pair& pair) {
   const double scale = clip.unit == "m" ? 1000 : 1;
   last = std::min(last, clip.marker_count());
@@ -65,7 +65,7 @@ std::vector<Series> read_tracks(const std::filesystem::path& path, std::size_t f
   return tracks_of(read_take(path).take, first, last, pair);
 }
 
-/// What is left of a channel when the reference, times a gain plus an offset, is taken off.
+/// The residual of a channel after subtracting the reference times a gain plus an offset.
 Series error_of(const Series& noisy, const Series& reference) {
   const double mean_noisy = test::mean_of(noisy), mean = test::mean_of(reference);
   double cross = 0, square = 0;
@@ -116,7 +116,7 @@ struct Figures {
   }
 };
 
-/// Which channels of a pair a line of the page is about.
+/// The channels of a pair that a line of the page covers.
 struct Line {
   std::string name;
   std::vector<Pair> pairs;
@@ -125,7 +125,7 @@ struct Line {
   OptionValues settings;
   std::uint64_t seeds = 5;
   bool is_rotation = false;
-  bool fast_only = false;  // only what lies above 6 Hz, where there is no reference for the rest
+  bool fast_only = false;  // measures only above 6 Hz, because the rest has no reference
 };
 
 void measure(const Line& line, const Pair& pair, const std::vector<Series>& noisy,
@@ -149,7 +149,7 @@ void measure(const Line& line, const Pair& pair, const std::vector<Series>& nois
   }
 }
 
-/// The reference damaged.
+/// Damages the reference.
 std::vector<Series> generated(const Line& line, const Pair& pair, std::uint64_t seed) {
   VectorMotion motion;
   motion.values = matrix_of(pair.reference);
@@ -192,7 +192,7 @@ std::vector<Pair> video_pairs(const Arguments& arguments, const std::string& nam
   return pairs;
 }
 
-/// A take of triangulated video beside itself without what lies above 6 Hz.
+/// A take of triangulated video, with its own part below 6 Hz as the reference.
 Pair triangulated_pair(const Arguments& arguments) {
   Pair pair;
   pair.noisy = read_tracks(arguments.data / "real/unpaired/pose2sim-balancing.trc", 0, 1000, pair);
@@ -249,7 +249,7 @@ std::vector<Line> lines_of(const Arguments& arguments) {
   return lines;
 }
 
-/// Without data: a walk with the noise of a family of systems.
+/// Lines for use without data: a walk with the noise of a family of systems.
 std::vector<Line> made_lines() {
   std::vector<Line> lines;
   for (const char* family : {"video", "depth"}) {

@@ -1,5 +1,5 @@
-// Takes of markerless systems and depth cameras beside markers of the same motion, in the channels
-// of the network.
+// Takes of markerless systems and depth cameras beside markers of the same motion, as channels of
+// the network.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ struct SystemPair {
   std::string source, noisy, reference;
 };
 
-/// The pairs that tools/train_learned does not learn from.
+/// Returns whether tools/train_learned excludes the pair from training.
 inline bool is_left_out(const std::string& name) {
   if (name.starts_with("lbmc-")) {
     const std::string system = name.substr(5, name.find('-', 5) - 5);
@@ -49,7 +49,7 @@ inline std::vector<SystemPair> pairs_below(const std::filesystem::path& folder) 
   return pairs;
 }
 
-/// Root mean squares over channels whose reference moves. F x C.
+/// Root mean squares over channels whose reference moves; `values` is F x C.
 inline PairErrors errors_of(const std::vector<float>& values, const MotionSample& pair) {
   const MotionTake& take = pair.take;
   PoseMatrix error(take.frames, take.channels);
@@ -80,7 +80,8 @@ inline PairErrors errors_of(const std::vector<float>& values, const MotionSample
           std::sqrt(sums.fast / count)};
 }
 
-/// F x 3 (J - 1): the turns of the joints below the root, degrees, going on past half a turn.
+/// F x 3 (J - 1): the rotation vectors of the joints below the root, degrees, continued past half a
+/// turn.
 inline std::vector<float> channels_of(const MotionTracks& tracks, const Take& clip) {
   if (!clip.has_joints()) return values_in(tracks, view_of(clip));
   const std::size_t joints = clip.joint_count() - 1;
@@ -96,12 +97,13 @@ inline std::vector<float> channels_of(const MotionTracks& tracks, const Take& cl
   return values;
 }
 
-/// Channels that move less do not count: of joints, and of markers in degrees of their body.
+/// Channels that move less are ignored: those of joints, and those of markers in degrees of their
+/// body.
 constexpr double least_turn_deg = 2, least_move_deg = 0.34;
 
 struct PairInChannels {
-  MotionTracks tracks;  ///< of the noisy take
-  MotionSample sample;  ///< the noisy take, and the reference as its system shows it
+  MotionTracks tracks;  ///< tracks of the noisy take
+  MotionSample sample;  ///< the noisy take, with the reference as its system shows it
 };
 
 inline PairInChannels pair_in_channels(const Take& noisy, const Take& reference, double least_deg) {

@@ -18,7 +18,7 @@
 
 namespace kinemend::papers {
 
-/// Clips of one action as the markers of their joints: learned from, and tried.
+/// Clips of one action as markers at their joints, for training and tests.
 struct XiaoGroup {
   std::string name;
   std::vector<Take> training, tests;
@@ -60,14 +60,14 @@ inline std::vector<Take> xiao_takes(const Arguments& arguments,
 /// A damaged take.
 struct XiaoDamaged {
   Take clip;
-  /// F x M, 1 for the markers that eq. 6 counts: Gaussian noise touches all, outliers those of
-  /// which they change an entry.
+  /// F x M, 1 for the markers that eq. 6 includes: Gaussian noise affects all, outliers those with
+  /// a changed entry.
   std::vector<std::uint8_t> noisy;
 };
 
-/// The data matrix is taken to be that of positions from the root, which do not depend on where the
-/// laboratory has its origin: the power of the signal is theirs, and an outlier is 1.4 times an
-/// entry of it.
+/// The data matrix is assumed to hold positions relative to the root, which do not depend on the
+/// laboratory's origin. It defines the power of the signal, and an outlier is 1.4 times one of its
+/// entries.
 inline XiaoDamaged xiao_noise(Take clip, const XiaoNoise& noise, std::uint64_t seed) {
   const std::size_t markers = clip.marker_count();
   const Take truth = clip;
@@ -101,7 +101,7 @@ inline std::shared_ptr<const Model> xiao_model(const std::string& method,
   return std::make_shared<const Model>(train_model(method, takes, options));
 }
 
-/// Mean and deviation over frames of eq. 6, metres.
+/// Mean and deviation of eq. 6 over frames, metres.
 inline MeanAndDeviation xiao_error(const Take& truth, const XiaoDamaged& damaged,
                                    const Take& filtered) {
   return rmse_per_marker(truth.positions, filtered.positions, truth.marker_count(), damaged.noisy);
@@ -126,8 +126,8 @@ inline std::vector<std::string> joined(const std::vector<std::vector<std::string
   return names;
 }
 
-/// The paper's three actions, four fifths learned from; of the others the first is the paper's own
-/// sequence. Of basketball twelve clips without known defects are at hand.
+/// The paper's three actions, with four fifths for training. The first test is the paper's own
+/// sequence. For basketball there are twelve clips without known defects.
 inline std::vector<XiaoGroup> xiao_groups(const Arguments& arguments) {
   const auto group = [&](const std::string& name, const std::string& motion,
                          const std::vector<std::string>& training,

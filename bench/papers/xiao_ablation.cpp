@@ -1,5 +1,5 @@
-// What `sparse` adds to the method of Xiao et al. 2015: its error without each part, on a second of
-// the paper's own sequences, with the default loss and lambda.
+// Effect of each part that `sparse` adds to the method of Xiao et al. 2015: its error without that
+// part, on a second of the paper's own sequences, with the default loss and lambda.
 #include <utility>
 
 #include "learned/sparse/sparse_tuning.hpp"
@@ -12,7 +12,7 @@ struct XiaoVariant {
   std::string name;
   SparseOptions options{};
   SparseTuning tuning{};
-  bool is_local = false;  // by a model in the paper's coordinates
+  bool is_local = false;  // uses a model in the paper's coordinates
 };
 
 const std::vector<XiaoNoise> noises{

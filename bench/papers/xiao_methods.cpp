@@ -8,7 +8,7 @@ namespace kinemend::papers {
 
 namespace {
 
-// Settings are chosen with fewer windows, which saves time.
+// Settings are chosen with fewer windows to save time.
 constexpr std::size_t tuning_hop = 4;
 
 XiaoFilter cleaner_filter(std::unique_ptr<Cleaner> cleaner) {
@@ -18,7 +18,7 @@ XiaoFilter cleaner_filter(std::unique_ptr<Cleaner> cleaner) {
   };
 }
 
-// A method whose settings are the same for every noise.
+// A method with the same settings for every noise.
 template <class Add>
 XiaoMethod of_any_noise(const std::string& name, const Add& add_all) {
   return {name, [=](const XiaoNoise&) {
@@ -53,7 +53,7 @@ XiaoMethod xiao_wavelet() {
   });
 }
 
-// The paper's is causal; with the smoother it is stronger.
+// The paper's filter is causal; the smoother makes it stronger.
 XiaoMethod xiao_kalman() {
   return of_any_noise("kalman", [](const auto& add) {
     for (const char* model : {"position", "velocity"}) {
@@ -68,7 +68,7 @@ XiaoMethod xiao_kalman() {
   });
 }
 
-// The paper's parameters are the window, K and p; by default the last two come from noise and
+// The paper's parameters are the window, K and p; by default, the last two come from noise and
 // model. Its solver is tried with the middle window.
 XiaoMethod xiao_example(const Arguments& arguments) {
   return of_any_noise("example", [=](const auto& add) {
@@ -90,7 +90,7 @@ XiaoMethod xiao_example(const Arguments& arguments) {
   });
 }
 
-// As in the paper the kind of noise is known.
+// The kind of noise is known, as in the paper.
 XiaoMethod xiao_sparse() {
   return {"sparse", [](const XiaoNoise& noise) {
             const std::vector<double> all{0.02, 0.1, 0.3}, dense{0.1};
@@ -111,7 +111,7 @@ XiaoMethod xiao_sparse() {
           }};
 }
 
-// The kind of noise says which equation; lambda is of the paper's grid.
+// The kind of noise determines the equation; lambda is from the paper's grid.
 std::vector<XiaoPaperSettings> paper_settings(const XiaoNoise& noise) {
   std::vector<XiaoPaperSettings> settings;
   if (noise.share == 0) {

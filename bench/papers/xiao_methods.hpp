@@ -1,5 +1,4 @@
-// The methods that the comparison of Xiao et al. 2015 tries, each with the settings that it is
-// tuned over.
+// The methods in the comparison of Xiao et al. 2015, each with its candidate settings.
 #pragma once
 
 #include <array>
@@ -17,7 +16,7 @@ namespace kinemend::papers {
 /// M of `sparse`, at 60 Hz.
 inline constexpr std::array<std::int64_t, 2> xiao_sparse_windows{9, 15};
 
-/// What the learned methods know: `sparse` and `example` with windows of several lengths.
+/// Trained models: `sparse` and `example` with windows of several lengths.
 struct XiaoModels {
   std::vector<std::shared_ptr<const Model>> sparse;
   std::vector<std::shared_ptr<const Model>> example;
@@ -25,7 +24,7 @@ struct XiaoModels {
   std::size_t paper_hop = 1;  ///< frames from window to window of Algorithm 1; 1: all windows
 };
 
-/// Nothing but the frames of "paper true frames" comes from the ground truth.
+/// Only "paper true frames" uses the ground truth, and only its frames.
 using XiaoFilter = std::function<Take(const Take& noisy, const Take& truth)>;
 
 struct XiaoSetting {
@@ -36,7 +35,7 @@ struct XiaoSetting {
 struct XiaoMethod {
   std::string name;
   std::function<std::vector<XiaoSetting>(const XiaoNoise&)> settings;
-  bool is_slow = false;  ///< tried on the paper's own sequences only
+  bool is_slow = false;  ///< runs on the paper's own sequences only
 };
 
 /// Lengths of the windows of `example`.
@@ -44,13 +43,13 @@ inline std::vector<double> xiao_windows_s(const Arguments& arguments) {
   return arguments.quick ? std::vector<double>{0.5} : std::vector<double>{1.0 / 3, 2.0 / 3, 1};
 }
 
-/// The five methods of the paper, of which `sparse` is ours, then `auto`, and Algorithm 1 itself.
+/// The paper's five methods including our `sparse`, then `auto`, and Algorithm 1 itself.
 std::vector<XiaoMethod> xiao_methods(const Arguments& arguments, const XiaoPaperSizes& sizes);
 
 XiaoModels xiao_models(const Arguments& arguments, const std::vector<Take>& clips,
                        const XiaoPaperSizes& sizes);
 
-/// The training in two: a second of two clips to choose settings by, and the others.
+/// The training clips in two parts: a second of two clips for choosing settings, and the others.
 struct XiaoFold {
   std::vector<Take> training, tuning;
 };
@@ -60,7 +59,7 @@ XiaoFold xiao_fold(const XiaoGroup& group);
 XiaoSetting xiao_tuned(const XiaoMethod& method, XiaoModels models, const std::vector<Take>& clips,
                        const XiaoNoise& noise);
 
-/// Of Algorithm 1, with the M that has the least error at 20 dB.
+/// The sizes of Algorithm 1, with the M that has the least error at 20 dB.
 XiaoPaperSizes xiao_paper_sizes(const Arguments& arguments, const XiaoFold& fold);
 
 }  // namespace kinemend::papers

@@ -1,5 +1,5 @@
-// Learns a dictionary for each part of the body, codes the windows of a take, and averages what
-// they give.
+// Learns a dictionary for each part of the body, codes the windows of a take, and averages the
+// results.
 #include "xiao_paper.hpp"
 
 #include <algorithm>
@@ -13,8 +13,8 @@ namespace kinemend::papers {
 
 namespace {
 
-// From between the hips to the neck; poses are normalised to it, so that lengths are about
-// centimetres of an adult.
+// Distance from the middle of the hips to the neck. Poses are scaled to it, so that lengths are
+// about centimetres of an adult.
 constexpr double trunk_length = 50;
 constexpr std::size_t windows_at_once = 256;
 constexpr sparse::DescentSettings xiao_descent{};
@@ -49,7 +49,7 @@ void scale_by(double factor, PoseMatrix& positions) {
   for (double& value : positions.values) value *= factor;
 }
 
-// Where a value of a window is in its frame.
+// The channel within its frame of a window's value.
 std::size_t channel_of(const SparsePoselet& poselet, std::size_t value) {
   const std::size_t own = value % poselet.channels();
   return 3 * static_cast<std::size_t>(poselet.points[own / 3]) + own % 3;
@@ -65,7 +65,7 @@ void append_window(const PoseMatrix& local, const SparsePoselet& poselet, std::s
 
 }  // namespace
 
-// The same poselets as those of `sparse`, by the numbers of the markers in the clips.
+// Finds the poselets of `sparse`, with the markers' numbers in the clips.
 void XiaoPaper::find_parts(const std::vector<Take>& clips) {
   BodyLayoutBuilder builder;
   for (const Take& clip : clips) builder.add(clip);

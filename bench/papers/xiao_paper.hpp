@@ -1,5 +1,5 @@
-// Algorithm 1 of Xiao et al. 2015 as the paper states it, without what the method `sparse` adds:
-// local coordinates of each pose, all windows, plain losses, and no step after them.
+// Algorithm 1 of Xiao et al. 2015 as published, without the additions of the method `sparse`: local
+// coordinates of each pose, all windows, plain losses, and no later steps.
 #pragma once
 
 #include <cstddef>
@@ -17,30 +17,30 @@ namespace kinemend::papers {
 struct XiaoPaperSizes {
   std::size_t window_frames = 15;  ///< M, at the rate of the takes
   std::size_t atoms = 500;         ///< K
-  std::size_t windows = 10'000;    ///< that dictionaries are learned from, evenly drawn from all
+  std::size_t windows = 10'000;    ///< for training dictionaries, drawn evenly from all
   std::size_t iterations = 10;     ///< of K-SVD
 };
 
 enum class XiaoPaperLoss : std::uint8_t {
   squares,   ///< eq. 4
   absolute,  ///< eq. 5
-  sequence,  ///< eq. 4 on what eq. 5 leaves
+  sequence,  ///< eq. 4 on the result of eq. 5
 };
 
 struct XiaoPaperSettings {
   XiaoPaperLoss loss = XiaoPaperLoss::squares;
-  double lambda_squares = 1, lambda_absolute = 1;  ///< of eq. 4 and 5, lengths in centimetres
+  double lambda_squares = 1, lambda_absolute = 1;  ///< for eq. 4 and 5, lengths in centimetres
 };
 
 class XiaoPaper {
  public:
-  /// Learns from clips of the same markers, in metres.
+  /// Trains on clips with the same markers, in metres.
   XiaoPaper(const std::vector<Take>& clips, const XiaoPaperSizes& sizes);
 
-  /// The filtered take, of M frames at least. Each pose goes to the local coordinates of the same
-  /// pose of `posed` and back: the paper's of the noisy take itself, or of the ground truth, as if
-  /// noise were added to local coordinates. `hop`: frames from window to window; 1: all T - M + 1
-  /// windows.
+  /// The filtered take, which needs at least M frames. Each pose is converted to the local
+  /// coordinates of the same pose in `posed` and back: the noisy take itself, as in the paper, or
+  /// the ground truth, as if noise were added to local coordinates. `hop` is the number of frames
+  /// between windows; 1 uses all T - M + 1 windows.
   Take filtered(const Take& noisy, const Take& posed, const XiaoPaperSettings& settings,
                 std::size_t hop = 1) const;
 

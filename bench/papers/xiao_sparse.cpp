@@ -1,6 +1,6 @@
 // The comparison of Xiao et al. 2015, Sparse motion bases selection for human motion denoising:
 // figures 6 to 8 and table 1 (noise, outliers, both). Each method has the settings that are best on
-// two clips of the training, by models that have not seen these two.
+// two training clips, with models trained without these two.
 #include <map>
 #include <set>
 
@@ -15,7 +15,7 @@ constexpr std::size_t key_poses = 5;
 
 std::string centimetres(double metres) { return fmt::format("{:.3f}", 100 * metres); }
 
-// Eq. 6 of one frame, metres; nothing where no marker is noisy.
+// Eq. 6 for one frame, metres; nullopt if no marker is noisy.
 std::optional<double> frame_error(const Take& truth, const XiaoDamaged& damaged,
                                   const Take& filtered, std::size_t frame) {
   const std::size_t markers = truth.marker_count(), first = frame * markers;
@@ -33,13 +33,13 @@ std::size_t far_markers(const Take& truth, const Take& filtered, std::size_t fra
   return count;
 }
 
-// Of the paper's own sequence, and the mean of all that are tried.
+// Errors of the paper's own sequence, and the mean over all tests.
 struct Errors {
   MeanAndDeviation own, all;
   double own_under_bound = 0;  // share of frames
 };
 
-// In how many columns of all actions a method has the least mean or deviation.
+// Counts the columns of all actions in which a method has the least mean or deviation.
 class LeastErrors {
  public:
   void add(const std::string& column, const std::string& method, MeanAndDeviation error) {

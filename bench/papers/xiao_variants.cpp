@@ -1,5 +1,5 @@
-// What makes up `sparse`, as Xiao et al. 2015 vary it: table 2 (poselets against whole poses, error
-// and time), figure 9 (learned from one action or from all) and figure 10 (M, K and lambda).
+// Variants of `sparse` as in Xiao et al. 2015: table 2 (poselets against whole poses, error and
+// time), figure 9 (training on one action or on all) and figure 10 (M, K and lambda).
 #include <ctime>
 
 #include "xiao.hpp"
@@ -17,14 +17,14 @@ SparseOptions plain_options(double lambda = 0.1) {
 // Processor time of all threads so far.
 double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-// One line of the table: the mean error over what is tried of an action. Seconds are shown, and
-// not kept: machines differ.
+// Writes lines of the table: the mean error over the tests of an action. Seconds are printed but
+// not stored, because machines differ.
 class Lines {
  public:
   Lines(const Arguments& arguments, const std::string& file)
       : table_(arguments, file, "motion,what,value,mean_cm") {}
 
-  // Returns the processor time.
+  // Measures a cleaner and returns its processor time.
   double add(const XiaoGroup& group, const std::string& what, const std::string& value,
              const Cleaner& cleaner, const XiaoNoise& noise) {
     const double start_s = processor_s();
@@ -53,7 +53,7 @@ std::shared_ptr<const Model> learned(const Arguments& arguments, const XiaoGroup
   return xiao_model("sparse", group.training, options);
 }
 
-// Table 2. Times are those of whole poses as multiples of those of poselets.
+// Table 2. Times of whole poses are multiples of those of poselets.
 void representations(const Arguments& arguments, const XiaoGroup& group, Lines& lines,
                      Table& times) {
   struct Seconds {
@@ -74,8 +74,8 @@ void representations(const Arguments& arguments, const XiaoGroup& group, Lines& 
              fmt::format("{:.2f}", whole.cleaning / poselets.cleaning)});
 }
 
-// Figure 9, at its 30 dB. `all`: as many windows and atoms as of one action; `all grown`: as many
-// for each action.
+// Figure 9, at its 30 dB. `all` has as many windows and atoms as one action; `all grown` has as
+// many for each action.
 void actions(const Arguments& arguments, const std::vector<XiaoGroup>& groups, Lines& lines) {
   XiaoGroup all;
   for (const XiaoGroup& group : groups)

@@ -30,8 +30,8 @@ bool open_standard_streams() {
 
 void ignore_closed_pipes() { std::signal(SIGPIPE, SIG_IGN); }
 
-// Cleaning allocates and frees tracks by the hundred. Memory that is returned to the system each
-// time would have to be mapped in again, page by page.
+// Cleaning allocates and frees hundreds of tracks. Memory returned to the system each time would
+// have to be mapped again page by page.
 void keep_freed_memory() {
 #ifdef __GLIBC__
   constexpr int largest_kept = 8 << 20, most_kept = 64 << 20;  // bytes

@@ -3,7 +3,7 @@
 #include <fcntl.h>
 #include <io.h>
 #include <windows.h>
-// Behind windows.h.
+// This header needs windows.h before it.
 #include <shellapi.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ std::wstring wide_of(const std::string& text) {
   return wide;
 }
 
-// The words that `main` is given have lost what the code page of the system lacks.
+// The arguments of `main` have lost characters that the system's code page lacks.
 std::vector<std::string> program_words(int argc, char** argv) {
   int count = 0;
   wchar_t** const wide = ::CommandLineToArgvW(::GetCommandLineW(), &count);
@@ -58,7 +58,7 @@ bool open_standard_streams() {
     }
     ::_setmode(stream, _O_BINARY);
   }
-  // What is printed is UTF-8.
+  // The output is UTF-8.
   ::SetConsoleOutputCP(CP_UTF8);
   return out_was_open;
 }
@@ -66,7 +66,7 @@ bool open_standard_streams() {
 void ignore_closed_pipes() {}
 void keep_freed_memory() {}
 
-// The null device counts as one for _isatty.
+// _isatty would also accept the null device.
 bool is_terminal(int stream) {
   DWORD mode = 0;
   return ::GetConsoleMode(reinterpret_cast<HANDLE>(::_get_osfhandle(stream)), &mode) != 0;
@@ -81,11 +81,11 @@ bool understands_colours(int stream) {
 }
 
 int write_all(int stream, std::string_view text) {
-  constexpr std::size_t most = 8192;  // a console takes no more than 32,767 bytes at a time
+  constexpr std::size_t most = 8192;  // a console takes at most 32,767 bytes at a time
   while (!text.empty()) {
     const int count =
         ::_write(stream, text.data(), static_cast<unsigned>(std::min(text.size(), most)));
-    // A pipe that its reader has closed is reported as an invalid argument.
+    // Writing to a closed pipe fails with EINVAL.
     if (count < 0) return errno == EINVAL ? EPIPE : errno;
     text.remove_prefix(static_cast<std::size_t>(count));
   }

@@ -30,7 +30,7 @@ bool set_up(int socket) {
          ::fcntl(socket, F_SETFD, FD_CLOEXEC) == 0;
 }
 
-// The socket, or -1 with it closed.
+// Returns the socket, or -1 after closing it.
 int set_up_or_closed(int socket) {
   if (socket < 0 || set_up(socket)) return socket;
   const int error = errno;
@@ -100,7 +100,7 @@ std::ptrdiff_t receive_from(int socket, char* bytes, std::size_t most, sockaddr*
   return ::recvfrom(socket, bytes, most, 0, sender, &size);
 }
 
-// A pipe that can be written to takes PIPE_BUF bytes without waiting for its reader.
+// A writable pipe takes PIPE_BUF bytes without waiting for its reader.
 std::ptrdiff_t write_some_out(std::string_view bytes) {
   return ::write(STDOUT_FILENO, bytes.data(), std::min<std::size_t>(bytes.size(), PIPE_BUF));
 }
@@ -146,7 +146,7 @@ void wake(int end) {
 void close_wake_end(int end) { ::close(end); }
 
 struct SignalEnds::Handlers {
-  struct sigaction old[2] = {};  // of SIGINT and SIGTERM
+  struct sigaction old[2] = {};  // for SIGINT and SIGTERM
 };
 
 SignalEnds::SignalEnds() : before_(std::make_unique<Handlers>()) {

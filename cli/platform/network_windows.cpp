@@ -1,5 +1,5 @@
-// Sockets on Windows. Winsock waits for sockets only: standard input reaches it through a thread
-// that passes it on, and standard output is written with waiting.
+// Sockets on Windows. Winsock can wait only for sockets: a thread passes standard input on to a
+// socket, and writing to standard output waits.
 #ifdef _WIN32
 #include "platform/network.hpp"
 
@@ -22,7 +22,7 @@ namespace kinemend::cli::platform {
 
 namespace {
 
-// Handles of sockets have 32 significant bits.
+// Socket handles have 32 significant bits.
 int number_of(SOCKET socket) { return static_cast<int>(socket); }
 SOCKET socket_of(int number) { return static_cast<SOCKET>(number); }
 
@@ -67,7 +67,7 @@ void switch_on(int socket, int level, int option) {
   ::setsockopt(socket_of(socket), level, option, reinterpret_cast<const char*>(&on), sizeof on);
 }
 
-// Passes standard input on to a socket, whose other end can be waited for.
+// Passes standard input on to a socket that can be waited for.
 class InputRelay {
  public:
   InputRelay() {
@@ -76,7 +76,7 @@ class InputRelay {
     number_ = ends[0];
     u_long off = 0;
     ::ioctlsocket(socket_of(ends[1]), static_cast<long>(FIONBIO), &off);
-    // It may wait for standard input for ever, and ends with the program.
+    // The thread may wait for standard input for ever and ends with the program.
     std::thread([end = ends[1]] { pass_on(end); }).detach();
   }
   int number() const { return number_; }
@@ -132,7 +132,7 @@ bool bind_socket(int socket, const sockaddr* address, std::size_t size) {
   return ::bind(socket_of(socket), address, static_cast<int>(size)) == 0 || fail();
 }
 
-// On Windows an address is free at once. What is called so there would let two programs share it.
+// On Windows an address is free at once. SO_REUSEADDR would let two programs share it.
 void let_address_be_reused(int socket) { switch_on(socket, SOL_SOCKET, SO_EXCLUSIVEADDRUSE); }
 
 bool listen_on(int socket) { return ::listen(socket_of(socket), SOMAXCONN) == 0 || fail(); }
@@ -229,7 +229,7 @@ int wait_for(std::span<Awaited> awaited, int timeout_ms) {
   return count < 0 ? count : ready + count;
 }
 
-// Windows waits for no pipes beside sockets: two sockets that are connected on this machine.
+// Windows cannot wait for pipes together with sockets, so this makes two connected sockets.
 bool make_wake_ends(int ends[2]) {
   const int listener = open_socket(AF_INET, SOCK_STREAM, 0);
   if (listener < 0) return false;
@@ -266,7 +266,7 @@ struct SignalEnds::Handlers {
   void (*terminate)(int) = nullptr;
 };
 
-// A handler is used once; after that the signal ends the program.
+// A handler runs once; then the signal ends the program.
 SignalEnds::SignalEnds() : before_(std::make_unique<Handlers>()) {
   if (!make_wake_ends(ends_)) throw Error(ErrorKind::cannot_write, "the system has no socket left");
   wake_end_of_signals = ends_[1];

@@ -1,4 +1,4 @@
-// Files, processes and signals, as the system has them.
+// Files, processes and signals of the system.
 #pragma once
 
 #include <atomic>
@@ -12,16 +12,16 @@
 
 namespace kinemend::cli::platform {
 
-/// Appends the bytes to the file in one piece, and creates the file if it is missing. Returns 0, or
-/// the number of the error.
+/// Appends the bytes to the file in one write and creates a missing file. Returns 0 or the error
+/// number.
 int append_to_file(const std::string& path, std::string_view bytes);
 
-/// The one name of an existing file, whatever path leads to it: its number on its device. Empty for
-/// what is no regular file; none where nothing exists.
+/// A unique identity of an existing file, whatever path leads to it: device and file number. Empty
+/// if it is not a regular file; nullopt if it does not exist.
 std::optional<std::string> file_identity(const std::string& path);
 
-/// While it lives, no other thread or process has a lock on the same place of the same file. On a
-/// file system without locks nothing is locked.
+/// During its lifetime, no other thread or process can lock the same place of the same file. On a
+/// file system without locks, it has no effect.
 class FileLock {
  public:
   FileLock(const std::filesystem::path& path, std::uint64_t place);
@@ -36,13 +36,13 @@ class FileLock {
 
 bool process_is_running(int process);
 
-/// Opens an address with the desktop's own program; false where it could not be started.
+/// Opens an address with the desktop's default program; returns false if that could not be started.
 bool open_in_browser(const std::string& address);
-/// The name of that program.
+/// The name of the program that opens addresses.
 std::string_view browser_opener();
 
-/// While it lives, the first request to end the program (SIGINT, SIGTERM, Ctrl-C) is only noted; a
-/// second one ends it.
+/// During its lifetime, the first request to end the program (SIGINT, SIGTERM, Ctrl-C) is only
+/// recorded; a second one ends the program.
 class StopRequest {
  public:
   StopRequest();
@@ -51,7 +51,7 @@ class StopRequest {
   StopRequest& operator=(const StopRequest&) = delete;
 
   static bool came();
-  /// Ends the program as the signal would have.
+  /// Ends the program as the signal would have done.
   [[noreturn]] static void obey();
 
  private:
@@ -59,8 +59,9 @@ class StopRequest {
   std::unique_ptr<Handlers> before_;
 };
 
-/// While it lives, a request to end the program calls `end`, in a thread where anything may be
-/// called. A second one ends the program at once. Errors: `ErrorKind::cannot_write`.
+/// During its lifetime, a request to end the program calls `end` in an ordinary thread, where any
+/// function may be called. A second request ends the program at once. Errors:
+/// `ErrorKind::cannot_write`.
 class EndSignals {
  public:
   explicit EndSignals(std::function<void()> end);

@@ -26,7 +26,7 @@ namespace {
 
 std::atomic<int> stop_signal = 0;
 
-// A signal handler may do little: it writes a byte here.
+// A signal handler may call few functions; it writes a byte to this descriptor.
 std::atomic<int> signalled{-1};
 
 void hear(int signal) {
@@ -54,7 +54,7 @@ int append_to_file(const std::string& path, std::string_view bytes) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (file < 0) return errno;
   const int error = write_all(file, bytes);
-  // Some file systems tell of a full disk only here.
+  // Some file systems report a full disk only on close.
   const bool is_closed = ::close(file) == 0;
   return error != 0 || is_closed ? error : errno;
 }
@@ -76,7 +76,7 @@ FileLock::FileLock(const std::filesystem::path& path, std::uint64_t place) : pla
 #ifdef F_OFD_SETLKW
   constexpr int wait_for_lock = F_OFD_SETLKW;
 #else
-  constexpr int wait_for_lock = F_SETLKW;  // of processes only, not of threads
+  constexpr int wait_for_lock = F_SETLKW;  // locks processes only, not threads
 #endif
   while (::fcntl(file_, wait_for_lock, &lock) != 0 && errno == EINTR) {
   }
@@ -97,7 +97,7 @@ std::string_view browser_opener() {
 }
 
 bool open_in_browser(const std::string& address) {
-  // Nothing waits for the child that opens the browser.
+  // The child that opens the browser is never waited for.
   std::signal(SIGCHLD, SIG_IGN);
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
@@ -106,7 +106,7 @@ bool open_in_browser(const std::string& address) {
   posix_spawnattr_t settings;
   posix_spawnattr_init(&settings);
 #ifdef POSIX_SPAWN_SETSID
-  // The browser stays open when this program ends.
+  // The browser outlives this program.
   posix_spawnattr_setflags(&settings, POSIX_SPAWN_SETSID);
 #endif
   std::string program(browser_opener()), word = address;
@@ -145,7 +145,7 @@ void StopRequest::obey() {
 }
 
 struct EndSignals::Waiting {
-  // The next signal; 0 once the wait is over.
+  // Waits for the next signal; returns 0 when the wait is over.
   int next() const {
     char byte = 0;
     while (::read(pipe[0], &byte, 1) < 0 && errno == EINTR) {
@@ -179,7 +179,7 @@ EndSignals::EndSignals(std::function<void()> end) : waiting_(std::make_unique<Wa
 EndSignals::~EndSignals() {
   for (std::size_t i = 0; i < end_signals.size(); ++i)
     sigaction(end_signals[i], &waiting_->before[i], nullptr);
-  // Wakes the thread where no signal did.
+  // Wakes the thread if no signal did.
   hear(0);
   waiting_->thread.join();
   for (const int end : waiting_->pipe) ::close(end);

@@ -2,7 +2,7 @@
 #ifdef _WIN32
 #include <fmt/format.h>
 #include <windows.h>
-// Behind windows.h.
+// This header needs windows.h before it.
 #include <shellapi.h>
 
 #include <cerrno>
@@ -24,7 +24,7 @@ std::atomic<int> stop_signal = 0;
 
 void note_stop(int number) { stop_signal = number; }
 
-// What the console's own thread leaves for the thread that ends the program.
+// Event by which the console's thread wakes the thread that ends the program.
 std::atomic<HANDLE> end_event{nullptr};
 
 BOOL WINAPI hear(DWORD kind) {
@@ -78,7 +78,7 @@ std::optional<std::string> file_identity(const std::string& path) {
                      info.nFileIndexLow);
 }
 
-// Its number is the handle's, which has 32 significant bits.
+// The file number is the handle, which has 32 significant bits.
 FileLock::FileLock(const std::filesystem::path& path, std::uint64_t place) : place_(place) {
   const HANDLE file = opened(path, GENERIC_READ | GENERIC_WRITE, OPEN_ALWAYS);
   if (file == INVALID_HANDLE_VALUE) return;
@@ -119,7 +119,7 @@ struct StopRequest::Handlers {
   void (*terminate)(int) = nullptr;
 };
 
-// A handler is used once; after that the signal ends the program.
+// A handler runs once; then the signal ends the program.
 StopRequest::StopRequest() : before_(std::make_unique<Handlers>()) {
   before_->interrupt = std::signal(SIGINT, note_stop);
   before_->terminate = std::signal(SIGTERM, note_stop);
@@ -135,7 +135,7 @@ bool StopRequest::came() { return stop_signal != 0; }
 void StopRequest::obey() { std::_Exit(128 + stop_signal); }
 
 struct EndSignals::Waiting {
-  // False once the wait is over.
+  // Returns false when the wait is over.
   bool next() const {
     ::WaitForSingleObject(event, INFINITE);
     return !is_over;

@@ -1,4 +1,4 @@
-// Texts as the functions of Windows want and give them.
+// Converts texts to and from the encoding of Windows functions.
 #pragma once
 
 #include <string>

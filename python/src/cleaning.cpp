@@ -36,7 +36,7 @@ KnownNames names_of(const py::dict& names) {
   return known;
 }
 
-// Leg, part, first and last frame from 0.
+// Leg, part, and first and last frame, counted from 0.
 using Contact = std::tuple<std::string, std::string, std::size_t, std::size_t>;
 
 FeetSettings feet_settings(const Take& take, const std::string& mode, const py::dict& names,
@@ -45,7 +45,7 @@ FeetSettings feet_settings(const Take& take, const std::string& mode, const py::
   feet.mode = mode == "force" ? FeetMode::force : FeetMode::automatic;
   feet.names = names_of(names);
   if (!contacts) return feet;
-  // The parser of side files checks them.
+  // The parser of side files checks the contacts.
   std::string text;
   const auto first = first_frame_number(take);
   for (const auto& [side, part, begin, end] : *contacts) {
@@ -69,7 +69,7 @@ std::optional<KnownNoise> noise_of(const py::object& noise) {
   return known;
 }
 
-// The step itself asks only once there is a gap.
+// The fill step itself would check the method only if there is a gap.
 void check_fill_method(const std::string& name) {
   std::vector<std::string> names;
   for (const FillMethod& method : fill_methods()) {
@@ -90,7 +90,7 @@ std::optional<FillSettings> fill_settings(const py::object& method, bool fill_al
   return fill;
 }
 
-// The work without Python.
+// The work of cleaning, without Python objects.
 struct CleanWork {
   HeldTakePtr held;
   HeldCleanerPtr cleaner;

@@ -1,4 +1,4 @@
-// Converts texts, options and arrays, and says which shape an array should have.
+// Converts texts, options and arrays, and states the expected shape of an array.
 #include "conversions.hpp"
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ std::string bytes_of(const py::handle& text) {
 }
 
 std::vector<std::string> all_bytes_of(const py::iterable& texts) {
-  // Its letters would be taken for names.
+  // The letters of one str would be taken for names.
   if (PyUnicode_Check(texts.ptr()) != 0)
     throw py::type_error("expected a list of names, not one str");
   std::vector<std::string> list;

@@ -1,4 +1,4 @@
-// Texts, options and arrays between Python and C++.
+// Conversions of texts, options and arrays between Python and C++.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -15,19 +15,19 @@ namespace kinemend::python {
 
 namespace py = pybind11;
 
-/// Bytes of a file as text. What is not UTF-8 is kept as `os.fsdecode` keeps it.
+/// Bytes of a file as text. Bytes that are not UTF-8 are kept, as in `os.fsdecode`.
 py::str text_of(std::string_view bytes);
 py::list texts_of(const std::vector<std::string>& list);
-/// The inverse.
+/// The inverse of `text_of`.
 std::string bytes_of(const py::handle& text);
 std::vector<std::string> all_bytes_of(const py::iterable& texts);
 
 py::object object_of(const OptionValue& value);
 py::dict dict_of(const OptionValues& values);
-/// Errors: TypeError for a value that is no bool, number or text.
+/// Errors: TypeError for a value that is not a bool, number or text.
 OptionValues option_values_of(const py::dict& values);
 
-/// An array on memory that `owner` keeps alive; no copy.
+/// An array that refers to memory kept alive by `owner`, without a copy.
 template <class T>
 py::array view_of(const py::handle& owner, std::vector<py::ssize_t> shape, const T* data,
                   bool is_writable = true) {
@@ -42,12 +42,11 @@ inline const double* numbers_of(const std::vector<Vec3>& list) {
   return reinterpret_cast<const double*>(list.data());
 }
 
-/// An array of doubles as Python hands it in, in C order.
+/// An array of doubles from Python, in C order.
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Marks = py::array_t<bool, py::array::c_style | py::array::forcecast>;
 
-/// The elements of an array whose last dimension is that of `T`. Errors: ValueError for another
-/// shape; a length of -1 stands for any.
+/// Checks the shape of an array; a length of -1 allows any. Errors: ValueError for another shape.
 void check_shape(const py::array& array, const std::vector<py::ssize_t>& shape,
                  std::string_view name);
 std::vector<Quat> quats_of(const Numbers& array);

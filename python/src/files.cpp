@@ -60,7 +60,7 @@ bool holds(const fs::path& path, std::string_view bytes) {
   return fs::is_regular_file(path, ignored) && read_file(path) == bytes;
 }
 
-// Takes that are written at the same time may share a skeleton, which the second one finds there.
+// Takes written at the same time may share a skeleton, so it may exist already.
 void write_side_file(const SideFile& file, bool overwrite) {
   std::error_code ignored;
   if (file.path.has_parent_path()) fs::create_directories(file.path.parent_path(), ignored);

@@ -1,4 +1,4 @@
-// What Python holds: takes and cleaners, and the parts of the module.
+// Objects that Python holds: takes and cleaners, and the parts of the module.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -14,11 +14,11 @@ namespace kinemend::python {
 
 namespace py = pybind11;
 
-/// A take whose arrays Python may look at: no array changes its length.
+/// A take with arrays that Python may view, so no array changes its length.
 struct HeldTake {
   Take take;
-  Diagnostics diagnostics;  ///< of its reader
-  /// Whether Python may have written into an array: only then the values have to be checked again.
+  Diagnostics diagnostics;  ///< diagnostics of its reader
+  /// Set if Python may have written into an array; then the values must be checked again.
   mutable bool is_touched = false;
 
   void touch() const { std::atomic_ref(is_touched).store(true, std::memory_order_relaxed); }
@@ -29,7 +29,7 @@ struct HeldTake {
 };
 using HeldTakePtr = std::shared_ptr<HeldTake>;
 
-/// Every take has masks, so that Python sees and writes them in place.
+/// Gives every take masks, so that Python reads and writes them in place.
 HeldTakePtr hold(Take take, Diagnostics diagnostics = {});
 
 struct HeldCleaner {

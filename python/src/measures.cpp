@@ -40,7 +40,7 @@ KnownNames known_names_of(const py::dict& names) {
   return known;
 }
 
-// The model of the one method that is asked for.
+// The model of the requested method.
 FillModels fill_models(const std::string& method, const std::string& model,
                        const std::string& map) {
   FillModels models;
@@ -83,7 +83,7 @@ py::tuple fill(const HeldTakePtr& held, const std::string& method, const py::ite
   return py::make_tuple(result, report);
 }
 
-// Sets the member that is called `name`; false where none is.
+// Sets the member `name`; returns false if there is none.
 template <class Settings>
 bool set_number(Settings& settings, std::string_view name, const py::handle& value,
                 std::initializer_list<std::pair<std::string_view, double Settings::*>> members) {
@@ -112,7 +112,7 @@ bool set_robot_number(RobotSettings& robot, std::string_view name, const py::han
                      {"floor_cm", &RobotSettings::floor_cm}});
 }
 
-// Joints of a pattern have the limits of all others where they state none, as in a file of limits.
+// Joints of a pattern inherit the limits that it does not state, as in a file of limits.
 RobotSettings robot_settings_of(const py::dict& numbers, const py::dict& joints) {
   RobotSettings robot;
   for (const auto& [key, value] : numbers) {

@@ -1,4 +1,4 @@
-// The module kinemend._core: the C++ library as the Python layer calls it.
+// The module kinemend._core: the C++ library for the Python layer.
 #include <pybind11/pybind11.h>
 
 #include <exception>

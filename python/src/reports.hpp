@@ -1,4 +1,4 @@
-// Reports as Python holds them: their JSON is made when it is asked for.
+// Reports for Python, whose JSON is made on request.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -13,7 +13,7 @@ namespace kinemend::python {
 
 using ReportPtr = std::shared_ptr<const Report>;
 
-/// `take`: that the report is about, as it is named. Call with the GIL or without.
+/// `take` names the take that the report is about. Call with or without the GIL.
 template <class Result>
 ReportPtr report_of(const HeldTake& held, const Take& take, Result result) {
   Report report{take_facts(take), std::move(result)};

@@ -1,4 +1,4 @@
-// A mailbox between the thread that works and the one that speaks with Python.
+// A mailbox between the worker thread and the thread that talks to Python.
 #include "running.hpp"
 
 #include <atomic>
@@ -18,7 +18,7 @@ namespace kinemend::python {
 
 namespace {
 
-// How long Ctrl-C waits at most until it is seen.
+// Maximum delay until Ctrl-C is noticed.
 constexpr std::chrono::milliseconds between_looks(20);
 
 struct News {
@@ -49,14 +49,14 @@ class Mailbox {
     }
     changed_.notify_one();
   }
-  /// Whether the work has ended; what is new since the last call goes into `news`.
+  /// Returns whether the work has ended; moves news since the last call to `news`.
   bool wait(std::vector<News>& news) {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, between_looks, [&] { return ended_ || !news_.empty(); });
     news = std::exchange(news_, {});
     return ended_;
   }
-  /// After the end.
+  /// Valid after the end.
   const std::exception_ptr& error() const { return error_; }
 
  private:
@@ -69,7 +69,7 @@ class Mailbox {
   bool ended_ = false;
 };
 
-// What Python raises at the news, or at a signal.
+// The exception that Python raises for the news or for a signal.
 std::optional<py::error_already_set> look(const py::object& progress,
                                           const std::vector<News>& news) {
   try {

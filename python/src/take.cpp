@@ -1,4 +1,4 @@
-// Takes: views on their arrays, and takes made of arrays.
+// Takes: views of their arrays, and takes made from arrays.
 #include "kinemend/take.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ using namespace py::literals;
 
 py::ssize_t count(std::size_t size) { return static_cast<py::ssize_t>(size); }
 
-// For a view, through which Python may write.
+// The take for a view through which Python may write.
 const Take& take_of(const py::object& self) {
   const auto& held = self.cast<const HeldTake&>();
   held.touch();
@@ -90,7 +90,7 @@ py::array is_position(const py::object& self) {
   return marks;
 }
 
-// Where the arrays begin in memory, for tests that no array is a copy.
+// Start addresses of the arrays, for tests that no array is a copy.
 py::dict addresses(const HeldTake& held) {
   const auto address = [](const void* data) { return reinterpret_cast<std::uintptr_t>(data); };
   return py::dict("rotations"_a = address(held.take.rotations.data()),
@@ -137,7 +137,7 @@ py::list diagnostics(const HeldTake& held) {
   return list;
 }
 
-// Takes made of arrays.
+// Takes from arrays.
 
 Skeleton skeleton_of(const std::vector<std::string>& names,
                      const std::vector<std::int32_t>& parents, const Numbers& offsets,
@@ -227,7 +227,7 @@ HeldTakePtr take_of_markers(const py::iterable& names, const Numbers& positions,
   return hold(std::move(take));
 }
 
-// What is computed of a take.
+// Values computed from a take.
 
 HeldTakePtr frames_of(const HeldTake& held, const py::slice& range) {
   std::size_t start = 0, stop = 0, step = 0, length = 0;

@@ -1,5 +1,4 @@
-// Tests of errors and diagnostics: messages with their place, and nothing in them that commands a
-// terminal.
+// Tests of errors and diagnostics: messages name their place and escape control characters.
 #include "kinemend/error.hpp"
 
 #include <gmock/gmock.h>

@@ -17,7 +17,7 @@ TEST(JsonDepth, LeavesTextWithinTheBoundAsItIs) {
        {std::string(), std::string("7"), nested(deepest_json, "1"),
         std::string(R"({"a": [{"b": []}, "]]]["]})"), std::string("]]]]"), std::string("\"")})
     EXPECT_EQ(json_within_depth(text), text);
-  // Brackets one after the other are not one inside the other.
+  // Siblings add no depth.
   std::string wide = "[";
   for (int i = 0; i < 1000; ++i) wide += "{},";
   wide += "1]";
@@ -40,7 +40,7 @@ TEST(JsonDepth, DoesNotCountBracketsInStrings) {
   for (const std::string& text :
        {"\"" + brackets + "\"", "[\"\\\"" + brackets + "\"]", "[\"\\\\\", \"" + brackets + "\"]"})
     EXPECT_EQ(json_within_depth(text), text);
-  // The string ends at its second quote: what follows counts.
+  // The string ends at its second quote, so the brackets after it are counted.
   EXPECT_LT(json_within_depth("\"\\\\\"" + brackets).size(), 100u);
 }
 

@@ -1,5 +1,5 @@
-// Work that is spread over threads: every piece once, exceptions, nesting, and the same results by
-// either library of threads.
+// Tests of work spread over threads: each piece runs once, exceptions, nesting, and equal results
+// with either thread library.
 #include "base/parallel.hpp"
 
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@
 namespace kinemend {
 namespace {
 
-// Calls `law` with the threads that the library is built with, then with those of the standard
-// library: one, two and more than most machines for tests have.
+// Calls `law` with the thread library of the build, then with that of the standard library on one
+// thread, on two, and on seven (more than most test machines have).
 template <class Law>
 void with_all_threads(const Law& law) {
   law();
@@ -76,7 +76,7 @@ TEST(Parallel, ThrowsWhatAPieceThrows) {
   });
 }
 
-// The sum of these depends on the order in which they are added.
+// The rounded sum of these depends on the order of addition.
 TEST(Parallel, AddsInTheSameOrderWithEveryNumberOfThreads) {
   const auto sum = [] {
     return sum_in_halves<double>(10007, 64, [](std::size_t first, std::size_t last) {

@@ -1,4 +1,4 @@
-// Compares the portable functions with those of 80-bit numbers, and tries special values.
+// Compares the portable functions with 80-bit references and tries special values.
 #include "base/portable.hpp"
 
 #include <gtest/gtest.h>
@@ -16,10 +16,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-// 64 bits or more, else the reference is no better than what is tried.
+// The reference needs at least 64 bits of mantissa to be more exact than the tested functions.
 constexpr bool is_long_double_longer = std::numeric_limits<long double>::digits >= 64;
 
-// How far a value is from the exact one, in units of its last place.
+// Error in units of the exact value's last place.
 double units_off(double value, long double exact) {
   const double near = std::fabs(static_cast<double>(exact));
   const double unit = std::nextafter(near, infinity) - near;
@@ -32,7 +32,7 @@ struct Case {
   double from, to;
   std::function<double(double)> value;
   std::function<long double(long double)> exact;
-  // Of what is asked: evenly between `from` and `to`, or their logarithms evenly.
+  // The arguments lie evenly between `from` and `to`, or their logarithms do.
   bool is_logarithmic = false;
 };
 
@@ -138,7 +138,7 @@ TEST(Portable, GivesSpecialValuesAsCDoes) {
 }
 
 TEST(Portable, ReducesTheLargestAngles) {
-  // The second is the double that lies nearest to a multiple of a quarter of a turn (Ng 1992).
+  // The second argument is the double nearest to a multiple of a quarter turn (Ng 1992).
   for (const double x : {1e22, 0x1.6ac5b262ca1ffp+849, 1.7976931348623157e308, 1e100, 32768.0}) {
     const auto exact = static_cast<long double>(x);
     EXPECT_EQ(portable::sin(x), static_cast<double>(std::sin(exact)));

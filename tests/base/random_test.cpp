@@ -137,7 +137,7 @@ TEST(NormalQuantile, AgreesWithScipy) {
 TEST(NormalQuantile, InvertsTheDistributionFunction) {
   for (double x = -8; x <= 5; x += 0.125) {
     const double p = 0.5 * std::erfc(-x / std::sqrt(2.0));
-    // The step in p that rounding makes is a step of this size in x.
+    // Rounding changes p by a step; dividing by the density converts it to a step in x.
     const double density = std::exp(-x * x / 2) / std::sqrt(2 * 3.14159265358979323846);
     EXPECT_NEAR(normal_quantile(p), x, 1e-14 + 1e-15 * p / density);
   }

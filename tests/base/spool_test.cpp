@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A temporary folder of the test's own.
+// Gives each test a temporary folder.
 class SpoolTest : public testing::Test {
  protected:
   void SetUp() override {

@@ -1,4 +1,4 @@
-// Tests of text for people: figures, tables, names that could command a terminal, and colours.
+// Tests of text for people: figures, tables, names that hold terminal control codes, and colours.
 #include "kinemend/experimental/text.hpp"
 
 #include <gtest/gtest.h>
@@ -41,12 +41,12 @@ TEST(Text, TablesAreAsWideAsTheirCells) {
 TEST(Text, NamesCannotCommandATerminal) {
   EXPECT_EQ(printable("a\nb\x1b[31m"), "a\\x0ab\\x1b[31m");
   EXPECT_EQ(printable(std::string("a\0b", 3)), "a\\x00b");
-  // C1 controls as characters and as bytes, bytes that are no UTF-8, and one that is too short.
+  // C1 controls as characters and as bytes, invalid UTF-8, and a truncated sequence.
   EXPECT_EQ(printable("\xC2\x9B"
                       "2J \x9B"
                       "2J \xFF \xC0\x80 \xE2\x82"),
             "\\x9b2J \\x9b2J \\xff \\xc0\\x80 \\xe2\\x82");
-  // Marks that turn the direction of text, and the ends of lines and paragraphs.
+  // Bidirectional marks, and line and paragraph separators.
   EXPECT_EQ(printable("a\xE2\x80\xAE"
                       "b\xE2\x81\xA6 \xE2\x80\xA8"),
             "a\\u202eb\\u2066 \\u2028");
@@ -76,7 +76,7 @@ TEST(Text, LongTextsAreCutAtWholeCharacters) {
   EXPECT_LE(printable(message).size(), 2000u);
   EXPECT_EQ(printable(message).substr(0, 20), message.substr(0, 20));
   EXPECT_EQ(printable(message).substr(printable(message).size() - 12), " in the take");
-  // Once is enough.
+  // Escaping is idempotent.
   for (const std::string& text : {blanks, letters, message, std::string(200, '\x1b')}) {
     EXPECT_EQ(printable(printable(text)), printable(text));
     EXPECT_EQ(printable_name(printable_name(text)), printable_name(text));

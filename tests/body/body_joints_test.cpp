@@ -1,5 +1,5 @@
-// Tests of bodies of joints: channels that do not depend on place, heading, axes or rest pose, and
-// the way back.
+// Tests of joint bodies: channels that do not depend on place, heading, axes or rest pose, and
+// decoding.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 using namespace body_test;
 
-// What decoding makes of a copy of which all that the layout knows is destroyed.
+// Overwrites every joint that the layout knows in a copy and restores it by decoding.
 Take decoded(const Take& clip, const BodyLayout& layout) {
   const BodyMatch match = match_body(layout, clip);
   const BodyChannels channels = encode_body(clip, layout, match);
@@ -77,7 +77,7 @@ TEST(BodyOfJoints, DoesNotSeeAxesAndUnits) {
 TEST(BodyOfJoints, DoesNotSeeHowFramesAreTurnedAtRest) {
   const Take clip = walk();
   const BodyLayout layout = layout_of(clip);
-  // The same motion in frames that are turned at rest: rest' = a_parent^-1 rest a, q' = a^-1 q a.
+  // The same motion with random bone frames at rest: rest' = a_parent^-1 rest a, q' = a^-1 q a.
   Take turned = clip;
   Random random(5);
   std::vector<Quat> frames;
@@ -100,7 +100,7 @@ TEST(BodyOfJoints, DoesNotSeeHowFramesAreTurnedAtRest) {
             1e-8);
 }
 
-// The same motion of a skeleton whose arms hang at rest, by 50 degrees.
+// The same motion on a skeleton whose arms hang by 50 degrees in the rest pose.
 Take with_hanging_arms(const Take& clip) {
   Take result = clip;
   Skeleton& skeleton = result.skeleton;
@@ -145,7 +145,7 @@ TEST(BodyOfJoints, DoesNotSeeWhetherArmsHangAtRest) {
 TEST(BodyOfJoints, MeasuresFromAStandingFrameWhereTheRestPoseStandsNoPerson) {
   const Take clip = walk();
   Take odd = clip;
-  // Bones whose frames point anywhere when nothing is turned: q' = a_parent^-1 q a with rest kept.
+  // Gives bones random frames in the zero pose, keeping the rest rotation: q' = a_parent^-1 q a.
   Random random(8);
   std::vector<Quat> frames;
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
@@ -163,8 +163,7 @@ TEST(BodyOfJoints, MeasuresFromAStandingFrameWhereTheRestPoseStandsNoPerson) {
             1e-9);
   const BodyLayout layout = layout_of(clip);
   const BodyChannels expected = channels_of(layout, clip), found = channels_of(layout, odd);
-  // What a standing person does with elbows and wrists is not that of a T-pose; legs and trunk are
-  // told well.
+  // Elbows and wrists of a standing person differ from a T-pose; legs and trunk are read well.
   for (const char* name : {"Hips", "LeftUpLeg", "LeftLeg", "RightUpLeg", "RightLeg", "Spine"})
     EXPECT_LT(rms_difference(expected.poses, found.poses, track_named(layout, name)), 16) << name;
   EXPECT_LT(largest_turn(odd, decoded(odd, layout)), 1e-9);
@@ -205,7 +204,7 @@ TEST(BodyOfJoints, KeepsItsFrameUnderSpikes) {
     EXPECT_NEAR(found.headings[f], clean.headings[f], 0.5 * radians_per_degree) << f;
     EXPECT_LT(norm(found.places[f] - clean.places[f]), 1) << f;
   }
-  // Only the spiked frames' own channels move.
+  // A spike changes only the channels of its own frame.
   EXPECT_LT(std::fabs(found.poses(20, 1) - clean.poses(20, 1)), 0.5);
   EXPECT_GT(std::fabs(found.poses(47, 1) - clean.poses(47, 1)), 20);
 }
@@ -343,7 +342,7 @@ TEST(BodyOfJoints, ContinuesRotationVectorsPastHalfATurn) {
 TEST(BodyOfJoints, ForgetsWholeTurns) {
   Take clip = walk("still", 6);
   const auto hand = static_cast<std::size_t>(clip.skeleton.find("LeftHand"));
-  // Once round in two seconds.
+  // The hand makes one turn in two seconds.
   const auto angle = [](std::size_t f) {
     return 0.3 + 2 * pi * std::clamp((static_cast<double>(f) / 60 - 1) / 2, 0.0, 1.0);
   };
@@ -364,7 +363,7 @@ TEST(BodyOfJoints, ForgetsWholeTurns) {
 
 TEST(BodyOfJoints, LeavesAloneWhatHoldsUpTheHips) {
   const Take clip = walk("stroll");
-  // The same under a joint that turns and travels by itself.
+  // The same motion below a joint that turns and travels by itself.
   Take carried;
   carried.frame_rate_hz = clip.frame_rate_hz;
   carried.skeleton.add_joint("Reference", -1, {}, clip.skeleton.channels[0]);

@@ -78,7 +78,7 @@ TEST(BodyLayoutBuilder, LearnsWhatMovesWithTheRootForemost) {
   const BodyLayout layout = layout_of(clip);
   EXPECT_EQ(layout.names.front(), "Hips");
   EXPECT_THAT(layout.names, Not(Contains("LeftLeg")));
-  // What hung on the knee hangs on the hip.
+  // Children of the removed knee become children of the hip.
   const auto foot = track_named(layout, "LeftFoot");
   ASSERT_LT(foot, layout.track_count());
   EXPECT_EQ(layout.names[static_cast<std::size_t>(layout.parents[foot])], "LeftUpLeg");

@@ -140,7 +140,7 @@ TEST(BodyOfMarkers, HardlyMissesBothArms) {
     else
       EXPECT_LT(rms_difference(whole.poses, channels.poses, i), 1.5) << layout.names[i];
   }
-  // As another body, whose layout does not know arms.
+  // Learns the layout from a body without arms.
   Take without = make_marker_take({}, 0, clip.frame_rate_hz);
   for (const std::string& name : clip.names) {
     if (!is_of_an_arm(name)) without.names.push_back(name);
@@ -210,7 +210,7 @@ TEST(BodyOfMarkers, DoesNotMixTwoPeople) {
   two.observed.assign(two.positions.size(), 1);
   two.is_position.clear();
   two.residuals.clear();
-  // Ann is seen more, but lacks one.
+  // Ann is observed in more frames, but one of her markers never is.
   for (std::size_t i = 0; i < two.observed.size(); i += 3) {
     if (i % (2 * count) >= count) two.observed[i] = 0;
   }

@@ -16,14 +16,14 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-// The take's name for a track of the layout; "-": none.
+// The take's name for a track of the layout, or "-" if unmatched.
 std::string matched(const BodyLayout& layout, const Take& clip, std::string_view track,
                     const NameMap& names = {}) {
   const std::int32_t joint = match_body(layout, clip, names).tracks[track_named(layout, track)];
   return joint < 0 ? "-" : clip.skeleton.names[static_cast<std::size_t>(joint)];
 }
 
-// Both sides of names that start with "Left".
+// Adds the "Right" pair to each name that starts with "Left".
 std::map<std::string, std::string> both_sides(std::map<std::string, std::string> names) {
   const auto other = [](std::string name) {
     for (const auto& [from, to] : {std::pair("Left", "Right"), {"left", "right"}, {"L ", "R "}}) {
@@ -69,7 +69,7 @@ TEST(MatchBody, FindsTheUsualSpellings) {
     }
     EXPECT_LT(largest_difference(channels_of(layout, clip).poses, channels_of(layout, other).poses),
               1e-9);
-    // And the other way round.
+    // The match also works in the other direction.
     EXPECT_THAT(match_body(layout_of(other), clip).missing, IsEmpty());
   };
   expect_same(cmu_names());
@@ -106,7 +106,7 @@ TEST(MatchBody, FindsTheUsualSpellings) {
                           {"LeftToeBase", "Toes_L"}}));
 }
 
-// The clip without a joint: its children hang on its parent, turned and placed as they were.
+// Removes a joint; its children become children of its parent and keep their world motion.
 Take without_joint(const Take& clip, std::string_view name) {
   const auto gone = static_cast<std::size_t>(clip.skeleton.find(name));
   const std::int32_t above = clip.skeleton.parents[gone];
@@ -152,7 +152,7 @@ TEST(MatchBody, TellsTrunksOfOtherLengthsByTheirEnds) {
   EXPECT_EQ(matched(layout, neckless, "Neck"), "Neck");
   EXPECT_EQ(matched(layout, neckless, "Neck1"), "-");
   EXPECT_EQ(matched(layout, neckless, "Head"), "Head");
-  // A longer trunk than the layout's.
+  // The take's trunk has more joints than the layout's.
   const BodyLayout shorter = layout_of(renamed(two, {{"Abdomen", "a"}, {"Chest", "b"}}));
   EXPECT_EQ(matched(shorter, clip, "a"), "Spine");
   EXPECT_EQ(matched(shorter, clip, "b"), "Spine2");
@@ -172,7 +172,7 @@ TEST(MatchBody, FindsByTopologyWhatHasAnotherName) {
 TEST(MatchBody, LetsGoOfJointsThatHangElsewhere) {
   const Take clip = walk();
   const BodyLayout layout = layout_of(clip);
-  // An arm on the hips.
+  // The left arm is a child of the hips.
   Take odd = renamed(clip, {{"Head", "Skull"}});
   odd.skeleton.parents[static_cast<std::size_t>(odd.skeleton.find("LeftArm"))] = 0;
   const BodyMatch match = match_body(layout, odd);
@@ -219,7 +219,7 @@ TEST(MatchBody, TakesTheWordOfANameMap) {
   const Take other = renamed(clip, numbers);
   EXPECT_THROW(match_body(layout, other), Error);
   EXPECT_THAT(match_body(layout, other, map).missing, IsEmpty());
-  // Body height, floor and axes are told as well as by usual names.
+  // Body height, floor and axes are found as well as with usual names.
   EXPECT_LT(largest_difference(channels_of(layout, clip).poses,
                                channels_of(layout, turn_axes(other, Axis::y, Axis::z), map).poses),
             1e-8);
@@ -262,7 +262,7 @@ TEST(MatchBody, IsExactForTheSameSkeleton) {
 }
 
 TEST(MatchBody, FindsTheWorldsUpAxisWhereTheRestPoseHasAnother) {
-  // A skeleton that stands along z at rest, in a world whose y is up.
+  // The rest pose of this skeleton stands along z; y is up in the world.
   const Take clip = walk("stroll");
   Take z_up = turn_axes(clip, Axis::y, Axis::z);
   const Quat back = exp({-pi / 2, 0, 0});

@@ -12,7 +12,7 @@ struct Spelled {
   Bone bone;
 };
 
-// Names as they stand beside each other in one skeleton.
+// Checks names that occur together in one skeleton.
 void expect_bones(const std::vector<Spelled>& skeleton) {
   std::vector<std::string> names;
   for (const Spelled& joint : skeleton) names.emplace_back(joint.name);
@@ -51,7 +51,7 @@ TEST(BoneNames, KnowTheCmuSpellings) {
 }
 
 TEST(BoneNames, ReadAWordBesideTheOthers) {
-  // Motion Builder against Biovision: shoulders, legs and hips are not the same bones.
+  // MotionBuilder and Biovision use the same names for different shoulders, legs and hips.
   expect_bones({{"LeftShoulder", left, Bone::clavicle},
                 {"LeftArm", left, Bone::upper_arm},
                 {"LeftLeg", left, Bone::shin},
@@ -63,7 +63,7 @@ TEST(BoneNames, ReadAWordBesideTheOthers) {
                 {"LeftHip", left, Bone::thigh},
                 {"LeftKnee", left, Bone::shin},
                 {"LeftAnkle", left, Bone::foot}});
-  // SMPL: beside an ankle a foot is the toes, beside a wrist a hand the palm.
+  // SMPL: beside an ankle, a foot means the toes; beside a wrist, a hand means the palm.
   expect_bones({{"m_avg_Pelvis", none, Bone::other},
                 {"left_hip", left, Bone::thigh},
                 {"left_ankle", left, Bone::foot},
@@ -127,7 +127,7 @@ TEST(BoneNames, GiveFingersOneWord) {
   EXPECT_EQ(word("LThumb"), "thumb1");
   EXPECT_EQ(word("LeftHandThumb1"), "thumb1");
   EXPECT_EQ(word("lMid2"), "middle2");
-  // A hand with one finger only.
+  // The hand has only one finger.
   EXPECT_EQ(bone_names({"LeftHandIndex1"})[0].word, "fingers");
   EXPECT_EQ(bone_names({"lfingers"})[0].word, "fingers");
 }

@@ -63,7 +63,7 @@ Take random_markers(Random& random) {
   return clip;
 }
 
-// Whether the second take was one of the first one's body.
+// Returns whether the second take matches the body learned from the first one.
 bool survives(const Take& learned, Take clip) {
   try {
     const BodyLayout layout = layout_of(learned);

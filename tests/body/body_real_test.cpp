@@ -105,7 +105,7 @@ TEST(RealBodies, FindTheJointsOfOtherSkeletons) {
                                                              {"LThumb", "lThumb1"}});
 }
 
-// Walks of other skeletons, rest poses and makers lie near the means of a CMU walk.
+// Walks on other skeletons, rest poses and programs lie near the means of a CMU walk.
 TEST(RealBodies, SeeWalksOfOtherSkeletonsMuchAlike) {
   const BodyLayout layout = layout_of(motion("cmu/bvh/35_01.bvh"));
   for (const char* path :

@@ -39,7 +39,7 @@ double polynomial_at(const std::vector<double>& track, double deviation, std::si
 }
 
 TEST(SmoothTrend, IsAParabolaAroundEachFrameAndALineAtTheEnds) {
-  // Monotone, so that the median changes nothing.
+  // The track is monotone, so the median changes nothing.
   std::vector<double> track;
   for (int f = 0; f < 400; ++f) track.push_back(f * 0.1 + 5 * std::sin(f * 0.016));
   for (const double rate : {20.0, 100.0}) {
@@ -53,7 +53,7 @@ TEST(SmoothTrend, IsAParabolaAroundEachFrameAndALineAtTheEnds) {
 }
 
 TEST(SmoothTrend, HardlyCutsCurves) {
-  // A walk of 1.3 m/s on a circle of a metre.
+  // A walk of 1.3 m/s on a circle of 1 m radius.
   std::vector<Vec3> path;
   for (int f = 0; f < 600; ++f) path.push_back({std::cos(1.3 * f / 60), 0, std::sin(1.3 * f / 60)});
   const auto trend = smooth_path(path, ones(600), 60, 0.5);
@@ -118,8 +118,8 @@ TEST(SmoothTrend, AveragesNoise) {
   const auto trend = smooth_trend(noise, ones(2000), 30, 0.5);
   double sum = 0;
   for (std::size_t f = 100; f < 1900; ++f) sum += trend[f] * trend[f];
-  // A Gaussian of 15 frames leaves 1 / sqrt(2 sqrt(pi) 15) = 0.137 of white noise, the parabola
-  // sqrt(27 / 16) times as much, and a median of five frames before it is less efficient.
+  // A Gaussian of 15 frames leaves 1 / sqrt(2 sqrt(pi) 15) = 0.137 of white noise; the parabola
+  // leaves sqrt(27 / 16) times as much, and the median of five frames before it is less efficient.
   EXPECT_NEAR(std::sqrt(sum / 1800), 0.2, 0.04);
 }
 

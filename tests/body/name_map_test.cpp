@@ -57,7 +57,7 @@ TEST(NameMap, IsWrittenForAPersonToComplete) {
   const NameMap map = parse_name_map(text, "m.csv");
   EXPECT_EQ(map.size(), layout.track_count());
   EXPECT_EQ(match_body(layout, other, map).tracks, match_body(layout, other).tracks);
-  // Also of a take that is refused.
+  // A take that does not match also gets a map.
   const std::string stranger = name_map_text(layout, synthesize({"spin", 1, 60, 1, false}));
   EXPECT_THAT(stranger, HasSubstr("\nHips,\n"));
   EXPECT_THAT(name_map_text(layout, other, {{"Head", "Lamp"}}), HasSubstr("\nHead,Lamp\n"));

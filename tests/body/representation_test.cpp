@@ -1,5 +1,4 @@
-// Tests of the channels that encode rotations: they come back exactly, and have no jump at half a
-// turn.
+// Tests of the channels that encode rotations: decoding is exact, and half a turn causes no jump.
 #include "kinemend/experimental/representation.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +12,7 @@
 namespace kinemend {
 namespace {
 
-// A chain of `joints` three-axis joints, `frames` frames of rest.
+// A chain of `joints` three-axis joints that rests for `frames` frames.
 Take chain(std::size_t joints, std::size_t frames) {
   Take clip;
   for (std::size_t j = 0; j < joints; ++j) {
@@ -47,7 +46,7 @@ double round_trip_error(const Take& clip, Encoding encoding) {
   return largest_difference(clip, back);
 }
 
-// About a slanted axis, from angle `start` in equal steps (radians).
+// One joint that turns about a slanted axis from `start` in equal steps (radians).
 Take turning(double start, double step, std::size_t frames) {
   Take clip = chain(1, frames);
   const Vec3 axis{2.0 / 7, 3.0 / 7, 6.0 / 7};
@@ -96,7 +95,7 @@ TEST(Representation, ExactlyPiAndExactlyNothingComeBackExactly) {
 
 TEST(Representation, ATangentChannelOfASteadyTurnIsAStraightLineThroughPiAndBeyond) {
   const double step = 0.05;
-  Take clip = chain(1, 500);  // stands for 400 frames, then turns by 5 rad
+  Take clip = chain(1, 500);  // holds still for 400 frames, then turns by 5 rad
   const Take turn = turning(0.4, step, 101);
   for (std::size_t f = 0; f < 500; ++f)
     clip.rotation(f, 0) = turn.rotation(f < 400 ? 0 : f - 399, 0);
@@ -163,7 +162,7 @@ TEST(Representation, FramesThrownFarOffDoNotTurnTheSignOfWhatFollows) {
       if (random.chance(0.1)) clip.rotation(f, 0) = test::random_rotation(random);
     }
     const EncodedClip encoded = encode(clip, Encoding::quaternion);
-    for (std::size_t f = 0; f < 300; ++f) {  // the turn's own quaternion is continuous as it stands
+    for (std::size_t f = 0; f < 300; ++f) {  // this turn's own quaternion is already continuous
       if (angle_between(clip.rotation(f, 0), clean.rotation(f, 0)) > 1e-6) continue;
       ASSERT_NEAR(encoded.poses(f, 0), clean.rotation(f, 0).w, 1e-12) << trial << " " << f;
     }

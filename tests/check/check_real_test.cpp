@@ -1,4 +1,4 @@
-// Real takes have the faults that are known of them, and those that are clean have none.
+// Real takes show their known faults, and clean takes show none.
 #include <gtest/gtest.h>
 
 #include "check/support.hpp"

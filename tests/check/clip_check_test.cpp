@@ -1,4 +1,4 @@
-// Each fault that is put into a synthetic clip is found where it was put, and no other fault is
+// Each fault injected into a synthetic clip is found where it was injected, and no other fault is
 // found.
 #include <gmock/gmock.h>
 
@@ -17,7 +17,7 @@ TEST(CheckClip, FindsNothingInCleanTakes) {
   }
 }
 
-// A check finds what cleaning takes out: of keys nothing.
+// A check reports only faults that cleaning removes, and cleaning leaves keyframes alone.
 TEST(CheckClip, FindsNoNoiseAndNoSpikesInKeys) {
   Take clip = synthetic_clip("walk");
   Random random(3);
@@ -62,7 +62,7 @@ TEST(CheckClip, ExpectsNoNoiseThatIsMeasured) {
   EXPECT_TRUE(of_kind(report, FindingKind::expected_noise).empty());
 }
 
-// The body sways by 15 cm twice a second, and both feet with it.
+// The body sways by 15 cm twice a second and carries both feet along.
 Take swaying(double duration_s) {
   Take clip = synthetic_clip("still", duration_s);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -157,7 +157,7 @@ TEST(CheckClip, FindsFrozenSpansThatTheDamageMade) {
   }
 }
 
-// As other programs close gaps: along the geodesic, or by straight lines of the file's angles.
+// Other programs close gaps along the geodesic or by straight lines of the file's Euler angles.
 TEST(CheckClip, FindsSpansThatWereBridgedEitherWay) {
   for (const bool by_angles : {false, true}) {
     Take clip = synthetic_clip("walk", 8);
@@ -183,7 +183,7 @@ TEST(CheckClip, FindsSpansThatWereBridgedEitherWay) {
 TEST(CheckClip, TakesAStretchedKneeForNoFrozenJoint) {
   Take clip = synthetic_clip("walk", 8);
   const std::size_t j = joint_of(clip, "LeftLeg");
-  // A hinge that stops at 0 now and then, and gets there fast.
+  // The hinge stops at 0 from time to time and reaches it at speed.
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     const double angle = std::max(0.0, std::sin(0.05 * static_cast<double>(f)));
     clip.rotation(f, j) = exp({angle, 0, 0});
@@ -257,7 +257,7 @@ TEST(CheckClip, TellsAUnitThatMakesAGiant) {
 TEST(CheckClip, MeasuresHowFarAStandingFootSlides) {
   Take clip = synthetic_clip("still", 4);
   EXPECT_LT(*check_take(clip).figures.slide_cm, 0.1);
-  // Both feet glide 12 cm within a second, slower than a step.
+  // Both feet glide 12 cm in one second, slower than a step.
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     const double share = std::clamp((static_cast<double>(f) - 200) / 120, 0.0, 1.0);
     clip.root_position(f).x += 12 * share;
@@ -270,7 +270,7 @@ TEST(CheckClip, MeasuresHowFarAStandingFootSlides) {
 TEST(CheckClip, MeasuresHowDeepAFootSinks) {
   Take clip = synthetic_clip("walk", 12);
   EXPECT_LT(*check_take(clip).figures.sink_cm, 0.5);
-  // For one second in twelve the body walks 6 cm deeper.
+  // For about one second the body walks 6 cm lower.
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     const double s = static_cast<double>(f) / clip.frame_rate_hz;
     const double share = std::clamp(std::min(s - 6, 7.6 - s) / 0.3, 0.0, 1.0);

@@ -1,4 +1,4 @@
-// Tests of checks on markers: each fault that is put into a synthetic take is found.
+// Each fault injected into a synthetic take of markers is found.
 #include <gmock/gmock.h>
 
 #include "check/marker_support.hpp"
@@ -119,7 +119,7 @@ TEST(CheckMarkers, AcceptsTakesOfAnyLengthAndWithoutSamples) {
   EXPECT_EQ(check_take(Take(make_marker_take({}, 0, 100))).tracks.size(), 0u);
 }
 
-// A hint costs less than a check, and says the same.
+// The hint must agree with the slower check.
 TEST(FindBeyondCleaning, FindsWhatACheckWouldCallSeriousAndStaleSpans) {
   const auto expected = [](const CheckReport& report) {
     std::vector<std::string> texts;

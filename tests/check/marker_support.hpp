@@ -1,4 +1,4 @@
-// Synthetic markers, and exchanged labels in them, for tests of checks.
+// Synthetic markers with exchanged labels, for tests of checks.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 
 namespace kinemend::test {
 
-/// The joints and end sites of a synthetic take as markers, in centimetres, with measuring noise.
+/// The joints and end sites of a synthetic take as markers, in centimetres, with measurement noise.
 inline Take synthetic_markers(const std::string& motion, double duration_s = 6,
                               double noise_cm = 0.02, std::uint64_t seed = 1) {
   SynthOptions options;
@@ -48,9 +48,9 @@ struct SwapTrial {
   std::vector<MarkerSwap> swaps;
 };
 
-/// Exchanges random pairs of position markers over random spans of 3 frames to 2 s; no marker takes
-/// part in two, and no two markers of a pair are nearer to one another than `least_distance` in
-/// file units where the swap begins and ends: there an exchange changes nothing.
+/// Exchanges random pairs of position markers over random spans of 3 frames to 2 s. Each marker is
+/// in at most one pair. The markers of a pair are at least `least_distance` (file units) apart
+/// where the swap begins and ends; an exchange of closer markers would change nothing.
 inline SwapTrial with_random_swaps(Take clip, std::size_t wanted, double least_distance,
                                    std::uint64_t seed) {
   Random random(seed);
@@ -75,7 +75,7 @@ inline SwapTrial with_random_swaps(Take clip, std::size_t wanted, double least_d
         !apart(swap.last_frame + 1))
       continue;
     used[a] = used[b] = 1;
-    undo_swaps(trial.clip, {swap});  // an exchange undoes itself
+    undo_swaps(trial.clip, {swap});  // exchanging again restores the labels
     trial.swaps.push_back(swap);
   }
   return trial;

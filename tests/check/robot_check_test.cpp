@@ -1,5 +1,5 @@
-// What a robot cannot follow is found where it was put, and nothing is found in takes that it can
-// follow.
+// Motion that a robot cannot follow is found where it was injected; takes that it can follow have
+// no findings.
 #include <gmock/gmock.h>
 
 #include "check/marker_support.hpp"
@@ -17,7 +17,7 @@ CheckReport robot_check(const Take& take, const RobotSettings& robot = {}) {
   return check_take(take, settings);
 }
 
-// The frames of the joint turn by a constant angle about one axis from `first` on.
+// Turns the joint at a constant speed about one axis from frame `first` to `last`.
 void turn_steadily(Take& clip, std::size_t joint, std::size_t first, std::size_t last,
                    double speed_deg_s) {
   const double step = speed_deg_s * radians_per_degree / clip.frame_rate_hz;
@@ -153,7 +153,7 @@ TEST(RobotCheck, FindsAFootInTheFloorAndOneAboveIt) {
   EXPECT_NEAR(static_cast<double>(deep[0].first_frame), 200, 2);
   EXPECT_NEAR(static_cast<double>(deep[0].last_frame), 229, 2);
   EXPECT_NEAR(*sunk.figures.penetration_cm, 8, 0.2);
-  // A box of 40 cm is a step; a simulated floor has none.
+  // A 40 cm box counts as a step; a simulated floor has no steps.
   const CheckReport box = robot_check(synthetic_clip("landing", 3));
   EXPECT_EQ(of_kind(box, FindingKind::floating).size(), 2u) << faults_of(box);
   EXPECT_NEAR(*box.figures.floating_cm, 40, 1);

@@ -1,4 +1,4 @@
-// Synthetic clips, and findings by kind, for tests of checks.
+// Synthetic clips and findings by kind, for tests of checks.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ inline std::vector<Finding> of_kind(const CheckReport& report, FindingKind kind)
   return found;
 }
 
-/// What is found beside notes, for messages.
+/// Lists all findings except notes, for messages.
 inline std::string faults_of(const CheckReport& report) {
   std::string text;
   for (const Finding& f : report.findings) {
@@ -43,7 +43,7 @@ inline std::string faults_of(const CheckReport& report) {
   return text;
 }
 
-/// What casts doubt on a take without being a fault, for messages.
+/// Lists findings that cast doubt on a take without being faults, for messages.
 inline std::string doubts_of(const CheckReport& report) {
   std::string text;
   for (const Finding& f : report.findings) {

@@ -1,4 +1,4 @@
-// Exchanged labels that are put into real takes of markers are found to the frame.
+// Label swaps injected into real takes of markers are found to the frame.
 #include <gtest/gtest.h>
 
 #include "check/marker_support.hpp"

@@ -1,5 +1,4 @@
-// Tests of exchanged labels in synthetic takes: they are found, and undoing them gives the take
-// back.
+// Label swaps in synthetic takes are found, and undoing them restores the take.
 #include <gtest/gtest.h>
 
 #include "check/marker_support.hpp"
@@ -43,7 +42,7 @@ TEST(Swaps, ThatReachTheEndOfTheTakeAreTheShorterSide) {
   EXPECT_EQ(find_swaps(clip), std::vector<MarkerSwap>{swap});
 }
 
-// Both markers are hidden for a while and come back with each other's label.
+// Both markers are hidden for a while and reappear with exchanged labels.
 TEST(Swaps, MayBeginAndEndInGaps) {
   const Take clean = synthetic_markers("walk");
   Take clip = clean;

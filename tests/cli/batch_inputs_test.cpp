@@ -1,4 +1,4 @@
-// Tests of the inputs of a batch, and of earlier results that it must not overwrite.
+// Tests of the inputs of a batch and of earlier results, which it must not overwrite.
 #include "cli/program.hpp"
 
 namespace kinemend::test {
@@ -9,7 +9,7 @@ using testing::HasSubstr;
 
 class BatchInputs : public Program {
  protected:
-  // NAME/t.bvh, different for each seed.
+  // Writes NAME/t.bvh, different for each seed.
   void make_take(const std::string& name, const std::string& seed) {
     fs::create_directories(folder / name);
     synth("truth.bvh", "walk", "0.4");
@@ -48,7 +48,7 @@ TEST_F(BatchInputs, ATakeThatHasMovedIsStillTheSameTake) {
   fs::rename(folder / "a", folder / "moved");
   EXPECT_THAT(batch({"moved", "-o", "out"}).out, HasSubstr("0 cleaned, 1 done already"));
   EXPECT_THAT(batch({"moved", "-o", "out", "--method", "gaussian"}).out, HasSubstr("1 cleaned"));
-  // And one that has changed where it was.
+  // The input also changes at its own path.
   fs::remove(folder / "moved/t.bvh");
   make_take("moved", "2");
   EXPECT_EQ(batch({"moved", "-o", "out", "--method", "gaussian"}).code, 0);
@@ -68,12 +68,12 @@ TEST_F(BatchInputs, ASkeletonOfAnotherTakeIsNotOverwritten) {
   EXPECT_EQ(refused.code, 4) << refused.err;
   EXPECT_THAT(refused.err, HasSubstr("out/take.asf: is the result of "));
   EXPECT_EQ(contents(folder / "out/take.asf"), skeleton);
-  // A take of another name would be written with its skeleton.
+  // The skeleton of a take with another name would be written over this one.
   fs::rename(folder / "b/take.amc", folder / "b/other.amc");
   EXPECT_EQ(batch({"b", "-o", "out"}).code, 4);
   EXPECT_FALSE(fs::exists(folder / "out/other.amc"));
   EXPECT_EQ(contents(folder / "out/take.asf"), skeleton);
-  // One that has changed where it was is copied again, and counts as no take.
+  // A skeleton that changed at its own path is copied again and does not count as a take.
   put(folder / "a/take.asf", "# changed\n" + contents(folder / "a/take.asf"));
   ASSERT_EQ(batch({"a", "-o", "out"}).code, 0);
   EXPECT_EQ(contents(folder / "out/take.asf"), contents(folder / "a/take.asf"));
@@ -94,7 +94,7 @@ TEST_F(BatchInputs, AnInputIsNotOverwrittenByAResult) {
 
 TEST_F(BatchInputs, TakesNamesOf255Bytes) {
   make_take("a", "1");
-  // Letters of two bytes, so that a cut might fall amid one.
+  // Each letter has two bytes, so a careless cut would split one.
   std::string long_name;
   while (long_name.size() < 250) long_name += "\xC3\xA9";
   for (const std::string& name : {long_name + "x.bvh", std::string(251, 'n') + ".bvh"}) {
@@ -109,7 +109,7 @@ TEST_F(BatchInputs, TakesNamesOf255Bytes) {
                 HasSubstr("0 cleaned, 1 done already"));
     fs::remove_all(folder / "raw");
   }
-  // Those of earlier batches count in the sums by their whole names.
+  // Takes of earlier batches are counted by their full names.
   EXPECT_EQ(Json::parse(contents(folder / "out/summary.json")).at("figures").at("takes"), 2);
 }
 
@@ -127,7 +127,7 @@ TEST_F(BatchInputs, AListThatIsNoTextInUtf8IsRefusedWithTheReason) {
   EXPECT_EQ(nul.code, 3);
   EXPECT_THAT(nul.err, AllOf(IsOneLine(), HasSubstr("nul.txt:2: found a NUL byte")));
   EXPECT_FALSE(fs::exists(folder / "out"));
-  // A mark before UTF-8 is none of the first name.
+  // A byte order mark is not part of the first name.
   put(folder / "marked.txt", "\xEF\xBB\xBF" + list);
   EXPECT_EQ(batch({"--list", "marked.txt", "-o", "out"}).code, 0);
 }

@@ -1,4 +1,4 @@
-// Tests of `kinemend batch --merge`: rows and sums of shards are those of one run.
+// Tests of `kinemend batch --merge`: merged shards have the rows and sums of a single run.
 #include <set>
 
 #include "cli/program.hpp"
@@ -11,7 +11,8 @@ using testing::HasSubstr;
 
 class BatchMerge : public Program {
  protected:
-  /// raw/t0.bvh, raw/deep/t1.bvh, ...: `count` takes of different lengths, and two that fail.
+  /// Writes raw/t0.bvh, raw/deep/t1.bvh, ...: `count` takes of different lengths, and two that
+  /// fail.
   void make_tree(int count) {
     fs::create_directories(folder / "raw/deep");
     for (int i = 0; i < count; ++i) {
@@ -24,7 +25,7 @@ class BatchMerge : public Program {
     put(folder / "raw/deep/empty.bvh", "");
   }
 
-  /// One run over all, into `output`, which is then called whole: rows name it.
+  /// Runs the whole batch into `output`, because rows name it, and renames that to "whole".
   Ran whole_run(const std::string& output) {
     const Ran ran = run({"batch", "raw", "-o", output});
     fs::rename(folder / output, folder / "whole");
@@ -49,7 +50,7 @@ class BatchMerge : public Program {
     return from + "/rows." + std::to_string(index) + "-of-" + std::to_string(count) + ".jsonl";
   }
 
-  /// The bytes of a file without how long the work took.
+  /// The bytes of a file without the processing times.
   std::string timeless(const std::string& path) const {
     std::string text;
     for (const std::string& line : lines_of(contents(folder / path))) {

@@ -1,4 +1,4 @@
-// Tests of a batch that leaves cleaning out, converts, or only says what it would do.
+// Tests of a batch that skips cleaning, converts, or only prints its plan.
 #include <sstream>
 
 #include "cli/program.hpp"
@@ -52,7 +52,7 @@ TEST_F(BatchSteps, CleansAndConvertsInOneRun) {
   EXPECT_EQ(ran.code, 0) << ran.err;
   ASSERT_EQ(run({"clean", "raw/a.bvh", "-o", "clean.bvh"}).code, 0);
   ASSERT_EQ(run({"convert", "clean.bvh", "a.trc"}).code, 0);
-  // The first line holds the name of the file that was read.
+  // The first line holds the name of the input file, so only the last lines are compared.
   const std::string one = contents(folder / "out/a.trc"), two = contents(folder / "a.trc");
   std::istringstream in_one_run(lines_of(one).back()), in_two(lines_of(two).back());
   // The file between the two steps has rounded angles.

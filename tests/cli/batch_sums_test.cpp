@@ -1,4 +1,4 @@
-// Tests of the sums and rows of a batch, and of the takes that it names for review.
+// Tests of the sums and rows of a batch, and of the takes it lists for review.
 #include <signal.h>
 #include <sys/stat.h>
 
@@ -19,7 +19,7 @@ using testing::UnorderedElementsAre;
 
 class BatchSums : public Program {
  protected:
-  /// `name`/t0.bvh, t1.bvh, ...: short takes.
+  /// Writes `name`/t0.bvh, t1.bvh, ...: short takes.
   void make_folder(const std::string& name, int count) {
     fs::create_directories(folder / name);
     for (int i = 0; i < count; ++i)
@@ -35,7 +35,7 @@ class BatchSums : public Program {
   Json summary() const { return Json::parse(contents(folder / "out/summary.json")).at("figures"); }
 };
 
-// While it lives, no file of this process and its children grows beyond so many bytes.
+// Limits the size of every file that this process and its children write, during its lifetime.
 class LimitOfFiles {
  public:
   explicit LimitOfFiles(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -77,7 +77,7 @@ TEST_F(BatchSums, ARowThatIsWrittenInPartIsAnErrorWithItsReason) {
 
 TEST_F(BatchSums, ManyTakesAreSummedUpInFewLines) {
   make_folder("raw", 40);
-  // Each is read with a warning.
+  // Reading each of these takes gives a warning.
   for (int i = 0; i < 40; ++i) {
     const fs::path path = folder / ("raw/t" + std::to_string(i) + ".bvh");
     std::string text = contents(path);
@@ -115,7 +115,7 @@ TEST_F(BatchSums, TheWorstTenAreNamedWorstFirst) {
   const std::vector<std::string> lines = lines_of(ran.out.substr(heading));
   ASSERT_GE(lines.size(), 3u);
   EXPECT_LE(lines.size(), 11u);
-  // A take with a warning, then that of which most was repaired.
+  // The list names the take with a warning, then the most repaired take.
   std::vector<std::string> named;
   for (const std::string& line : lines) {
     if (line.rfind("  odd.bvh: ", 0) == 0 || line.rfind("  deep/bad.bvh: ", 0) == 0)
@@ -159,11 +159,11 @@ TEST_F(BatchSums, TwoInputsIntoOneFolderAddUp) {
   EXPECT_EQ(summary().at("to_do"), 0);
   EXPECT_THAT(row_names("out/rows.jsonl"),
               ElementsAre("deep/t0.bvh", "deep/t1.bvh", "deep/t2.bvh", "t0.bvh", "t1.bvh"));
-  // Either may be run again, and nothing is lost or counted twice.
+  // Each batch may run again, and no take is lost or counted twice.
   ASSERT_EQ(run({"batch", "one", "-o", "out"}).code, 0);
   EXPECT_EQ(summary().at("cleaned"), 5);
   EXPECT_EQ(row_names("out/rows.jsonl").size(), 5u);
-  // What is gone counts no longer.
+  // A deleted take is no longer counted.
   fs::remove(folder / "out/deep/t1.bvh");
   ASSERT_EQ(run({"batch", "one", "-o", "out"}).code, 0);
   EXPECT_EQ(summary().at("takes"), 4);
@@ -184,7 +184,7 @@ TEST_F(BatchSums, ATakeThatFailedAndIsGoneFailsNoLonger) {
 TEST_F(BatchSums, AnInterruptedBatchKeepsTheRowsOfWhatIsDone) {
   put(folder / "a.bvh", hand_take());
   put(folder / "b.bvh", hand_take());
-  // Whoever reads this take waits for ever.
+  // Reading this FIFO blocks for ever.
   ASSERT_EQ(mkfifo((folder / "c.bvh").c_str(), 0600), 0);
   const pid_t child = fork();
   if (child == 0) {

@@ -1,4 +1,4 @@
-// Tests of `kinemend batch`: a tree of takes, runs that are resumed, shards, and takes that fail.
+// Tests of `kinemend batch`: a tree of takes, resumed runs, shards, and failing takes.
 #include <signal.h>
 
 #include <chrono>
@@ -21,7 +21,7 @@ using testing::Not;
 
 class Batch : public Program {
  protected:
-  /// raw/a.bvh, raw/deep/b.bvh, ...: `count` noisy takes, all different.
+  /// Writes raw/a.bvh, raw/deep/b.bvh, ...: `count` noisy takes, all different.
   void make_tree(int count) {
     fs::create_directories(folder / "raw/deep");
     synth("truth.bvh", "walk", "0.4");
@@ -33,7 +33,7 @@ class Batch : public Program {
     }
   }
 
-  /// The takes below a folder with their bytes.
+  /// The bytes of each take below a folder, by path.
   std::map<std::string, std::string> takes(const std::string& name) const {
     std::map<std::string, std::string> result;
     if (!fs::exists(folder / name)) return result;
@@ -286,17 +286,17 @@ TEST_F(Batch, KilledAtAnyMomentItLeavesWholeFilesOnlyAndGoesOn) {
   for (int attempt = 0; attempt < 25; ++attempt) {
     const pid_t child = fork();
     if (child == 0) {
-      // What it says is not looked at, save that it finds no fault.
+      // Standard output is discarded; standard error must stay empty.
       const int nowhere = open("/dev/null", O_WRONLY);
       dup2(nowhere, STDOUT_FILENO);
       const int errors = open((folder / "errors").c_str(), O_WRONLY | O_CREAT | O_APPEND, 0666);
       dup2(errors, STDERR_FILENO);
-      // The search for leaks would complain of being killed, too.
+      // The leak search would report the kill as an error.
       Setting setting;
       setting.environment = {{"ASAN_OPTIONS", "detect_leaks=0"}};
       execute({"batch", "raw", "-o", "clean", "--jobs", "2"}, setting);
     }
-    // At any moment of the run, however fast this machine and this build are.
+    // Kills the run at a random moment of the duration measured on this machine.
     std::uniform_int_distribution<long> moment(0, whole_run.count());
     std::this_thread::sleep_for(std::chrono::microseconds(moment(random)));
     kill(child, SIGKILL);
@@ -308,8 +308,8 @@ TEST_F(Batch, KilledAtAnyMomentItLeavesWholeFilesOnlyAndGoesOn) {
   }
   EXPECT_GT(seen, 0u) << "no run got as far as a result";
   EXPECT_THAT(contents(folder / "errors"), IsEmpty());
-  // A run that was killed between naming a file and moving it into place leaves that behind, and
-  // another machine might be at work on it for an hour.
+  // A killed run can leave a temporary file behind. Within an hour, another machine could still be
+  // writing it, so the files are made older.
   for (const std::string& name : files()) {
     const fs::path path = folder / name;
     if (path.extension() == ".tmp")

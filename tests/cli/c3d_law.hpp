@@ -1,4 +1,4 @@
-// The law of C3D files on the command line: everything in the file is kept, or a warning names it.
+// A command keeps everything in a C3D file, or names what it loses in a warning.
 #pragma once
 
 #include <set>
@@ -15,16 +15,16 @@ class C3dLaw : public Program {
     return Json::parse(ran.out).at("takes").at(0);
   }
 
-  /// Runs `words` with and without --strict; `out.c3d` is what they write. Analog channels, force
-  /// plates, events, subjects and rotations of the take come through, or are named in a warning;
-  /// then --strict refuses and writes nothing.
+  /// Runs `words`, which write `out.c3d`, with and without --strict. Analog channels, force plates,
+  /// events, subjects and rotations of the take are kept, or a warning names them; then --strict
+  /// refuses and writes nothing.
   void expect_lawful(const std::string& take, std::vector<std::string> words) {
     SCOPED_TRACE(take + ": " + words.front() + " " + words.back());
     fs::remove(folder / "out.c3d");
     words.insert(words.begin() + 1, take);
     words.insert(words.end(), {"-o", "out.c3d"});
     const Ran ran = run(words);
-    // Such as a file that does not tell its unit.
+    // The option does not apply, for example because the file states no unit.
     if (ran.code == 2) {
       EXPECT_FALSE(fs::exists(folder / "out.c3d"));
       return;

@@ -1,4 +1,4 @@
-// Real C3D files keep what an option does not concern, or the program names the loss.
+// In real C3D files, an option changes only its own data, or the program names the loss.
 #include <cctype>
 
 #include "cli/c3d_law.hpp"
@@ -15,7 +15,7 @@ TEST_F(RealC3dFiles, KeepWhatAnOptionDoesNotConcernOrNameIt) {
     std::string extension = entry.path().extension();
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     if (extension != ".c3d" || entry.file_size() == 0) continue;
-    // Each of them takes seconds.
+    // Each file takes seconds.
     if (files++ % 4 == 0 || runs_long_tests()) expect_lawful_in_every_option(entry.path());
   }
   EXPECT_GE(files, 90u);

@@ -1,5 +1,4 @@
-// Tests of C3D files on the command line: what is kept, what is named as lost, and what is
-// repaired.
+// Tests of C3D files on the command line: kept data, reported losses, and repairs.
 #include "cli/c3d_law.hpp"
 #include "long_tests.hpp"
 
@@ -93,7 +92,7 @@ TEST_F(C3dFiles, WithoutPointsAreToldAsSuch) {
   EXPECT_THAT(table.err, AllOf(HasSubstr("plates_only.c3d: " + what), IsOneLine()));
 }
 
-// Places in a C3D file are bytes, and there are no lines; lines of text stay lines.
+// Places in a C3D file are byte offsets; places in text files are line numbers.
 TEST_F(C3dFiles, NameTheByteOfWhatWasRepaired) {
   const std::string take = c3d_fixture("header_scale");
   const std::string place = "header_scale.c3d: byte 12: the scale of the header is 0.5";
@@ -120,7 +119,7 @@ TEST_F(C3dFiles, NameTheByteOfWhatWasRepaired) {
   EXPECT_THAT(run({"convert", "cut.bvh", "out.bvh"}).err, HasSubstr("cut.bvh:"));
 }
 
-// A marker on a force plate's corner, in every command and format.
+// Tests a marker on a force plate's corner, in every command and format.
 TEST_F(C3dFiles, AMarkerAtTheOriginComesBack) {
   const std::string take = c3d_fixture("laboratory");
   const auto expect_there = [&](const std::string& name) {

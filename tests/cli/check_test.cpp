@@ -32,7 +32,7 @@ TEST_F(Check, SaysWhatItLookedForWhereItFindsNothing) {
 
 TEST_F(Check, CountsFramesFromOneInTextAndJson) {
   synth("walk.bvh", "walk", "3");
-  // Frame 51 becomes frame 50 again.
+  // Frame 51 repeats frame 50.
   std::vector<std::string> lines = lines_of(contents(folder / "walk.bvh"));
   const auto motion = std::find_if(lines.begin(), lines.end(), [](const std::string& line) {
     return line.rfind("Frame Time", 0) == 0;

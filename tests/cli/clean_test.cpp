@@ -1,4 +1,4 @@
-// Tests of `kinemend clean`: how it changes a take, and its report.
+// Tests of `kinemend clean`: the changes to a take, and the report.
 #include <cmath>
 
 #include "cli/program.hpp"
@@ -208,7 +208,7 @@ TEST_F(Clean, EveryMethodRunsAndKeepsTheTakeInShape) {
   for (const Json& method : list) {
     const std::string name = method["name"];
     std::vector<std::string> words = {"clean", "walk.bvh", "-m", name, "-o", name + ".bvh", "-q"};
-    if (name == "kalman-learned") {  // no model of it ships
+    if (name == "kalman-learned") {  // ships without a model
       ASSERT_EQ(run({"train", name, "walk.bvh", "-o", "walk.kmodel", "-q"}).code, 0);
       words.insert(words.end(), {"--model", "walk.kmodel"});
     }

@@ -1,4 +1,4 @@
-// Tests of the reasons that `clean` gives for a take that it leaves unchanged, and of flags without
+// Tests of the reasons that `clean` gives for leaving a take unchanged, and of flags without
 // effect.
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-/// The take with its root moved to and fro by 15 cm, so that standing feet slide.
+/// Moves the root of the take to and fro by 15 cm, so that standing feet slide.
 std::string with_sliding_root(const std::string& bvh) {
   std::istringstream lines(bvh);
   std::string text;
@@ -64,7 +64,7 @@ TEST_F(Unchanged, ACutoffAboveTheNyquistFrequencyIsAWarningInEveryMethod) {
   EXPECT_FALSE(fs::exists(folder / "strict.bvh"));
 }
 
-// Samples of 15 Hz joined by lines have noise that no measure of single frames sees.
+// Noise of 15 Hz samples joined by lines is invisible to a measure of single frames.
 TEST_F(Unchanged, NoiseThatCheckFindsIsSaidWhereTheMethodMeasuresNone) {
   synth("walk.bvh", "walk", "6");
   ASSERT_EQ(run({"corrupt", "walk.bvh", "-o", "joined.bvh", "--damage", "gaussian:std_deg=1.5",
@@ -155,7 +155,7 @@ TEST_F(Unchanged, WarningsOfManyJointsAreOneLineWithTheWorstThree) {
   EXPECT_THAT(ran.err, testing::ContainsRegex(
                            "peak speed falls by more than 10 % on [0-9]+ joints, most on "
                            "[A-Za-z0-9]+ \\(from [0-9.]+ to [0-9.]+ deg/s, [0-9]+ %\\), "));
-  // The noise that is measured stands in the report of a method that does not estimate it.
+  // A method that does not estimate noise still reports the measured noise.
   const Json take = Json::parse(contents(folder / "report.json"))["takes"][0];
   std::size_t noisy_joints = 0;
   for (const Json& track : take["tracks"]) {

@@ -1,4 +1,4 @@
-// Tests of the command line: words are understood as they were meant, or refused with a reason.
+// Tests of the command line: words are understood as meant, or refused with a reason.
 #include <set>
 
 #include "cli/program.hpp"
@@ -117,7 +117,7 @@ TEST_F(CommandLine, NamesOfListsAreKnownInAnyCapitals) {
   EXPECT_EQ(run({"info", "a.bvh", "--from", "BVH"}).code, 0);
 }
 
-/// Every option of a command that names a file to write, beside `-o`.
+/// Tests every option of a command that names an output file beside `-o`.
 TEST_F(CommandLine, NoTwoOutputsAreOneFileUnderAnyOfItsNames) {
   noisy("a.bvh", "1");
   synth("b.bvh", "walk", "2");
@@ -181,7 +181,7 @@ TEST_F(CommandLine, BashCompletesValuesBehindAnEqualsSignAndNamesOfHelp) {
       ". ./kinemend.bash\n"
       "complete_words() { COMP_WORDS=(\"$@\"); COMP_CWORD=$(($# - 1)); COMPREPLY=(); _kinemend; "
       "echo \"${COMPREPLY[*]}\"; }\n"
-      // As bash takes words apart, and as it does without = among COMP_WORDBREAKS.
+      // The first form is how bash splits words; the second is without = in COMP_WORDBREAKS.
       "complete_words kinemend clean --method = butter\n"
       "complete_words kinemend clean --method=butter\n"
       "complete_words kinemend clean --preset =\n"

@@ -1,4 +1,4 @@
-// Tests of presets and configuration files, and of which setting overrides which.
+// Tests of presets and configuration files, and of the precedence of settings.
 #include <fmt/format.h>
 
 #include "cli/program.hpp"
@@ -20,7 +20,7 @@ TEST_F(Config, WhatIsPrintedReadsBackAsTheSame) {
     put(folder / "lab.toml", first.out);
     const Ran again = run({"clean", "--config", "lab.toml", "--print-config"});
     ASSERT_EQ(again.code, 0) << again.err;
-    // The comment at the top tells of the preset.
+    // The comment at the top names the preset, so it differs.
     const auto body = [](const std::string& text) { return text.substr(text.find("\n\n")); };
     EXPECT_EQ(body(again.out), body(first.out)) << preset;
   }

@@ -49,7 +49,7 @@ class Convert : public Program {
     const Ran ran = run(words);
     ASSERT_EQ(ran.code, 0) << in << " to " << out << ": " << ran.err;
   }
-  /// The joints' positions in a take, by way of CSV.
+  /// The joints' positions in a take, converted to CSV.
   Columns positions(const std::string& take, std::vector<std::string> more = {}) {
     more.push_back("--positions");
     convert(take, "positions.csv", more);
@@ -57,7 +57,7 @@ class Convert : public Program {
   }
 };
 
-/// Every column of `some` is in `all`, with the same values.
+/// Expects that every column of `some` is in `all` with the same values.
 void expect_same(const Columns& some, const Columns& all, double tolerance) {
   ASSERT_GT(some.rows, 0u);
   ASSERT_EQ(some.rows, all.rows);

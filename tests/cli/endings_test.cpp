@@ -1,4 +1,4 @@
-// The ending of an output names the format that is written.
+// The extension of an output selects the format that is written.
 #include "cli/program.hpp"
 
 namespace kinemend::test {
@@ -100,7 +100,7 @@ TEST_F(Endings, ThatAreWrongAreSaidAndPutRightInTheResult) {
   const Ran strict = run({"clean", "walk.c3d", "--strict", "--force"});
   EXPECT_EQ(strict.code, 1);
   EXPECT_THAT(strict.err, HasSubstr("walk.c3d: the name ends in .c3d"));
-  // Who says what it is needs no telling.
+  // An explicit --from suppresses the warning.
   EXPECT_EQ(run({"clean", "walk.c3d", "--from", "bvh", "--strict", "--force"}).err, "");
 }
 

@@ -1,4 +1,4 @@
-// Feet whose names mean nothing, feet of several people, and feet that never stand.
+// Tests of feet with meaningless names, feet of several people, and feet that never stand.
 #include <sstream>
 
 #include "cli/program.hpp"
@@ -12,7 +12,7 @@ using testing::Not;
 
 class FeetNames : public Program {
  protected:
-  /// walk.bvh, the same with legs that bear numbers, and a map that tells what they are.
+  /// Writes walk.bvh, a copy whose leg names are numbers, and a map that names them.
   void make_unnamed() {
     synth("walk.bvh", "walk", "3");
     std::string text = contents(folder / "walk.bvh"), map = "# known,here\n";
@@ -131,8 +131,8 @@ std::vector<std::vector<std::string>> rows_of(const std::string& text) {
 
 class People : public FeetNames {
  protected:
-  /// ann.trc of one walk; both.trc of Ann, and of Bob three metres beside her whose left foot
-  /// slides.
+  /// Writes ann.trc with one walk, and both.trc with Ann and with Bob, who walks three metres
+  /// beside her and whose left foot slides.
   void make_people() {
     synth("walk.bvh", "walk", "3");
     ASSERT_EQ(run({"convert", "walk.bvh", "ann.trc"}).code, 0);
@@ -154,7 +154,7 @@ class People : public FeetNames {
         } else if (cells[0] != "" && cells[from] != "") {
           const bool is_left_foot =
               ann[3][from].find("LeftFoot") == 0 || ann[3][from].find("LeftToe") == 0;
-          // Slowly enough to stand, and farther than any step of Ann's slides.
+          // Slow enough to count as standing, and farther than Ann's foot slides in any step.
           const double slide = is_left_foot ? 1.5 * std::stod(cells[0]) : 0;
           cells[to] = std::to_string(std::stod(cells[from]) + 3000 + slide);
           cells[to + 1] = cells[from + 1];
@@ -198,7 +198,7 @@ TEST_F(People, AreCheckedEachByThemselves) {
 
 TEST_F(People, FeetThatNeverStandHaveNoFigure) {
   synth("walk.bvh", "walk", "2");
-  // In the air all the time, and faster than any foot that stands.
+  // The feet are always in the air and faster than any standing foot.
   std::string text;
   bool is_motion = false;
   int frame = 0;

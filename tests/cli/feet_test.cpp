@@ -18,7 +18,7 @@ TEST_F(Feet, AreHeldWhenAskedFor) {
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("  feet: "));
   EXPECT_THAT(ran.out, testing::ContainsRegex(" contacts held, [0-9]+ frames adjusted; slide "));
-  // The report of the legs is that of any joint: nothing was repaired, and they move.
+  // Legs are reported like other joints: none was repaired, and they changed.
   EXPECT_THAT(ran.out, HasSubstr("changed, 0 frames repaired"));
   EXPECT_THAT(ran.out, Not(testing::ContainsRegex("Leg.* 0 +0\n")));
   EXPECT_THAT(ran.out, HasSubstr("knee pop "));

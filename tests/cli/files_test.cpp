@@ -1,5 +1,5 @@
-// Tests of files: inputs that cannot be read (3), outputs that cannot be written (4), and the files
-// that a run leaves on the disk.
+// Tests of unreadable inputs (exit code 3), unwritable outputs (4), and the files that a run leaves
+// on disk.
 #include "cli/program.hpp"
 
 namespace kinemend::test {
@@ -98,16 +98,16 @@ TEST_F(Files, AnAmcFileIsNeverLeftWithoutItsSkeleton) {
   ASSERT_EQ(run({"convert", "walk.bvh", "-o", "walk.amc"}).code, 0);
   put(folder / "other.asf", contents(folder / "walk.asf") + "# another\n");
   const std::string skeleton = contents(folder / "walk.asf");
-  // Beside its source, where two skeletons are.
+  // The result goes beside its source, in a folder with two skeletons.
   EXPECT_EQ(run({"clean", "walk.amc"}).code, 0);
   EXPECT_EQ(run({"info", "walk.clean.amc"}).code, 0);
   EXPECT_EQ(contents(folder / "walk.clean.asf"), skeleton);
-  // In a folder of its own, under the same name.
+  // The result goes to another folder under the same name.
   EXPECT_EQ(run({"clean", "walk.amc", "--output-dir", "out"}).code, 0);
   EXPECT_EQ(contents(folder / "out/walk.asf"), skeleton);
   EXPECT_EQ(run({"info", "out/walk.amc"}).code, 0);
   EXPECT_EQ(run({"clean", "walk.amc", "--output-dir", "out", "--force"}).code, 0);
-  // By every command, and under another name.
+  // Other commands write the skeleton under another name.
   for (const std::vector<std::string>& words : {std::vector<std::string>{"fill", "walk.amc"},
                                                 {"convert", "walk.amc"},
                                                 {"corrupt", "walk.amc", "--damage", "gaussian"},
@@ -119,7 +119,7 @@ TEST_F(Files, AnAmcFileIsNeverLeftWithoutItsSkeleton) {
     EXPECT_EQ(run({"info", words[0] + "/named.amc"}).code, 0) << words[0];
   }
   EXPECT_EQ(contents(folder / "clean/named.asf"), contents(folder / "other.asf"));
-  // Another's skeleton is never replaced.
+  // A foreign skeleton is never replaced.
   fs::create_directory(folder / "foreign");
   put(folder / "foreign/walk.asf", "dear");
   EXPECT_EQ(run({"clean", "walk.amc", "-o", "foreign/walk.amc"}).code, 4);
@@ -134,7 +134,7 @@ TEST_F(Files, TakesOfOneSubjectShareTheirSkeleton) {
   for (const char* take : {"35_01", "35_02", "35_03"}) {
     ASSERT_EQ(run({"convert", take + std::string(".bvh"), "-o", take + std::string(".amc")}).code,
               0);
-    // The first makes it, the others find it.
+    // The first conversion writes the skeleton; later ones find it.
     if (fs::exists(folder / "35_01.asf")) fs::rename(folder / "35_01.asf", folder / "35.asf");
   }
   EXPECT_FALSE(fs::exists(folder / "35_02.asf"));
@@ -217,7 +217,7 @@ TEST_F(Files, AFolderThatCannotBeMadeIsExitCode4) {
 
 TEST_F(Files, AFolderThatMayNotBeWrittenIsExitCode4) {
   if (geteuid() == 0) {
-    // The superuser may write anywhere but here.
+    // The superuser can write almost everywhere, but not here.
     put(folder / "a.bvh", hand_take());
     EXPECT_EQ(run({"clean", "a.bvh", "-o", "/proc/self/out.bvh"}).code, 4);
     return;

@@ -57,7 +57,7 @@ TEST_F(FillLimits, ALimitOfDegreesMeansNothingForMarkers) {
   EXPECT_EQ(run({"fill", "plate.trc", "--dry-run", "--max-error-deg", "5", "--strict"}).code, 1);
 }
 
-/// The plate with its marker B called as a system calls what it could not name.
+/// Renames marker B of the plate to a typical name of an unlabelled point.
 std::string with_name(std::string trc, const std::string& name) {
   trc.replace(trc.find("\tB\t"), 3, "\t" + name + "\t");
   return trc;

@@ -1,4 +1,4 @@
-// Tests of the text report of `kinemend fill`, and of gaps outside of the range.
+// Tests of the text report of `kinemend fill`, and of gaps outside the range.
 #include "cli/program.hpp"
 
 namespace kinemend::test {
@@ -10,7 +10,7 @@ using testing::Not;
 
 class FillReport : public Program {
  protected:
-  /// `count` gaps of four frames, and as many that are too long for a spline.
+  /// Makes `count` gaps of four frames, and `count` gaps too long for a spline.
   void make_gaps(int count) {
     synth("walk.bvh", "walk", "12");
     const char* joints[] = {"LeftArm", "RightArm", "LeftForeArm", "RightForeArm", "LeftHand"};

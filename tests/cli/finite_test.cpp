@@ -1,5 +1,4 @@
-// Law: no output holds a number that is not finite. A gap that a format cannot hold is the value it
-// was held by.
+// Outputs never contain NaN or infinity. A format that cannot represent a gap gets its held value.
 #include <cctype>
 
 #include "cli/program.hpp"
@@ -7,8 +6,8 @@
 namespace kinemend::test {
 namespace {
 
-// A take with words that are no numbers in more than a hundred places: alone, in runs, at either
-// end, and where the sample before already holds what a filled one would.
+// Replaces more than a hundred numbers of a take by NaN or infinity: alone, in runs, at either end,
+// and where the previous sample equals the filled value.
 std::string with_gaps(std::string text, std::size_t data_begin) {
   const char* const words[] = {"nan", "inf", "-nan", "1e999", "NaN", "-inf"};
   std::string result = text.substr(0, data_begin);
@@ -28,7 +27,7 @@ std::string with_gaps(std::string text, std::size_t data_begin) {
   return result;
 }
 
-// Words of a text that a reader of numbers would take for none.
+// Counts the words that parse as NaN or infinity.
 std::size_t count_of_no_numbers(const std::string& text) {
   std::size_t count = 0;
   std::string word;
@@ -60,7 +59,7 @@ class Finite : public Program {
       lines += blank == line.npos ? line : with_gaps(line, blank + 1);
       lines += '\n';
     }
-    // Numbers count anew in each line: a word here and there by hand.
+    // Sample numbers restart in each line of an AMC file, so a few words are replaced here.
     for (const char* bone : {"Spine ", "Head ", "LeftHand "}) {
       for (std::size_t at = lines.find(bone); at != lines.npos; at = lines.find(bone, at + 400)) {
         const std::size_t begin = at + std::string(bone).size();
@@ -86,7 +85,7 @@ TEST_F(Finite, IsWhatEveryMethodWrites) {
   ASSERT_GT(methods.size(), 12u);
   for (const Json& method : methods) {
     const auto name = method.at("name").get<std::string>();
-    if (name == "kalman-learned") continue;  // has no model of its own
+    if (name == "kalman-learned") continue;  // has no default model
     for (const char* format : {"bvh", "amc"}) {
       const std::string in = std::string("gaps.") + format, out = std::string("out.") + format;
       expect_numbers({"clean", in, "-m", name}, out);

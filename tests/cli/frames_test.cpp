@@ -1,4 +1,4 @@
-// Law: a frame has the number that its file gives it, wherever one is printed, written or read.
+// A frame has its file's frame number wherever one is printed, written or read.
 #include <fmt/format.h>
 
 #include "cli/plate.hpp"

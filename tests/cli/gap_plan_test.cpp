@@ -1,4 +1,4 @@
-// Tests of the gap plan: what a run writes, another applies to the bit.
+// A second run applies the gap plan of the first one with bit-identical results.
 #include "cli/program.hpp"
 
 namespace kinemend::test {

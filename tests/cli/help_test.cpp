@@ -15,7 +15,7 @@ const std::vector<std::string> commands = {
     "clean", "batch",  "fill",    "info",    "check", "contacts",   "compare", "methods",
     "train", "models", "convert", "corrupt", "synth", "completion", "man",     "help"};
 
-/// Every `--name` in a help text; `--[no-]name` stands for two.
+/// Collects every `--name` in a help text; `--[no-]name` gives two.
 std::set<std::string> options_in(const std::string& help) {
   std::set<std::string> names;
   const std::regex entry("(?:^|\\n)  (?:-[a-zA-Z], |    )--(\\[no-\\])?([a-z][a-z0-9-]*)");
@@ -27,7 +27,7 @@ std::set<std::string> options_in(const std::string& help) {
   return names;
 }
 
-/// The options of a command and of what `kinemend help NAME` explains beside it.
+/// Options of a command, including those that `kinemend help NAME` explains.
 std::set<std::string> options_of_command(const std::string& command,
                                          const std::function<std::string(std::string)>& help_of) {
   const std::string help = help_of(command);
@@ -52,7 +52,7 @@ TEST_F(Help, BothLevelsExistForEveryCommand) {
     EXPECT_EQ(full.code, 0);
     EXPECT_EQ(brief.err + full.err, "");
     EXPECT_THAT(brief.out, testing::StartsWith("kinemend " + command + ": "));
-    // The brief form says what each damage or method does; the long one has more options.
+    // The brief form describes each damage or method; the long form also lists their options.
     EXPECT_GE(options_in(full.out).size(), options_in(brief.out).size()) << command;
     EXPECT_EQ(run({"help", command}).out, full.out);
   }

@@ -5,7 +5,7 @@
 namespace kinemend::test {
 namespace {
 
-// What the sanitizers themselves take is not the program's.
+// Sanitizers need memory of their own.
 #if defined(KINEMEND_SANITIZED)
 constexpr long memory_limit_kilobytes = 800 * 1024;
 #else

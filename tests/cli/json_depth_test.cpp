@@ -1,5 +1,5 @@
-// JSON from outside that is nested deeply enough to exhaust the stack is refused, and such a record
-// of a batch is made again.
+// External JSON that is nested deeply enough to exhaust the stack is refused; a batch redoes such a
+// record.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Runs the program in the background and talks to it over sockets; nothing here looks at a clock: a
-// missing answer is waited for until the time limit of the test program.
+// Runs the program in the background and talks to it over sockets. No function here reads a clock:
+// a missing answer is awaited until the test program's time limit.
 #pragma once
 
 #include <arpa/inet.h>
@@ -15,12 +15,12 @@
 
 namespace kinemend::test {
 
-/// A descriptor that bytes come from.
+/// Collects the bytes that arrive at a descriptor.
 class Incoming {
  public:
   explicit Incoming(int descriptor) : descriptor_(descriptor) {}
 
-  /// The text so far, once it holds `part` so many times; or all of it at its end.
+  /// Reads until the text holds `part` at least `times` times, or to its end, and returns it.
   const std::string& until(std::string_view part, std::size_t times = 1) {
     while (count(part) < times && more()) {
     }
@@ -57,7 +57,7 @@ inline sockaddr_in loopback(int port) {
   return place;
 }
 
-/// A socket of this machine, closed with its owner.
+/// A socket of this machine that closes in its destructor.
 class Socket {
  public:
   explicit Socket(int number) : number_(number) {}
@@ -111,7 +111,7 @@ class Socket {
   int number_;
 };
 
-/// The program as it runs, with pipes for its standard streams.
+/// The running program with pipes for its standard streams.
 class Running {
  public:
   /// `start` runs the program; it does not return.
@@ -163,12 +163,12 @@ class Running {
   }
   void tell(int signal) const { ::kill(child_, signal); }
   pid_t process() const { return child_; }
-  /// The port that it says it listens at.
+  /// The port that the program prints.
   int port() {
     const std::string& text = err.until(" (");
     return std::stoi(text.substr(text.find("127.0.0.1:") + 10));
   }
-  /// Its exit code; 128 + signal where a signal ended it.
+  /// Returns the exit code, or 128 + signal if a signal ended the program.
   int wait() {
     int status = 0;
     rusage usage{};
@@ -179,7 +179,7 @@ class Running {
   }
 
   Incoming out{-1}, err{-1};
-  long peak_kilobytes = 0;  ///< once it has ended
+  long peak_kilobytes = 0;  ///< set when it has ended
 
  private:
   pid_t child_ = -1;

@@ -127,7 +127,7 @@ TEST_F(ManyTakes, AnOutputThatIsAFolderTakesResultsUnderTheirNames) {
   EXPECT_TRUE(fs::exists(folder / "there/b.bvh"));
 }
 
-/// Nothing is read, and nothing is said to be written.
+/// The input is not read, and no output is announced.
 TEST_F(ManyTakes, AMissingFolderIsFoundBeforeTheWork) {
   put(folder / "a.bvh", "nothing that can be read");
   for (const std::vector<std::string>& words :
@@ -151,7 +151,7 @@ TEST_F(ManyTakes, AMissingFolderIsFoundBeforeTheWork) {
   EXPECT_FALSE(fs::exists(folder / "new"));
 }
 
-/// The limit on the size of files stands for a full disk.
+/// A limit on file sizes simulates a full disk.
 TEST_F(ManyTakes, WhatCouldNotBeWrittenIsNotSaidToBeWritten) {
   noisy("a.bvh", "2");
   put(folder / "gaps.csv", "LeftArm,20,22\n");

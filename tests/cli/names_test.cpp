@@ -57,7 +57,7 @@ TEST_F(Names, OfSideFilesMatchInAnyCapitalsToo) {
               HasSubstr("feet: 1 of 1 contact held"));
 }
 
-// "Ann:LeftArm" is `LeftArm` and `Left*` to whatever takes names.
+// Options that take names accept `LeftArm` and `Left*` for "Ann:LeftArm".
 TEST_F(Names, AreKnownWithoutTheirSubjectEverywhere) {
   std::string take = hand_take();
   for (const char* const name : {"Hips", "LeftArm", "LeftFinger1", "LeftFinger2"})

@@ -25,7 +25,7 @@ TEST_F(Npz, IsCleanedAsTheSameTakeInBvh) {
   ASSERT_EQ(run({"clean", "walk.npz", "-o", "clean.npz"}).code, 0);
   const Ran ran = run({"compare", "clean.bvh", "clean.npz", "--json"});
   ASSERT_EQ(ran.code, 0) << ran.err;
-  // The digits of the BVH file.
+  // The limit is the rounding of the BVH file.
   EXPECT_LT(Json::parse(ran.out)["takes"][0]["figures"]["geodesic_rms_deg"].get<double>(), 2e-4);
 }
 

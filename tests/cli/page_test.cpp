@@ -10,7 +10,7 @@ using testing::StartsWith;
 
 class PageReport : public Program {
  protected:
-  /// A build without the page says so, and has nothing else to show.
+  /// Returns whether the build has the page; a build without it must say so.
   bool has_page() {
     synth("probe.bvh", "walk", "0.2");
     const Ran ran = run({"check", "probe.bvh", "--report", "probe.html"});
@@ -49,7 +49,7 @@ TEST_F(PageReport, IsWrittenByEveryCommandThatLooksAtATake) {
 TEST_F(PageReport, GoesToStandardOutputNever) {
   if (!has_page()) GTEST_SKIP() << "built without the page";
   noisy("noisy.bvh", "1");
-  // Standard output has no extension: what goes there is JSON, as ever.
+  // Standard output has no extension, so its report is JSON.
   const Ran ran = run({"check", "noisy.bvh", "--report", "-"});
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_EQ(Json::parse(ran.out)["command"], "check");
@@ -126,13 +126,13 @@ TEST_F(PageReport, OfABatchIsAnIndexWithAPageForEachTake) {
   expect_page("index.takes/a.bvh.html");
   expect_page("index.takes/deep/b #1.bvh.html");
   EXPECT_FALSE(fs::exists(folder / "index.takes/bad.bvh.html"));
-  // Taken up again, it replaces its own index, and makes what is missing.
+  // A resumed batch replaces its own index and writes missing pages.
   fs::remove(folder / "index.takes/a.bvh.html");
   const Ran again = run({"batch", "raw", "-o", "out", "--report", "index.html"});
   EXPECT_EQ(again.code, 3);
   EXPECT_THAT(again.out, StartsWith("1 cleaned, 1 done already"));
   expect_page("index.takes/a.bvh.html");
-  // What somebody else put there stays.
+  // A file that the batch did not write is kept.
   put(folder / "mine.html", "mine");
   EXPECT_EQ(run({"batch", "raw", "-o", "out", "--report", "mine.html"}).code, 4);
   EXPECT_EQ(contents(folder / "mine.html"), "mine");

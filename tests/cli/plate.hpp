@@ -8,8 +8,8 @@
 
 namespace kinemend::test {
 
-/// A TRC take of four markers of a rigid plate that sways, millimetres at 100 Hz, 150 frames from
-/// number `first`; B is missing in the 41st to 46th, C jumps in the 80th.
+/// A TRC take of four markers on a rigid plate that sways: millimetres, 100 Hz, 150 frames from
+/// frame number `first`. B is missing in the 41st to 46th frame; C jumps in the 80th.
 inline std::string plate_take(int first = 1) {
   std::string text = fmt::format(
       "PathFileType\t4\t(X/Y/Z)\tplate.trc\n"

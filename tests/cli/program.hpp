@@ -1,5 +1,4 @@
-// Runs the program in a folder of its own and returns its exit code, its output and the memory that
-// it needed.
+// Runs the program in its own folder and returns its exit code, output and peak memory.
 #pragma once
 
 #include <fcntl.h>
@@ -35,13 +34,13 @@ inline void put(const fs::path& path, std::string_view text) {
 }
 
 struct Ran {
-  int code = -1;  ///< exit code; 128 + signal where a signal ended it
+  int code = -1;  ///< exit code, or 128 + signal if a signal ended it
   std::string out;
   std::string err;
   long peak_kilobytes = 0;
 };
 
-/// How standard streams and environment are set; an empty path is the usual.
+/// Standard streams and environment of a run; an empty path keeps the usual stream.
 struct Setting {
   std::string in;   ///< text for standard input
   fs::path out_to;  ///< file or device that standard output is opened on
@@ -82,21 +81,21 @@ class Program : public testing::Test {
     return ran;
   }
 
-  /// A copy in the test's folder of what stands at `path` among the fixtures; its name.
+  /// Copies the fixture at `path` to the test's folder and returns its file name.
   std::string fixture(const fs::path& path) {
     fs::copy_file(fs::path(KINEMEND_TEST_FIXTURES) / path, folder / path.filename());
     return path.filename().string();
   }
   std::string c3d_fixture(const std::string& name) { return fixture("c3d/good/" + name + ".c3d"); }
 
-  /// A short synthetic take, in the test's folder.
+  /// Writes a short synthetic take to the test's folder.
   void synth(const std::string& name, const std::string& motion = "walk",
              const std::string& duration_s = "0.5") {
     const Ran ran =
         run({"synth", motion, "-o", name, "--duration-s", duration_s, "--frame-rate-hz", "60"});
     ASSERT_EQ(ran.code, 0) << ran.err;
   }
-  /// The same with jitter and spikes.
+  /// Writes a short synthetic take with jitter and spikes.
   void noisy(const std::string& name, const std::string& duration_s = "2") {
     synth("truth.bvh", "walk", duration_s);
     const Ran ran = run({"corrupt", "truth.bvh", "-o", name, "--damage", "gaussian:std_deg=1.5",
@@ -132,7 +131,7 @@ class Program : public testing::Test {
       const rlimit limit{static_cast<rlim_t>(setting.most_file_bytes),
                          static_cast<rlim_t>(setting.most_file_bytes)};
       setrlimit(RLIMIT_FSIZE, &limit);
-      // An ignored signal turns the limit into an error of the write.
+      // With the signal ignored, exceeding the limit becomes a write error.
       signal(SIGXFSZ, SIG_IGN);
     }
     if (chdir(folder.c_str()) == 0) execv(KINEMEND_PROGRAM, arguments.data());
@@ -151,12 +150,12 @@ class Program : public testing::Test {
   }
 };
 
-/// One line, ended by a newline.
+/// Matches one line that ends in a newline.
 MATCHER(IsOneLine, "") {
   return std::count(arg.begin(), arg.end(), '\n') == 1 && arg.back() == '\n';
 }
 
-/// The text with `to` in every place of `from`.
+/// Replaces every `from` in the text by `to`.
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
   for (std::size_t at = text.find(from); at != std::string::npos;
        at = text.find(from, at + to.size()))
@@ -174,7 +173,7 @@ inline std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// Ten frames of a hip, an arm and two fingers, in a layout that nobody would write twice.
+/// Ten frames of a hip, an arm and two fingers, in an unusual layout.
 inline const char* hand_take() {
   return "HIERARCHY\nROOT Hips\n{\n  OFFSET 0 90 0\n"
          "  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n"

@@ -1,4 +1,4 @@
-// Networks of Mall et al. from the command line: gaps filled by one, and streams cleaned by one.
+// Tests of the networks of Mall et al. on the command line: filling gaps and cleaning streams.
 #include <cmath>
 
 #include "cli/program.hpp"

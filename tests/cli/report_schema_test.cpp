@@ -10,7 +10,7 @@ using testing::Not;
 
 class ReportSchema : public Program {
  protected:
-  /// The JSON that is printed, or the file.
+  /// Returns the printed JSON, or that of the file.
   Json document(const std::vector<std::string>& words, int code = 0, const std::string& file = "") {
     const Ran ran = run(words);
     EXPECT_EQ(ran.code, code) << words[0] << ": " << ran.err;

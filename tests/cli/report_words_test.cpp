@@ -1,4 +1,4 @@
-// What `clean` and `convert` say of a take is what there is to say.
+// The text reports of `clean` and `convert` mention all that applies to a take, and nothing else.
 #include <gmock/gmock.h>
 
 #include <sstream>
@@ -92,7 +92,7 @@ TEST_F(ReportWords, FrozenSpansAreNotNothing) {
               AllOf(HasSubstr("frozen or bridged span"), Not(HasSubstr("clean: nothing changed")),
                     HasSubstr("kinemend check frozen.bvh --gaps-out gaps.csv; kinemend clean "
                               "frozen.bvh --gaps gaps.csv --fill auto")));
-  // What is said mends it.
+  // The suggested commands repair the take.
   ASSERT_EQ(run({"check", "frozen.bvh", "--gaps-out", "gaps.csv"}).code, 0);
   const Ran mended =
       run({"clean", "frozen.bvh", "--gaps", "gaps.csv", "--fill", "auto", "-o", "mended.bvh"});
@@ -101,7 +101,7 @@ TEST_F(ReportWords, FrozenSpansAreNotNothing) {
   EXPECT_THAT(run({"clean", "walk.bvh"}).out, HasSubstr("clean: nothing changed"));
 }
 
-// Two markers bear each other's label in the frames named, counted from 1.
+// Swaps the labels of two markers in frames `first` to `last`, counted from 1.
 std::string with_swap(const std::string& trc, std::size_t a, std::size_t b, int first, int last) {
   std::istringstream lines(trc);
   std::string result;
@@ -137,7 +137,7 @@ TEST_F(ReportWords, SwapsThatAreUndoneAreAChangeAndOthersAreLeftOver) {
               AllOf(HasSubstr("1 swap of markers undone"), Not(HasSubstr("nothing changed"))));
 }
 
-// Smoothed with the wrong label, or filled from it, the take would differ from one without swaps.
+// Smoothing or filling with the wrong label would make the take differ from one without swaps.
 TEST_F(ReportWords, SwapsAreUndoneBeforeNoiseIsSmoothedAndGapsAreFilled) {
   synth("walk.bvh", "walk", "6");
   ASSERT_EQ(run({"convert", "walk.bvh", "-o", "walk.trc"}).code, 0);
@@ -169,7 +169,7 @@ TEST_F(ReportWords, StrictPassesNoGreatChangeUnnoticed) {
   EXPECT_EQ(ran.code, 1);
   EXPECT_THAT(ran.err, HasSubstr("LeftForeArm: smoothing changes it by "));
   EXPECT_FALSE(fs::exists(folder / "g.bvh"));
-  EXPECT_EQ(run({"clean", "spiky.bvh", "--strict", "-o", "a.bvh"}).code, 0);  // repairs are told
+  EXPECT_EQ(run({"clean", "spiky.bvh", "--strict", "-o", "a.bvh"}).code, 0);  // repairs are fine
 }
 
 TEST_F(ReportWords, PointsThatAreNoPositionsBecomeMarkersOnlyWhereAskedFor) {
@@ -211,7 +211,7 @@ TEST_F(ReportWords, GapsAreCountedInOneWay) {
   for (std::string line; std::getline(lines, line);) {
     if (frame >= 0 && ++frame > 60 && frame <= 66) {
       for (int i = 0; i < 6; ++i) line = line.substr(line.find(' ') + 1);
-      line = "nan nan nan nan nan nan " + line;  // the root, its position too
+      line = "nan nan nan nan nan nan " + line;  // the root, including its position
     }
     if (line.rfind("Frame Time:", 0) == 0) frame = 0;
     text += line + "\n";

@@ -104,7 +104,7 @@ TEST_F(Robot, ConvertPutsTheFeetAtZeroAndSaysByHowMuch) {
   EXPECT_THAT(up.err, HasSubstr("the feet stand at 0"));
   EXPECT_THAT(up.err, HasSubstr("faces z"));
   EXPECT_NEAR(report({"up.bvh", "--robot"}).at("figures").at("floor_cm").get<double>(), 0, 1e-4);
-  // What did not change keeps its digits: all joints but the root.
+  // Unchanged values keep their digits; here all joints except the root are unchanged.
   const std::vector<std::string> before = lines_of(contents(folder / "walk.bvh"));
   const std::vector<std::string> after = lines_of(contents(folder / "up.bvh"));
   ASSERT_EQ(before.size(), after.size());

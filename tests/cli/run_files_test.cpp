@@ -1,4 +1,4 @@
-// No output of a run replaces a file that the run reads or another of its outputs.
+// An output never replaces a file that the run reads or another of its outputs.
 #include "cli/program.hpp"
 
 namespace kinemend::test {

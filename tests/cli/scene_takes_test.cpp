@@ -1,4 +1,4 @@
-// Tests of files that hold several takes: one is named, or all are cleaned.
+// Tests of files with several takes: one is selected, or all are cleaned.
 #include "cli/program.hpp"
 
 namespace kinemend::test {
@@ -8,7 +8,7 @@ using testing::HasSubstr;
 
 class SceneTakes : public Program {
  protected:
-  // A scene whose animation stands there twice.
+  // Writes a scene that holds its animation twice.
   void SetUp() override {
     Program::SetUp();
     const auto path = std::filesystem::path(KINEMEND_TEST_FIXTURES) / "gltf/good/plain.gltf";

@@ -1,4 +1,4 @@
-// Tests of --source: what it changes, what a file says instead, and what reports say of it.
+// Tests of --source: its effect, the source that a file states, and the reports.
 #include "cli/plate.hpp"
 #include "cli/program.hpp"
 
@@ -10,7 +10,7 @@ using testing::Not;
 
 class SourceOption : public Program {
  protected:
-  // What `clean` makes of a take.
+  // Runs `clean` on a take and returns the result.
   std::string cleaned(const std::string& take, std::vector<std::string> more) {
     const std::string output = "out" + fs::path(take).extension().string();
     std::vector<std::string> words = {"clean", take, "-o", output, "--force"};
@@ -26,7 +26,7 @@ class SourceOption : public Program {
     EXPECT_EQ(ran.code, 0) << ran.err;
     return Json::parse(ran.out)["takes"][0];
   }
-  // A glTF take whose exporter is that of a suit.
+  // Writes a glTF take whose exporter name belongs to a mocap suit.
   void of_a_suit(const std::string& name) {
     noisy("walk.bvh", "1");
     ASSERT_EQ(run({"convert", "walk.bvh", "blank.gltf"}).code, 0);
@@ -100,7 +100,7 @@ TEST_F(SourceOption, BatchesHaveIt) {
   fs::copy(folder / "walk.bvh", folder / "takes" / "walk.bvh");
   ASSERT_EQ(run({"batch", "takes", "-o", "done", "--source", "keyframed"}).code, 0);
   EXPECT_EQ(contents(folder / "done" / "walk.bvh"), contents(folder / "walk.bvh"));
-  // Another source is another result.
+  // Another source gives another result.
   ASSERT_EQ(run({"batch", "takes", "-o", "done", "--source", "video"}).code, 0);
   EXPECT_NE(contents(folder / "done" / "walk.bvh"), contents(folder / "walk.bvh"));
 }

@@ -16,7 +16,7 @@ class StreamCommand : public Program {
     return std::make_unique<Running>([&] { execute(words, {}); });
   }
 
-  // A noisy take in its parts.
+  // Splits a noisy take into header and frames.
   void make_take(const std::string& duration_s = "1") {
     noisy("noisy.bvh", duration_s);
     take_ = contents(folder / "noisy.bvh");
@@ -34,7 +34,7 @@ class StreamCommand : public Program {
     setting.in = std::move(text);
     return setting;
   }
-  // What a stream of the whole take gives.
+  // The output of a stream of the whole take.
   std::string streamed(std::vector<std::string> words) {
     words.insert(words.begin(), "stream");
     const Ran ran = run(words, fed(take_));
@@ -100,7 +100,7 @@ TEST_F(StreamCommand, ListsTheMethodsThatRunLiveAlone) {
 
 TEST_F(StreamCommand, LeavesTheLastFramesOutOfTheLatency) {
   make_take();
-  // The method looks four frames ahead: all of these wait for the end.
+  // The method looks four frames ahead, so all of these frames wait for the end.
   const Ran ran = run({"stream"}, fed(header_ + first(4)));
   EXPECT_THAT(ran.err, AllOf(HasSubstr("frames: 4 in, 4 out"), Not(HasSubstr("latency: "))));
 }
@@ -164,7 +164,7 @@ TEST_F(StreamCommand, KeepsNoHeadersForAClientThatDoesNotRead) {
   const auto program =
       start({"--tcp", "0", "--once", "--to-tcp", client.at(), "--queue", "5", "-m", "one-euro"});
   const Socket received = client.accept();
-  // Two rates in turn: each change gives the client a new header.
+  // The rate alternates, and each change sends the client a new header.
   std::string faster = header_;
   faster.replace(faster.find("Frame Time:"), faster.npos, "Frame Time: 0.01\n");
   constexpr std::size_t rounds = 8000;
@@ -248,7 +248,7 @@ TEST_F(StreamCommand, TakesDatagramsAndGivesOneAFrame) {
   std::string all = client.datagram();
   EXPECT_EQ(all, header_);
   for (std::string frame : frames_) {
-    frame.pop_back();  // the end of a datagram is that of a line
+    frame.pop_back();  // the end of a datagram ends its line
     sender.send(frame);
     all += client.datagram();
   }
@@ -303,7 +303,7 @@ TEST_F(StreamCommand, DropsTheOldestFramesOfAClientThatDoesNotRead) {
   const std::size_t at = said.find(" dropped");
   const std::size_t before = said.rfind(' ', at - 1) + 1;
   EXPECT_GT(std::stoi(said.substr(before, at - before)), 100) << said;
-  // Every line that did arrive is whole, but for the one that was under way.
+  // Every received line is complete, except the one in transit.
   std::vector<std::string> lines = lines_of(received.incoming().all());
   lines.pop_back();
   for (std::size_t i = lines_of(header_).size(); i < lines.size(); ++i)

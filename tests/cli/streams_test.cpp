@@ -13,7 +13,7 @@ using Streams = Program;
 using testing::HasSubstr;
 using testing::Not;
 
-/// What the program prints on a terminal that all of its streams are.
+/// Runs the program with a terminal as all of its standard streams.
 class Terminal : public Program {
  protected:
   std::string run_on_terminal(const std::vector<std::string>& words, const Setting& setting = {}) {
@@ -33,7 +33,7 @@ class Terminal : public Program {
   int code = -1;
 };
 
-/// Started with some of the descriptors 0 to 2 closed, as by `<&- >&-`.
+/// Runs the program with some of the descriptors 0 to 2 closed, as by `<&- >&-`.
 class ClosedStreams : public Program {
  protected:
   int run_without(const std::vector<int>& streams, const std::vector<std::string>& words) {

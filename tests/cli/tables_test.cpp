@@ -1,4 +1,4 @@
-// Tests of tables of other programs on the command line.
+// Tests of other programs' tables on the command line.
 #include "cli/program.hpp"
 
 namespace kinemend::test {
@@ -71,7 +71,7 @@ TEST_F(Tables, ComeBackInTheirOwnLayout) {
     EXPECT_EQ(contents(folder / out), contents(folder / take));
     const Ran filled = run({"fill", take, "-o", "filled-" + take, "--method", "spline"});
     EXPECT_EQ(filled.code, 0) << filled.err;
-    // The head is there to the byte.
+    // The header is kept byte for byte.
     const std::string head = contents(folder / take).substr(0, 300);
     EXPECT_EQ(contents(folder / ("filled-" + take)).substr(0, 300), head);
   }

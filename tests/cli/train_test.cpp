@@ -13,12 +13,12 @@ using testing::StartsWith;
 
 class Train : public Program {
  protected:
-  /// a.bvh and b.bvh: clean walks.
+  /// Writes a.bvh and b.bvh: clean walks.
   void walks() {
     synth("a.bvh", "walk", "3");
     synth("b.bvh", "stroll", "3");
   }
-  /// m.kmodel of a method that is quick to learn.
+  /// Writes m.kmodel of a method that trains quickly.
   void model(const std::string& method = "kalman-learned") {
     walks();
     const Ran ran = run({"train", method, "a.bvh", "b.bvh", "-o", "m.kmodel"});
@@ -290,7 +290,7 @@ TEST_F(Train, AModelWithAFlippedByteIsRefusedByItsChecksum) {
   noisy("a.bvh", "2");
   ASSERT_EQ(run({"train", "wiener", "truth.bvh", "-o", "walk.kmodel"}).code, 0);
   std::string bytes = contents(folder / "walk.kmodel");
-  // A number stays a number.
+  // The flipped bit still leaves a valid number.
   bytes[bytes.size() - 11] = static_cast<char>(bytes[bytes.size() - 11] ^ 0x01);
   put(folder / "flipped.kmodel", bytes);
   for (const std::vector<std::string>& words :
@@ -314,7 +314,7 @@ TEST_F(Train, ShippedModelsBearChecksums) {
   }
 }
 
-// Broken off by Ctrl-C as soon as there is something to go on from.
+// Training interrupted by Ctrl-C as soon as it can be resumed.
 class BrokenOffTraining : public Train {
  protected:
   const std::vector<std::string> words = {"train", "sparse",   "a.bvh",        "b.bvh",

@@ -1,4 +1,4 @@
-// Tests of who may ask the server of `kinemend view`.
+// Tests of who may send requests to the server of `kinemend view`.
 #include "cli/view_access.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ ViewRequest good() {
 TEST(ViewAccess, LetsItsOwnPageIn) {
   EXPECT_EQ(access.refusal(good()), 0);
   EXPECT_EQ(access.action("/0123456789abcdef/run"), "run");
-  // An address that a person opens comes without an origin.
+  // The browser sends no origin for an address that the user opens.
   EXPECT_EQ(access.refusal({"GET", "/0123456789abcdef/", "127.0.0.1:4321", "", "none", ""}), 0);
   EXPECT_EQ(access.action("/0123456789abcdef/"), "");
   EXPECT_EQ(access.address(), "http://127.0.0.1:4321/0123456789abcdef/");

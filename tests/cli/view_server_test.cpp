@@ -1,5 +1,5 @@
-// Tests of `kinemend view` with requests that no page sends, as bytes on the socket of the running
-// program.
+// Tests `kinemend view` with requests that its page never sends, as bytes on the socket of the
+// running program.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -49,19 +49,19 @@ class ViewServer : public Program {
     return "Content-Length: " + std::to_string(bytes) + "\r\n";
   }
 
-  /// Everything that is answered until the program ends the connection.
+  /// Reads the answers until the program ends the connection.
   static std::string answer(const Socket& socket) { return socket.incoming().all(); }
   std::string answer_to(const std::string& bytes) const {
     const Socket socket = connect();
     socket.send(bytes);
     return answer(socket);
   }
-  /// As the page asks.
+  /// Sends a request as the page does.
   std::string post(const std::string& action, const std::string& body) const {
     return answer_to(head("POST " + path + action, length(body.size()) + "Connection: close\r\n") +
                      body);
   }
-  /// Whether the page is served within two seconds.
+  /// Expects that the page is served within two seconds.
   void expect_served() const {
     const auto begun = Clock::now();
     EXPECT_THAT(answer_to(head("GET " + path, "Connection: close\r\n")),
@@ -69,7 +69,7 @@ class ViewServer : public Program {
     EXPECT_LT(Clock::now() - begun, std::chrono::seconds(2));
   }
 
-  /// A number of /proc/PID/status.
+  /// A number in /proc/PID/status.
   long status_of_process(const std::string& name) const {
     const std::string text = contents("/proc/" + std::to_string(program->process()) + "/status");
     const std::size_t at = text.find("\n" + name + ":");
@@ -93,7 +93,7 @@ TEST_F(ViewServer, RefusesBodiesOfUnknownLengthAndKeepsNoneOfThem) {
     const Socket socket = connect();
     socket.send(head("POST " + to, "Transfer-Encoding: chunked\r\n") + chunk);
     EXPECT_THAT(socket.incoming().until("\r\n"), StartsWith("HTTP/1.1 411 ")) << to;
-    // A client that sends all the same is cut off.
+    // A client that keeps sending is cut off.
     for (int i = 0; i < 300; ++i) socket.send(chunk);
   }
   expect_little_memory(before);
@@ -116,10 +116,10 @@ TEST_F(ViewServer, RefusesAFirstLineAndHeadersOfManyMegabytes) {
 
 TEST_F(ViewServer, RefusesABodyBeforeItIsSent) {
   start_with_walk();
-  // Without the token, a body of any length.
+  // Without the token, a body of any length is refused.
   EXPECT_THAT(answer_to(head("POST /run", length(16 * megabyte))), StartsWith("HTTP/1.1 403 "));
   EXPECT_THAT(answer_to(head("POST /run", length(2))), StartsWith("HTTP/1.1 403 "));
-  // With it, one that is too long or compressed.
+  // With the token, a body that is too long or compressed is refused.
   const std::string run = "POST " + path + "run";
   for (const char* digits : {"16777217", "1500000000", "99999999999999999999999"}) {
     EXPECT_THAT(answer_to(head(run, std::string("Content-Length: ") + digits + "\r\n")),
@@ -179,7 +179,7 @@ TEST_F(ViewServer, AnswersSeveralRequestsOnOneConnection) {
   const Socket socket = connect();
   socket.send(leave + leave);
   EXPECT_THAT(socket.incoming().until("200 OK", 2), HasSubstr("200 OK"));
-  // A body that comes in parts, after the program has said that it waits for it.
+  // The client sends the body in parts, after the program's 100 response.
   const Socket patient = connect();
   patient.send(head("POST " + path + "leave", length(body.size()) + "Expect: 100-continue\r\n"));
   EXPECT_THAT(patient.incoming().until("\r\n\r\n"), StartsWith("HTTP/1.1 100 "));
@@ -218,7 +218,7 @@ TEST_F(ViewServer, RunsAPresetWithOptionsOfItsMethod) {
   start_with_walk();
   EXPECT_THAT(post("run", R"({"flags": {"preset": "biomech", "cutoff_hz": 5}})"),
               StartsWith("HTTP/1.1 200 "));
-  // Without the preset the method has no such option.
+  // Without the preset, the method does not have this option.
   EXPECT_THAT(post("run", R"({"flags": {"cutoff_hz": 5}})"), StartsWith("HTTP/1.1 400 "));
   EXPECT_THAT(post("run", R"({"flags": {"preset": "none such"}})"), HasSubstr("walk"));
   const std::string saved = post("save", R"({"flags": {"preset": "biomech"}, "file": "lab.bvh"})");
@@ -232,7 +232,7 @@ TEST_F(ViewServer, SavesUnderANameAndReplacesOnlyWhatIsConfirmed) {
   const std::string plain = R"({"command": "clean", "file": "mine.bvh"})";
   EXPECT_THAT(post("save", plain), HasSubstr("\"mine.bvh\""));
   const std::string made = contents(folder / "mine.bvh");
-  // What the page has saved it may save again.
+  // The page may overwrite files that it saved itself.
   EXPECT_THAT(post("save", plain), StartsWith("HTTP/1.1 200 "));
   put(folder / "old.bvh", "old");
   const std::string told = post("save", R"({"command": "clean", "file": "old.bvh"})");

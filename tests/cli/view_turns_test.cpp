@@ -1,4 +1,4 @@
-// Tests of which run of the page of `kinemend view` stops for a newer one.
+// Tests which runs of the `kinemend view` page a newer run stops.
 #include "cli/view_turns.hpp"
 
 #include <gtest/gtest.h>

@@ -24,7 +24,7 @@ class VmcCommand : public Program {
     EXPECT_EQ(program.wait(), 0);
     return program.err.all();
   }
-  // The answer to a request, with its head.
+  // The response to a request, with its head.
   static std::string asked(int port, const std::string& path, const std::string& host = {}) {
     const Socket browser = Socket::connected(SOCK_STREAM, port);
     browser.send("GET " + path + " HTTP/1.1\r\nHost: " +
@@ -63,7 +63,7 @@ TEST_F(VmcCommand, GivesEverythingWhenItIsToldToEnd) {
   const auto program = relay(receiver, {"-m", "median"});
   const Socket sender = Socket::connected(SOCK_DGRAM, program->port());
   const std::string face = osc_message("/VMC/Ext/Blend/Apply", "");
-  // The face that comes first is the sign that the others have arrived.
+  // The face message arrives last, so it marks the end of the datagrams.
   sender.send(vmc_datagram(0, vmc_noisy(0)));
   sender.send(face);
   EXPECT_EQ(without_poses(receiver.datagram()), without_poses(vmc_datagram(0, vmc_noisy(0))));
@@ -91,7 +91,7 @@ TEST_F(VmcCommand, GoesOnThroughGarbageAndSendersThatStartAgain) {
   const Socket receiver = Socket::listening(SOCK_DGRAM);
   const auto program = relay(receiver);
   const int port = program->port();
-  // More senders than have a place: what the last ones send passes as it is.
+  // There are more senders than slots; datagrams of the last ones pass unchanged.
   for (int i = 0; i < 20; ++i) {
     const Socket sender = Socket::connected(SOCK_DGRAM, port);
     for (const std::string& datagram :

@@ -1,4 +1,4 @@
-// Tests of limbs that are recognised by the names of joints and markers.
+// Tests that limbs are recognised by the names of joints and markers.
 #include "corrupt/body_parts.hpp"
 
 #include <gmock/gmock.h>

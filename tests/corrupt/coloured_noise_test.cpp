@@ -1,4 +1,4 @@
-// Tests of coloured noise: its spectrum follows the formula and is the same at every rate.
+// Tests of coloured noise: its spectrum follows the formula and does not depend on the rate.
 #include "corrupt/coloured_noise.hpp"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ TEST(ColouredNoise, HasADensityWhoseIntegralIsOne) {
     double sum = 0;
     constexpr double step = 0.001, end = 3000;
     for (double f = step / 2; f < end; f += step) sum += step * noise_density(shape, f);
-    // The rest of the tail, (f / corner)^-slope.
+    // Adds the integral of the tail (f / corner)^-slope.
     sum += noise_density(shape, end) * end / (shape.slope - 1);
     EXPECT_NEAR(sum, 1, 1e-4) << shape.corner_hz << " " << shape.slope;
   }
@@ -25,16 +25,15 @@ TEST(ColouredNoise, HasADensityWhoseIntegralIsOne) {
 
 TEST(ColouredNoise, HasTheSpectrumOfItsFormula) {
   for (const NoiseShape shape : shapes) {
-    // 2,000 s in segments of 8 s: each value has a deviation of about 5 %, a mean over nine bands
-    // of 2 %.
+    // 2,000 s in segments of 8 s: each value has a deviation of about 5 %, the mean of nine bands 2
+    // %.
     const auto noise = coloured_noise(shape, 60000, 60, Random(3));
     const auto found = test::welch(noise, 60, 480);
     for (const auto& [low, high] : {std::pair{0.5, 1.0}, {1, 2}, {2, 6}, {6, 15}, {15, 28}}) {
       double expected = 0;
       for (double f = low; f < high; f += found.step_hz)
         expected += found.step_hz * noise_density(shape, f);
-      // 250 segments: each value has a deviation of 7 %, the mean of the four of the first band 4
-      // %.
+      // 250 segments: each value has a deviation of 7 %, the mean of the first band's four 4 %.
       EXPECT_NEAR(found.between(low, high) / expected, 1, 0.12)
           << shape.corner_hz << " " << shape.slope << " from " << low;
     }
@@ -42,7 +41,7 @@ TEST(ColouredNoise, HasTheSpectrumOfItsFormula) {
 }
 
 TEST(ColouredNoise, HasTheAutocorrelationOfAnExponentialWhereItsSlopeIsTwo) {
-  // The transform of a Lorentzian: exp(-2 pi fc t), less what lies above half of the rate.
+  // The transform of a Lorentzian is exp(-2 pi fc t), less the part above half of the rate.
   const auto noise = coloured_noise({1, 2}, 400000, 200, Random(5));
   for (const std::size_t lag : {10, 20, 50})
     EXPECT_NEAR(test::autocorrelation(noise, lag),
@@ -51,7 +50,7 @@ TEST(ColouredNoise, HasTheAutocorrelationOfAnExponentialWhereItsSlopeIsTwo) {
 }
 
 TEST(ColouredNoise, IsTheSameMotionAtTwiceTheRate) {
-  // What the higher rate adds is above half of the lower one.
+  // The higher rate adds only frequencies above half of the lower rate.
   const NoiseShape shape{1, 6};
   const auto slow = coloured_noise(shape, 600, 60, Random(7)),
              fast = coloured_noise(shape, 1200, 120, Random(7));
@@ -68,14 +67,14 @@ TEST(ColouredNoise, HasTheSameDensityAtAnyRate) {
 }
 
 TEST(ColouredNoise, DoesNotCloseTheCircle) {
-  // The end of a take is not like its beginning: over many takes they do not correlate.
+  // The noise at the end of a take does not correlate with that at its beginning.
   std::vector<double> first, last;
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
     const auto noise = coloured_noise({1, 3}, 64, 60, Random(seed));
     first.push_back(noise.front());
     last.push_back(noise.back());
   }
-  // 64 frames are one second, after which the noise of 1 Hz has forgotten itself.
+  // 64 frames are about one second, after which noise of 1 Hz is uncorrelated.
   EXPECT_NEAR(test::correlation_of(first, last), 0, 0.1);
   EXPECT_NEAR(test::variance_of(first), 1, 0.12);
 }
@@ -96,7 +95,7 @@ TEST(RandomPath, HasADeviationOfOneAfterAMinuteAndNoSteps) {
   }
   EXPECT_NEAR(std::sqrt(test::variance_of(after_a_minute)), 1, 0.06);
   EXPECT_NEAR(std::sqrt(test::variance_of(after_a_quarter)), 0.5, 0.05);
-  // A walk of independent steps has 1 / sqrt(1800) = 0.024 of each.
+  // Independent steps have 1 / sqrt(1800) = 0.024 each.
   EXPECT_LT(std::sqrt(test::variance_of(steps)), 0.008);
 }
 

@@ -1,4 +1,4 @@
-// Tests of the damages that lose samples: lengths, places and held values.
+// Tests of the damages that hide samples: lengths, places and held values.
 #include <gmock/gmock.h>
 
 #include <map>
@@ -42,7 +42,7 @@ TEST(Gaps, HaveExponentiallyDecayingLengthsAndTheirStartProbability) {
       ++total;
       frames_lost += static_cast<double>(run.length);
     }
-    // A gap may begin at every frame whose predecessor was seen.
+    // A gap may begin at every frame whose predecessor is observed.
     for (std::size_t f = 0; f < clip.frame_count(); ++f)
       chances += f == 0 || clip.is_observed(f - 1, j);
   }

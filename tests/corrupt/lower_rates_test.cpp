@@ -1,4 +1,4 @@
-// Tests of takes that are shown as captured at a lower rate.
+// Tests of the damages that simulate capture at a lower rate.
 #include <gmock/gmock.h>
 
 #include <cmath>

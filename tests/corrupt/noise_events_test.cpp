@@ -10,7 +10,7 @@ namespace {
 
 TEST(NoiseEvents, ComeAtTheRateAskedForWithDurationsInTheirRange) {
   const auto events = uniform_events(30, 0.05, 0.2, 60 * 400, Random(1));
-  // 12,000 events: a deviation of 110.
+  // 12,000 events have a deviation of 110.
   EXPECT_NEAR(static_cast<double>(events.size()), 12000, 400);
   double mean = 0;
   for (const NoiseEvent event : events) {
@@ -22,7 +22,7 @@ TEST(NoiseEvents, ComeAtTheRateAskedForWithDurationsInTheirRange) {
 }
 
 TEST(NoiseEvents, AreAPoissonProcess) {
-  // As many in a minute as their variance.
+  // The counts per minute have equal mean and variance.
   std::vector<double> counts(2000, 0.0);
   for (const NoiseEvent event : uniform_events(20, 0.05, 0.06, 60 * 2000, Random(2)))
     if (event.start_s >= 0) ++counts[static_cast<std::size_t>(event.start_s / 60)];
@@ -41,7 +41,7 @@ TEST(NoiseEvents, AreOnAtTheFirstFrameAsOftenAsLater) {
       later += event.start_s <= 5 && event.start_s + event.duration_s > 5 ? 1 : 0;
     }
   }
-  // A quarter on average.
+  // An event is in progress a quarter of the time on average.
   EXPECT_NEAR(at_start, 1000, 120);
   EXPECT_NEAR(later, 1000, 120);
 }

@@ -1,4 +1,4 @@
-// Tests of the damages that throw single samples off.
+// Tests of the damages that displace single samples.
 #include <gtest/gtest.h>
 
 #include "corrupt/damage_support.hpp"
@@ -58,7 +58,7 @@ TEST(OutlierScale, MultipliesRotationVectors) {
 }
 
 TEST(OutlierScale, OfAPositionMovesJustThatBoneThere) {
-  // One joint asked for: only the bone to it and the bones it carries may turn.
+  // With one joint named, only its own bone and the bones below it may turn.
   const Take clean = moving_humanoid(500);
   const auto [hit, report] =
       damaged(clean, "outlier-scale", {{"share", 0.1}, {"joints", std::string("LeftForeArm")}});
@@ -76,7 +76,7 @@ TEST(OutlierScale, OfAPositionMovesJustThatBoneThere) {
     frames_hit += changed;
     EXPECT_EQ(changed, !same_bits(clean.rotation(f, arm), hit.rotation(f, arm)));
   }
-  // At least one of three coordinates: 1 - 0.9^3 = 0.271 of the frames.
+  // The share of frames with at least one of three coordinates hit: 1 - 0.9^3 = 0.271.
   EXPECT_NEAR(static_cast<double>(frames_hit), 135.5, 35);
 }
 

@@ -1,4 +1,4 @@
-// Tests of noise of positions: its size, and the bones that keep their lengths.
+// Tests of position noise: its size, and constant bone lengths.
 #include <gmock/gmock.h>
 
 #include <cstdio>
@@ -15,7 +15,7 @@ using test::same_bits;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-// A star of long bones about a still root: each arm's end has one bone of its own.
+// A star of long bones about a fixed root: each arm ends in one separate bone.
 Take star_clip(std::size_t frames) {
   Skeleton s;
   const auto turns = make_channels(false, parse_rotation_order("ZXY"));
@@ -30,7 +30,7 @@ Take star_clip(std::size_t frames) {
 }
 
 TEST(PositionNoise, HasTheDeviationAskedForAcrossABone) {
-  // The part of the noise across a long bone survives the refit as it is; the part along it cannot.
+  // The refit keeps noise across a long bone and removes noise along it.
   const Take clean = star_clip(20000);
   const Take noisy = damaged(clean, "position-noise", {{"std_cm", 0.5}, {"cm_per_unit", 1.0}}).clip;
   const auto before = joint_positions(clean), after = joint_positions(noisy);
@@ -63,7 +63,7 @@ TEST(PositionNoise, KeepsBoneLengthsRootAndLeafRotations) {
   }
   EXPECT_EQ(report.notes, std::vector<std::string>{"a file unit is taken as 1 cm"})
       << "a person of 172 units";
-  // Noise of 1 cm per axis; what remains after the refit is of that order.
+  // The noise is 1 cm per axis; the refit leaves an error of that order.
   EXPECT_GT(report.rms_position, 0.8);
   EXPECT_LT(report.rms_position, 1.9);
 }
@@ -71,7 +71,7 @@ TEST(PositionNoise, KeepsBoneLengthsRootAndLeafRotations) {
 TEST(PositionNoise, TakesASkeletonOfNoUsualUnitAsATallPerson) {
   Take clip = star_clip(3);
   for (Vec3& offset : clip.skeleton.offsets)
-    offset = 5.0 * offset;  // 500 units: in no usual unit a person
+    offset = 5.0 * offset;  // 500 units tall: no usual unit gives a person's height
   const auto report = damaged(clip, "position-noise").report;
   EXPECT_EQ(report.notes, std::vector<std::string>{"a file unit is taken as 0.34 cm"});
 }
@@ -135,9 +135,9 @@ TEST(Snr, IsRealisedToATenthOfADecibel) {
 }
 
 TEST(Snr, AgreesWithItsDefinitionOnTheStar) {
-  // Signal: three of six joints 100 from the root, three at it: mean square of a coordinate 100^2
-  // / 6. At 20 dB the noise has a hundredth of that power: 4.08 per axis, of which the part across
-  // a bone survives.
+  // Signal: three of six joints are at distance 100 from the root, three at 0, so the mean square
+  // of a coordinate is 100^2 / 6. At 20 dB the noise has a hundredth of that power: 4.08 per axis,
+  // of which the part across a bone is kept.
   const Take clean = star_clip(10000);
   const Take noisy = damaged(clean, "snr", {{"snr_db", 20.0}}).clip;
   const auto before = joint_positions(clean), after = joint_positions(noisy);

@@ -1,4 +1,4 @@
-// Tests of the refit of rotations to positions, against other rotations nearby and at random.
+// Tests that no nearby or random rotations fit the positions better than the refit.
 #include "corrupt/refit.hpp"
 
 #include <gtest/gtest.h>

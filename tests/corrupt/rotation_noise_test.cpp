@@ -102,7 +102,7 @@ TEST(GaussianLog, AboutTheSampleTurnsByTwiceSigma) {
   for (const auto* axis : {&c.x, &c.y, &c.z}) EXPECT_NEAR(deviation_of(*axis), 0.04, 0.0008);
 }
 
-// A joint whose z channel runs through several whole turns while x swings and y rests.
+// A joint whose z channel makes several whole turns while x swings and y rests.
 Take turning_clip(std::size_t frames) {
   Take clip = chain_clip(2, frames);
   for (std::size_t f = 0; f < frames; ++f) {
@@ -121,7 +121,7 @@ TEST(GaussianChannels, ScalesWithTheDeviationOfTheUnwrappedChannel) {
   for (std::size_t f = 0; f < many; ++f) {
     const double t = static_cast<double>(f) / static_cast<double>(many);
     const std::array<double, 3> truth{6 * pi * t, 0.3 * std::sin(8 * pi * t), 0};
-    // z noise is 0.54 rad: its angle is read as the nearest one to the truth.
+    // The z noise is 0.54 rad, so the angle nearest to the true one is the right one.
     const auto found = to_euler_near(noisy.rotation(f, 1), order, truth);
     dz.push_back(found[0] - truth[0]);
     dx.push_back(found[1] - truth[1]);
@@ -206,7 +206,7 @@ TEST(Sinusoid, SwingsWithItsAmplitudeAndFrequency) {
               {{"amplitude_deg", 4.0}, {"frequency_hz", 0.5}, {"axis", std::string("x")}})
           .clip;
   const auto c = components_of(errors_of(clean, biased, 1));
-  // Five whole periods: the Fourier component at 0.5 Hz holds all of it.
+  // Over five whole periods, the Fourier component at 0.5 Hz is the whole signal.
   double cosine = 0, sine = 0;
   for (std::size_t f = 0; f < 1000; ++f) {
     const double phase = 2 * pi * 0.5 * static_cast<double>(f) / 100;

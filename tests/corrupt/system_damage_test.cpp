@@ -1,4 +1,4 @@
-// Tests of the damage `system` on joints and markers, in every family and unit.
+// Tests of the damage `system` on joints and markers, in every system family and unit.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -32,7 +32,7 @@ std::vector<std::string> kinds() {
   return names;
 }
 
-// Markers on a grid, each moving by itself, 1.7 m tall.
+// Markers on a grid that move independently; the body is 1.7 m tall.
 Take markers(std::size_t frames, double rate_hz, const std::string& unit = "mm", double scale = 1) {
   Take clip =
       make_marker_take({"LeftHand", "RightHand", "LeftFoot", "RightFoot", "Head"}, frames, rate_hz);
@@ -99,7 +99,7 @@ TEST(SystemNoise, LeavesEveryByteWhereItHasNoStrength) {
 TEST(SystemNoise, GrowsInProportionToItsStrength) {
   const Take clean = markers(600, 60);
   for (const std::string& name : kinds()) {
-    if (name == "inertial") continue;  // turns are no sums
+    if (name == "inertial") continue;  // rotations do not add up linearly
     const Take once = with_noise(clean, kind(name)),
                twice = with_noise(clean, kind(name, {{"strength", 2.0}}));
     for (std::size_t i = 0; i < clean.positions.size(); ++i) {
@@ -119,7 +119,7 @@ TEST(SystemNoise, IsOfMillimetresWhateverTheUnitOfTheFile) {
   }
 }
 
-// Slow noise and floor of a family alone, five tracks, the density of an axis.
+// Spectral density along an axis of a family's slow noise and floor alone, over five tracks.
 test::Spectrum density_of(corrupt::SystemNoise noise, double rate_hz, std::uint64_t seed,
                           double Vec3::*axis) {
   noise.motion_mm = noise.leak = noise.bursts_per_min = noise.limb_error_mm = 0;
@@ -141,7 +141,7 @@ test::Spectrum density_of(corrupt::SystemNoise noise, double rate_hz, std::uint6
 TEST(SystemNoise, HasTheSameSpectrumBelow25HzAtBothRates) {
   KINEMEND_LONG_TEST();
   for (const auto& [name, about, noise] : corrupt::system_families()) {
-    if (name == "inertial") continue;  // has next to nothing above its corner of 1.4 Hz
+    if (name == "inertial") continue;  // has hardly any noise above its corner of 1.4 Hz
     for (double Vec3::*const axis : {&Vec3::x, &Vec3::z}) {
       const test::Spectrum at_60 = density_of(noise, 60, 3, axis),
                            at_120 = density_of(noise, 120, 4, axis);
@@ -157,7 +157,7 @@ TEST(SystemNoise, IsStrongerAtArmsAndInDepth) {
   for (std::size_t f = 1; f < clean.frame_count(); ++f) {
     for (std::size_t m = 0; m < 5; ++m) clean.position(f, m) = clean.position(0, m);
   }
-  // Slow enough to be the family's, fast enough to average out in five minutes.
+  // A corner low enough for the family and high enough to average out in five minutes.
   const Take noisy = with_noise(
       clean,
       kind("video", {{"fc_hz", 2.0}, {"bursts_per_min", 0.0}, {"depth_axis", std::string("x")}}));
@@ -210,13 +210,13 @@ TEST(SystemNoise, TurnsJointsByDegrees) {
 }
 
 TEST(SystemNoise, DriftsTheHeadingOfJointsAndMarkersAlike) {
-  // The same noise with and without a drift: the drift alone is what sets them apart.
+  // The noise is the same with and without drift, so drift is the only difference.
   const OptionValues still = kind("optical"), drift = kind("optical", {{"heading_deg", 30.0}});
   const Take clean = damaged(moving_humanoid(2400), "system", still).clip;
   const Take turned = damaged(moving_humanoid(2400), "system", drift).clip;
   const auto before = joint_positions(clean), after = joint_positions(turned);
   const std::size_t joints = clean.joint_count();
-  // The body stays rigid: distances between joints are what they were.
+  // The body stays rigid: distances between joints are unchanged.
   for (std::size_t f = 0; f < 2400; f += 100) {
     for (std::size_t j = 1; j < joints; ++j)
       ASSERT_NEAR(norm(after[f * joints + j] - after[f * joints]),

@@ -1,4 +1,4 @@
-// Laws that every damage in the table keeps.
+// Properties of every damage in the table.
 #include <gmock/gmock.h>
 
 #include <set>
@@ -62,7 +62,7 @@ TEST_P(EveryDamage, GivesTheSameBytesForTheSameSeedAndOthersForAnother) {
   const auto first = damaged(clean, GetParam(), {}, 7), again = damaged(clean, GetParam(), {}, 7);
   EXPECT_TRUE(same_clip(first.clip, again.clip));
   EXPECT_FALSE(same_clip(first.clip, clean));
-  if (GetParam() == "held" || GetParam() == "upsampled") return;  // nothing in them is random
+  if (GetParam() == "held" || GetParam() == "upsampled") return;  // these damages are deterministic
   EXPECT_FALSE(same_clip(first.clip, damaged(clean, GetParam(), {}, 8).clip));
 }
 
@@ -143,7 +143,7 @@ TEST_P(EveryDamage, LeavesTheCalibrationPoseAloneAndSaysSo) {
     EXPECT_TRUE(clip.is_observed(0, j));
   }
   EXPECT_TRUE(clip.observed.empty() || clip.observed.size() == clip.rotations.size());
-  // What follows is damaged as it is without the pose.
+  // The frames after the pose are damaged as they are without it.
   const Take alone = damaged(slice(clean, 1, 101), GetParam()).clip;
   EXPECT_TRUE(same_clip(slice(clip, 1, 101), alone));
 }
@@ -168,7 +168,7 @@ TEST_P(EveryDamage, RefusesUnknownOptionsByName) {
 }
 
 TEST_P(EveryDamage, GivesAJointTheSameDamageWhateverOthersGet) {
-  if (GetParam() == "long-gap") return;  // picks among the joints it is given
+  if (GetParam() == "long-gap") return;  // its choice depends on the joints given
   const Take clean = moving_humanoid(100);
   const std::size_t arm = static_cast<std::size_t>(clean.skeleton.find("LeftForeArm"));
   const std::string joints =
@@ -196,8 +196,8 @@ TEST(Damages, ComposeAndDrawNewNoiseEachTime) {
   apply_damage(clip, "gaussian", {{"std_deg", 2.0}}, random);
   const Take once = clip;
   apply_damage(clip, "gaussian", {{"std_deg", 2.0}}, random);
-  // Independent noise adds up in squares: the second differs from the first by 2 sqrt 3 too, the
-  // sum is sqrt 2 larger.
+  // Independent noise adds up in squares: each take differs from the one before by 2 sqrt 3, and
+  // the sum is sqrt 2 larger.
   const auto rms = [](const Take& a, const Take& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.rotations.size(); ++i) {

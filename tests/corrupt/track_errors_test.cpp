@@ -11,7 +11,7 @@
 namespace kinemend::corrupt {
 namespace {
 
-// No noise of any kind, to which a test adds one.
+// A family without noise, to which each test adds one kind.
 SystemNoise none() {
   SystemNoise noise = system_families()[0].noise;
   noise = scaled(noise, 0);
@@ -85,7 +85,7 @@ TEST(TrackErrors, HaveInCommonWhatTheirBodiesAndLimbsHave) {
   noise.limb_correlation = 0.3;
   noise.depth_correlation = 0.5;
   noise.depth_limb_correlation = 0.5;
-  noise.fc_hz = 3;  // fewer seconds are needed
+  noise.fc_hz = 3;  // a higher corner needs fewer seconds
   TrackErrors errors(noise, frames, rate, Random(3));
   const Channels a = channels(errors.errors_of({0, 0, false, 2, still, {}})),
                  b = channels(errors.errors_of({1, 0, false, 2, still, {}})),
@@ -109,7 +109,7 @@ TEST(TrackErrors, GrowWithSpeed) {
   const Channels e = channels(errors.errors_of({0, 0, false, -1, speed, {}}));
   const std::vector<double> rest(e.x.begin(), e.x.begin() + frames / 2),
       moving(e.x.begin() + frames / 2, e.x.end());
-  // The floor's part above half of the rate is missing.
+  // The part of the floor above half of the rate is missing.
   EXPECT_NEAR(deviation(rest), 0.97, 0.04);
   EXPECT_NEAR(deviation(moving), std::hypot(0.97, 6), 0.2);
 }
@@ -129,7 +129,7 @@ TEST(TrackErrors, HaveBurstsAsOftenAsAskedForAndAsHigh) {
     bursts += std::abs(e.x[f]) > 0.05 && std::abs(e.x[f - 1]) <= 0.05 ? 1 : 0;
     highest = std::max(highest, std::abs(e.x[f]));
   }
-  // 67 in 1,000 s, a deviation of 8.
+  // The expected number in 1,000 s is 67, with a deviation of 8.
   EXPECT_NEAR(static_cast<double>(bursts), 67, 25);
   EXPECT_NEAR(highest, 2, 0.1);
 }
@@ -150,7 +150,7 @@ TEST(TrackErrors, OfAWholeLimbAreTheSameForAllOfIt) {
     on += a[f] == Vec3{} ? 0 : 1;
     both += a[f] == Vec3{} || c[f] == Vec3{} ? 0 : 1;
   }
-  // A quarter of the time on average, less overlaps: 1 - exp(-1/4); limbs by themselves.
+  // Expected share of time: a quarter less overlaps, 1 - exp(-1/4); limbs are independent.
   EXPECT_NEAR(static_cast<double>(on) / frames, 0.22, 0.04);
   EXPECT_NEAR(static_cast<double>(both) / frames, 0.05, 0.02);
   const Channels e = channels(a);

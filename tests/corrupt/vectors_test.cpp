@@ -1,4 +1,4 @@
-// Damage of markers and of vectors, where there is no skeleton.
+// Tests of damages on markers and vectors, without a skeleton.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 using test::moving_humanoid;
 
-// The positions of the joints, some of them missing, and a point that is none.
+// The positions of the joints as markers, some missing, and one track that is not a position.
 Take markers(std::size_t frames = 400) {
   const Take clip = moving_humanoid(frames);
   const std::size_t joints = clip.joint_count();
@@ -85,7 +85,7 @@ TEST_P(DamageOfVectors, GivesMarkersTheSameForTheSameSeedAndOthersForAnother) {
   EXPECT_EQ(first.positions, again.positions);
   EXPECT_EQ(first.observed, again.observed);
   EXPECT_NE(first.positions, clean.positions);
-  if (GetParam() == "held" || GetParam() == "upsampled") return;  // nothing in them is random
+  if (GetParam() == "held" || GetParam() == "upsampled") return;  // these damages are deterministic
   EXPECT_NE(first.positions, damaged(clean, GetParam(), {}, 8).clip.positions);
 }
 
@@ -118,7 +118,7 @@ TEST_P(DamageOfVectors, LeavesWhatIsMissingAndWhatIsNoPositionAlone) {
   EXPECT_EQ(report.samples_damaged, changed);
   EXPECT_GT(changed, 0u);
   const bool loses = GetParam() == "gaps" || GetParam() == "long-gap";
-  if (loses) return;  // what stands in a gap counts for the report, and not here
+  if (loses) return;  // the report includes the values in gaps; the sums here do not
   EXPECT_NEAR(report.rms_deg, std::sqrt(square / samples), 1e-9 * report.max_deg);
   EXPECT_NEAR(report.max_deg, largest, 1e-9 * largest);
   EXPECT_NEAR(report.rms_position, std::sqrt(distances / samples), 1e-9 * report.max_deg);
@@ -134,18 +134,17 @@ TEST_P(DamageOfVectors, TouchesNamedTracksOnlyAndGivesThemTheSameAsAmongOthers) 
       const bool meant = clean.names[m].starts_with("Left");
       if (!meant) {
         EXPECT_EQ(some.position(f, m), clean.position(f, m)) << clean.names[m];
-      } else if (GetParam() != "snr") {  // whose power is that of the named
+      } else if (GetParam() != "snr") {  // its power depends on the named tracks
         EXPECT_EQ(some.position(f, m), all.position(f, m)) << clean.names[m];
       }
     }
   }
 }
 
-// Rotation vectors are damaged as the rotations that they are: with the same seed a clip and its
-// vectors are the same afterwards.
+// Rotation vectors are damaged as rotations: with the same seed, a clip and its vectors stay equal.
 TEST(DamageOfRotationVectors, IsThatOfTheRotations) {
   Take clip = moving_humanoid(300);
-  for (auto& channels : clip.skeleton.channels) channels.clear();  // nothing is restricted
+  for (auto& channels : clip.skeleton.channels) channels.clear();  // no restrictions
   const OptionValues with_root = {{"root", true}};
   const std::vector<std::pair<std::string, OptionValues>> cases = {
       {"gaussian", {}}, {"uniform", {}},       {"ar1", {}},
@@ -186,7 +185,7 @@ TEST(DamageOfMarkers, HasTheSizeThatIsAskedFor) {
     }
     return test::deviation_of(differences);
   };
-  // 6,000 draws: 1 % of deviation.
+  // 6,000 draws have a deviation of 1 %.
   EXPECT_NEAR(deviation(damaged(clean, "gaussian", {{"std_deg", 2.0}}).clip),
               2 * radians_per_degree * radius, 0.04 * 2 * radians_per_degree * radius);
   EXPECT_NEAR(deviation(damaged(clean, "position-noise", {{"std_cm", 0.5}}).clip), 0.5, 0.02);

@@ -16,7 +16,7 @@ namespace {
 
 using Term = BandedLeastSquares::Term;
 
-// Squares of `count` neighbours each, here and in a dense matrix.
+// Adds squares that each combine `count` neighbours, and compares with a dense solver.
 template <std::size_t count>
 void compare_with_dense_solver() {
   constexpr std::size_t size = 40, squares = 150;

@@ -1,5 +1,4 @@
-// Tests of `clean_feet` on walks that slide, jitter and sink, and on takes that it must leave
-// alone.
+// Tests of `clean_feet` on walks that slide, jitter and sink, and on takes that it must not change.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -37,7 +36,7 @@ double largest_root_shift(const Take& a, const Take& b) {
   return largest;
 }
 
-// Puts the left foot elsewhere in each frame, the way a leg would.
+// Moves the left foot in each frame by the leg solver.
 Take with_left_foot_moved(Take clip, const std::function<Vec3(double)>& shift_at) {
   const std::vector<Leg> legs = find_legs(clip.skeleton);
   const feet::LegMotion motion = feet::leg_motion(clip, legs);
@@ -80,7 +79,7 @@ TEST(CleanFeet, HoldsFeetOfJitteryRotationsByForce) {
   EXPECT_GT(report.before.most_slide, 0.5);
 }
 
-// Where noise moves the feet all of the leg is noisy: each joint and the root take their share.
+// Noise that moves the feet affects the whole leg, so each joint and the root share the correction.
 TEST(CleanFeet, TakesFeetThatJitterForMeasurementsOfAllThatTheyHangFrom) {
   const Take truth = synthetic_clip("walk", 6, 60), noisy = test::with_noise(truth, 0.3);
   Take cleaned = noisy;
@@ -99,7 +98,7 @@ TEST(CleanFeet, TakesFeetThatJitterForMeasurementsOfAllThatTheyHangFrom) {
 
 TEST(CleanFeet, LiftsFeetThatSink) {
   Take clip = synthetic_clip("walk", 8);
-  // A tenth of the strides stands 4 cm below the floor.
+  // For 120 of 960 frames, the feet stand 4 cm below the floor.
   for (std::size_t f = 300; f < 420; ++f) clip.root_position(f).y -= 4;
   Take cleaned = clip;
   const FeetReport report = clean_feet(cleaned, forced());
@@ -157,7 +156,7 @@ TEST(CleanFeet, ChangesNothingFartherFromContactsThanTheBlend) {
   }
 }
 
-// The largest change of the ankle's velocity from a frame to the next, cm/s, near ends of contacts.
+// The largest change of the ankle's velocity between frames near ends of contacts, cm/s.
 double largest_kick(double rate, const std::vector<FootContact>& at_120) {
   const Take clip = with_drift(synthetic_clip("walk", 6, rate), 4);
   FeetSettings settings = forced();
@@ -183,8 +182,8 @@ double largest_kick(double rate, const std::vector<FootContact>& at_120) {
 }
 
 TEST(CleanFeet, KeepsVelocityContinuousAtTheEndsOfContacts) {
-  // At 960 Hz the steps of a smooth motion are small, and a jump stands out: without care it is
-  // that of the slide, 20 cm/s and more.
+  // At 960 Hz the steps of a smooth motion are small, and a jump is clearly visible: an uncorrected
+  // jump is as large as the slide, 20 cm/s and more.
   const std::vector<FootContact> contacts =
       find_contacts(with_drift(synthetic_clip("walk", 6, 120), 4));
   EXPECT_LT(largest_kick(960, contacts), 5);

@@ -1,4 +1,4 @@
-// Tests of files of contacts: read, written, and refused with the line.
+// Tests of contact files: reading, writing, and errors with their line.
 #include <gmock/gmock.h>
 
 #include "feet/support.hpp"

@@ -16,8 +16,8 @@ using test::track_of;
 
 constexpr std::array<const char*, 2> sides{"Left", "Right"};
 
-// The heel about which the synthetic walker turns: below and behind the ankle, on the floor (y = 0)
-// where the foot is level.
+// The point about which the synthetic heel turns: below and behind the ankle, on the floor (y = 0)
+// while the foot is level.
 std::vector<Vec3> true_heels(const Take& clip, std::size_t leg) {
   const std::string side = sides[leg];
   double ankle_height = 0, flattest = 2;
@@ -40,7 +40,7 @@ std::vector<Vec3> true_heels(const Take& clip, std::size_t leg) {
   return heels;
 }
 
-// 1 where the part stands: as good as still and as low as it gets.
+// 1 in frames where the part stands: almost still and almost at its lowest height.
 std::vector<std::uint8_t> truth(const Take& clip, std::size_t leg, FootPart part) {
   const std::vector<Vec3> track = part == FootPart::toe
                                       ? track_of(clip, std::string(sides[leg]) + "ToeBase")
@@ -61,7 +61,7 @@ struct Score {
   double precision = 0, recall = 0;
 };
 
-// Frames found that are within `slack` of a true one, and true ones found.
+// Counts found frames within `slack_s` of a true one, and true frames that were found.
 Score score(const Take& clean, const std::vector<FootContact>& contacts, double slack_s = 0.035) {
   const auto slack = static_cast<std::ptrdiff_t>(std::ceil(slack_s * clean.frame_rate_hz));
   double found = 0, right = 0, there = 0, caught = 0;

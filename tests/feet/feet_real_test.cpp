@@ -49,8 +49,8 @@ TEST_P(CmuWalks, StandWhereTheyShallByForce) {
   const double cm = centimetres(before);
   EXPECT_EQ(count_held(before), before.contacts.size());
   EXPECT_GT(before.before.most_slide * cm, 1);
-  // Ankles of two channels cannot hold heel and toe at once to the last millimetre, nor can a leg
-  // that is nearly straight without a pop of its knee (3 mm in 08_01).
+  // Ankles of two channels cannot hold heel and toe at once to the last millimetre; neither can a
+  // nearly straight leg without popping its knee (3 mm in 08_01).
   EXPECT_LT(before.after.most_slide * cm, 0.35);
   EXPECT_LT(before.after.slide * cm, 0.01);
   EXPECT_LT(before.after.knee_pop_deg, 1.1 * before.before.knee_pop_deg + 0.4);
@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Takes, CmuWalks,
                          });
 
 TEST(FeetOfRealTakes, SlideOnASkeletonThatIsNotTheirsUntilTheyAreHeld) {
-  // Rotations and path of one subject on the bones of another.
+  // Rotations and path come from one subject, the bones from another.
   for (const char* name : {"38_03", "46_01", "105_39"}) {
     const Take sliding = real_clip(std::string("cmu/bvh-rotations/") + name + ".bvh");
     Take clip = sliding;
@@ -78,7 +78,7 @@ TEST(FeetOfRealTakes, SlideOnASkeletonThatIsNotTheirsUntilTheyAreHeld) {
     EXPECT_GT(report.before.most_slide * cm, 3) << name;
     EXPECT_GT(count_held(report), 0u) << name;
     EXPECT_LT(report.after.slide, report.before.slide) << name;
-    // 38_03 jitters, and feet then stand as still as feet do.
+    // 38_03 jitters, so standing is measured over the held contacts only.
     FeetSettings listed;
     listed.contacts.emplace();
     for (std::size_t i = 0; i < report.contacts.size(); ++i) {

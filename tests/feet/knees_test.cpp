@@ -1,4 +1,4 @@
-// Knees do not pop where feet are held: the largest second difference of their angles is hardly
+// Holding feet does not make knees pop: the largest second difference of their angles is hardly
 // above that of the take.
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ TEST(Knees, DoNotPopInWalksThatDriftAndJitter) {
   }
 }
 
-// A standing body whose hips or one foot jump for two frames: what a filter takes for real.
+// A standing body whose hips or one foot jump for two frames, too long for a spike filter.
 Take with_jump(const char* joint, double deg, double rise) {
   Take clip = synthetic_clip("still", 3);
   for (const std::size_t f : {180u, 181u}) {
@@ -51,7 +51,7 @@ TEST(Knees, AreSparedWhatTheHipsJump) {
   ASSERT_FALSE(report.contacts.empty());
   EXPECT_LT(report.after.knee_pop_deg, allowed_pop_deg(report));
   EXPECT_LT(report.after.most_slide, 0.02);
-  // The root takes the jump back.
+  // The root correction removes the jump.
   const double jump = before.root_position(180).y - before.root_position(176).y;
   const double left = clip.root_position(180).y - clip.root_position(176).y;
   EXPECT_LT(std::fabs(left), 0.3 * jump);

@@ -10,7 +10,7 @@
 namespace kinemend::feet {
 namespace {
 
-// Hips, thigh, shank, foot with random bones, rest rotations and pose; what the orders allow.
+// Hips, thigh, shank and foot with random bones, rest rotations, and poses within their channels.
 struct RandomLeg {
   Take clip;
   std::vector<Leg> legs;
@@ -40,7 +40,7 @@ struct RandomLeg {
     return make_channels(false, parse_rotation_order(order));
   }
 
-  // A leg that is bent as legs are, 15 to 90 degrees.
+  // Bends the knee by 15 to 90 degrees.
   void pose(Random& random) {
     for (std::size_t j = 1; j < 4; ++j) {
       const RotationOrder order = clip.skeleton.rotation_order(j);

@@ -1,4 +1,4 @@
-// Tests of legs that are found in the skeletons of many programs.
+// Tests that legs are found in the skeletons of many programs.
 #include <gmock/gmock.h>
 
 #include "feet/support.hpp"
@@ -8,7 +8,7 @@ namespace {
 
 using test::synthetic_clip;
 
-// Names of one leg from the hip down, left; `L` and `R` by replacing.
+// The names of a leg from the hip down.
 struct Dialect {
   const char* name;
   std::vector<std::string> left, right;  // hip, knee, ankle, toe

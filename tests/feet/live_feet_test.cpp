@@ -1,5 +1,4 @@
-// Tests of feet that are held frame by frame: they stand still, nothing else moves, and no frame
-// jumps.
+// Tests of feet held frame by frame: they stand still, no other joint moves, and no frame jumps.
 #include "feet/live_feet.hpp"
 
 #include <gmock/gmock.h>
@@ -30,7 +29,7 @@ Take sliding_walk() {
   options.duration_s = 4;
   Take take = synthesize(options);
   const double height = body_height(take.skeleton);
-  // The body goes sideways by 3 % of its height a second, and its feet with it.
+  // The body and its feet move sideways by 3 % of its height per second.
   for (std::size_t f = 0; f < take.frame_count(); ++f)
     take.root_position(f).x += 0.03 * height * static_cast<double>(f) / take.frame_rate_hz;
   return take;

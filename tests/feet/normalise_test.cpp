@@ -1,5 +1,5 @@
-// A take that was moved and turned comes back: its feet stand at 0, and it starts at the origin,
-// facing forward.
+// A take that was moved and turned is normalised again: feet stand at height 0, and the take starts
+// at the origin, facing forward.
 #include <gtest/gtest.h>
 
 #include "kinemend/error.hpp"
@@ -26,7 +26,7 @@ NormaliseSettings both() {
   return settings;
 }
 
-// The take somewhere else, turned by `angle` about y.
+// Turns the take by `angle` about y and moves it.
 Take elsewhere(Take take, double angle, Vec3 shift) {
   const Quat turn = exp({0, angle, 0});
   for (std::size_t f = 0; f < take.frame_count(); ++f) {
@@ -176,7 +176,7 @@ TEST(Normalise, TheRestOfAFileOfMarkersFollowsThem) {
 
 TEST(Normalise, PutsThePelvisAtTheOriginWhereTheRootStaysBehind) {
   const Take walk = elsewhere(take_of("walk"), 1, {120, 7, -40});
-  // A root that stays at 0 above the hips, which move.
+  // The root stays at 0 above moving hips.
   Take take = walk;
   Skeleton& skeleton = take.skeleton;
   skeleton.names.insert(skeleton.names.begin(), "Reference");

@@ -10,7 +10,7 @@
 namespace kinemend::feet {
 namespace {
 
-// A walk, its legs, and a correction that its parts ask for in frame 10.
+// A walk, its legs, and a correction requested for its foot parts in frame 10.
 struct Scene {
   Take clip = test::synthetic_clip("walk", 1);
   std::vector<Leg> found = find_legs(clip.skeleton);
@@ -42,7 +42,7 @@ PoseUncertainty all_alike(const Scene& scene) {
   return {1, 0.02, std::vector<std::uint8_t>(scene.motion.legs(), 1), 0.02};
 }
 
-// The part after the update, by the poses of the leg one joint after the other from the root down.
+// The part's position after the update, by forward kinematics from the root down.
 Vec3 part_after(const Scene& scene, const PoseUpdate& update, std::size_t part) {
   const LegPose& pose = scene.motion.pose(Scene::frame, part / 2);
   const LegUpdate& leg = update.legs[part / 2];
@@ -56,7 +56,7 @@ Vec3 part_after(const Scene& scene, const PoseUpdate& update, std::size_t part) 
   return ankle + rotate(by_ankle, rotate(pose.ankle, sole));
 }
 
-// What the update is to make least; 0.003 of the height is how far standing feet move.
+// The cost that the update minimises; 0.003 of the height is how far standing feet move.
 double cost(const Scene& scene, const PoseUncertainty& uncertainty, const PoseUpdate& update) {
   double sum = dot(update.root_shift, update.root_shift) / std::pow(uncertainty.root_position, 2) +
                dot(update.root_turn, update.root_turn) / std::pow(uncertainty.root_rotation, 2);

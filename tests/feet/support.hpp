@@ -15,7 +15,7 @@
 
 namespace kinemend::test {
 
-/// Whatever stands is held.
+/// Settings that hold every standing foot.
 inline FeetSettings forced() {
   FeetSettings settings;
   settings.mode = FeetMode::force;
@@ -32,7 +32,7 @@ inline std::size_t joint_of(const Take& clip, std::string_view name) {
   return static_cast<std::size_t>(clip.skeleton.find(name));
 }
 
-/// Positions of one joint, by frame.
+/// Positions of one joint by frame.
 inline std::vector<Vec3> track_of(const Take& clip, std::string_view name) {
   const std::vector<Vec3> all = joint_positions(clip);
   std::vector<Vec3> track;
@@ -52,7 +52,7 @@ inline Take moved(Take clip, Quat turn, Vec3 shift, double scale = 1) {
   return clip;
 }
 
-/// The root goes astray horizontally by this much, to and fro in `period_s`.
+/// Adds a horizontal drift of the root with amplitude `reach` and period `period_s`.
 inline Take with_drift(Take clip, double reach, double period_s = 2.5) {
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     const double phase = 2 * pi * static_cast<double>(f) / clip.frame_rate_hz / period_s;
@@ -61,7 +61,7 @@ inline Take with_drift(Take clip, double reach, double period_s = 2.5) {
   return clip;
 }
 
-/// White noise on all rotations.
+/// Adds white noise to all rotations.
 inline Take with_noise(Take clip, double deg, std::uint64_t seed = 7) {
   Random random(seed);
   for (Quat& q : clip.rotations) {
@@ -71,7 +71,7 @@ inline Take with_noise(Take clip, double deg, std::uint64_t seed = 7) {
   return clip;
 }
 
-/// What a filter leaves of white noise: smooth over a few frames.
+/// Adds noise smoothed over a few frames, like the residue of a filter.
 inline Take with_smooth_noise(Take clip, double deg, std::uint64_t seed) {
   constexpr std::size_t reach = 3;
   const std::size_t joints = clip.joint_count();

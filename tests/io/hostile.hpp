@@ -1,4 +1,4 @@
-// Laws that hold for any bytes, whatever the format. A new fixture is cut and patched everywhere.
+// Tests that hold for any bytes in any format. Each new fixture is cut and patched at every place.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -40,8 +40,8 @@ inline std::vector<std::string> fixture_bytes(const std::string& format) {
   return all;
 }
 
-/// A take comes back to the byte. One that was mended comes back whole and with finite numbers
-/// only, and then to the byte.
+/// An unrepaired take is written back byte for byte. A repaired one is written in full length with
+/// finite numbers, and from then on byte for byte.
 inline void expect_written_back(const TakeResult& result, const std::string& bytes,
                                 const std::string& format, const ReadOptions& options) {
   const std::string written = write_take(result.take, format);
@@ -52,8 +52,8 @@ inline void expect_written_back(const TakeResult& result, const std::string& byt
   }
 }
 
-/// Whatever the bytes are: a take that keeps the rules and writes back the same, or an error of one
-/// line that names the file. `options`: what the format needs beside the file.
+/// Any bytes give a valid take that is written back, or a one-line error that names the file.
+/// `options` holds what the format needs beside the file.
 inline void expect_take_or_error(const std::string& bytes, const std::string& format,
                                  ReadOptions options = {}) {
   const std::string name = "take." + format;
@@ -94,7 +94,7 @@ inline void expect_sane_when_cut_at_any_length(const std::string& format,
   }
 }
 
-/// `likely`: bytes that mean something to the format.
+/// `likely` are bytes with a meaning in the format.
 inline void expect_sane_when_patched_at_any_byte(const std::string& format,
                                                  const std::string& likely,
                                                  const ReadOptions& options = {}) {
@@ -127,15 +127,15 @@ inline void expect_sane_when_pieces_move(const std::string& format,
   }
 }
 
-/// Of the processor: what takes longer grows faster than its file; sanitised code is ten times
-/// slower.
+/// Limit of processor time in seconds. A reader that exceeds it does not take time in proportion to
+/// its file. Sanitised code is ten times slower.
 #if defined(KINEMEND_SANITIZED)
 inline constexpr double verdict_s = 20;
 #else
 inline constexpr double verdict_s = 2;
 #endif
 
-/// Large nonsense is read or refused within `verdict_s` and in little memory.
+/// Large invalid files are read or refused within `verdict_s` and in little memory.
 inline void expect_quick_verdicts(const std::string& format,
                                   const std::vector<std::pair<const char*, std::string>>& files,
                                   ReadOptions options = {}) {

@@ -1,4 +1,4 @@
-// Numbers without a blank before the minus sign, as some programs write them, are split.
+// Numbers without a blank before the minus sign, which some programs write, are split.
 #include <gmock/gmock.h>
 
 #include "io/acclaim/acclaim.hpp"
@@ -28,7 +28,7 @@ TEST(JoinedNumbers, OfBvhAreSplitAtTheSign) {
   EXPECT_THAT(read.take.source.document->channel_values(),
               ElementsAre(0, 95.5, 0, 0, -7.5094748, 3.25, 0, -95.5, -1.5e-5, 1, -2.25, 3, 1, 2, 3,
                           4, 5, 6));
-  // What is written has blanks, and every other byte.
+  // The written file has the blanks and otherwise the same bytes.
   const std::string mended =
       "0.0 95.5 0.0 0.0 -7.5094748 3.25\n0.0 -95.5 -1.5e-05 1.0 -2.25 +3.0\n1 2 3 4 5 6\n";
   EXPECT_EQ(write_take(read.take), head + mended);

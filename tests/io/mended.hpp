@@ -5,8 +5,8 @@
 
 namespace kinemend::test {
 
-/// Whether what is written may differ from what was read, by the repairs of the reader: a number
-/// was not finite, numbers were run together, or the file was cut off in a line.
+/// Returns whether the reader's repairs may change the written bytes: a number was not finite,
+/// numbers had no blank between them, or the file ended within a line.
 inline bool was_mended(const Diagnostics& repairs) {
   for (const char* name : {"value_not_finite", "frame_time_unusable", "missing_not_finite",
                            "analog_not_finite", "parameter_not_finite", "event_time_not_finite",

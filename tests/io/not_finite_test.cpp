@@ -1,5 +1,4 @@
-// Law: no output holds a number that is not finite; a value that was not finite in the input is
-// missing.
+// Outputs never contain NaN or infinity; a value that is not finite in the input is missing.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -170,7 +169,7 @@ TEST(NotFinite, PointsOfC3dAreMissingInWhatIsWritten) {
   ASSERT_TRUE(before.is_observed(0, 0) && before.is_observed(3, 2) && before.is_observed(4, 1));
   file.put(file.sample(0, 0), not_a_number);
   file.put(file.sample(3, 2) + 8, -infinite);
-  file.put(file.sample(4, 1) + 12, not_a_number);  // the word that says whether it is there
+  file.put(file.sample(4, 1) + 12, not_a_number);  // the word that marks the sample as present
   const C3dResult read = read_c3d_bytes(file.bytes);
   EXPECT_EQ(read.diagnostics.count("value_not_finite"), 2u);
   EXPECT_EQ(read.diagnostics.count("missing_not_finite"), 1u);
@@ -186,7 +185,7 @@ TEST(NotFinite, PointsOfC3dAreMissingInWhatIsWritten) {
   EXPECT_EQ(C3dFile::at(written, file.sample(3, 2) + 12), -1);
   expect_same_samples(read_c3d_bytes(written).clip, read.clip);
   EXPECT_EQ(read_c3d_bytes(written).diagnostics.count("value_not_finite"), 0u);
-  // Nothing else changes.
+  // No other byte changes.
   std::size_t changed = 0;
   for (std::size_t i = 0; i < written.size(); ++i) changed += written[i] != file.bytes[i] ? 1 : 0;
   EXPECT_LE(changed, 48u);

@@ -1,4 +1,4 @@
-// Tests of the progress that is reported while a long file is read.
+// Tests of the progress reported while a long file is read.
 #include <gtest/gtest.h>
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Law: a rate that no take may have is read as unknown, with a warning, by every format.
+// Every format reads an impossible frame rate as unknown, with a warning.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ Take still_walk() {
   return synthesize(options);
 }
 
-// A take of the format that states this rate, written by hand where a writer would refuse it.
+// A take of the format that states this rate, edited by hand where a writer would refuse it.
 std::string stating(const std::string& format, double rate_hz) {
   const Take joints = still_walk();
   Take markers = joint_markers(joints);
@@ -38,7 +38,7 @@ std::string stating(const std::string& format, double rate_hz) {
     std::string text = format == "csv" ? write_take(markers, "csv") : write_take(joints, "csv");
     const std::size_t at = text.find("# rate_hz: ") + 11;
     text.replace(at, text.find('\n', at) - at, fmt::format("{:.17g}", rate_hz));
-    // Without times, which would tell another.
+    // A column of times would give another rate.
     text.replace(text.find("time_s"), 6, "other");
     return text;
   }
@@ -96,7 +96,7 @@ TEST_P(EveryFormatWithRates, TakesAnyOtherForUnknownAndSaysSo) {
     EXPECT_LE(rate_of(assumed), 120);
     EXPECT_EQ(rate_of(asked), 77);
     assumed.take.validate();
-    // A C3D holds single floats, of which the smallest and the largest here are none.
+    // A C3D file holds single floats, which cannot represent the smallest and largest rates here.
     const bool is_stated = format_ != "c3d" || (rate_hz > 1e-30 && rate_hz < 1e35);
     if (is_stated) {
       EXPECT_EQ(assumed.diagnostics.count("frame_rate_unusable") +

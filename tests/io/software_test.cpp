@@ -1,5 +1,5 @@
-// Tests that readers keep the name of the program that wrote a file, from which the source of the
-// motion is told.
+// Tests that readers keep the name of the program that wrote a file; it tells the source of the
+// motion.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -14,7 +14,7 @@ namespace kinemend::test {
 namespace {
 
 TEST(Software, OfAC3dFileIsItsManufacturer) {
-  // Of the same length, since a parameter states it.
+  // The length must stay the same, because a parameter states it.
   const std::string bytes = with(good_c3d("intel_real"), "make_fixtures", "Theia3D 2023 ");
   const TakeSource source = source_of(read_take(bytes, "take.c3d").take);
   EXPECT_EQ(source.source, Source::video);
@@ -33,7 +33,7 @@ TEST(Software, OfAGltfFileIsItsGenerator) {
   EXPECT_EQ(source_of(read_take(text, "take.gltf").take).source, Source::unknown);
 }
 
-// The program that wrote it last: what another one wrote first may have been edited since.
+// The program that saved the file last counts; it may have edited the first one's data.
 TEST(Software, OfAnFbxFileIsThatWhichSavedItLast) {
   const auto property = [](const std::string& name, const std::string& value) {
     return FbxNode{"P", {name, std::string("KString"), std::string(), std::string(), value}, {}};

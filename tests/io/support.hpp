@@ -1,4 +1,4 @@
-// Fixtures, clips and error messages that the tests of readers and writers share.
+// Fixtures, clips and error messages shared by the tests of readers and writers.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ inline std::vector<std::filesystem::path> fixtures_in(const std::string& folder)
   return paths;
 }
 
-/// The message of the error that `action` ends with, or "no error".
+/// Returns the message of the error that `action` throws, or "no error".
 template <class Action>
 std::string message_of(Action&& action, ErrorKind kind) {
   try {
@@ -46,7 +46,7 @@ inline std::string read_error(std::string bytes, const ReadOptions& options = {}
 
 inline Take read_text(std::string bytes) { return read_joints(std::move(bytes), "take.bvh").take; }
 
-/// R of angles in degrees.
+/// Rotation for Euler angles in degrees.
 inline Quat rotation_of(std::array<double, 3> degrees, const char* order) {
   for (double& angle : degrees) angle *= radians_per_degree;
   return from_euler(degrees, parse_rotation_order(order));
@@ -67,7 +67,7 @@ inline void expect_same_motion(const Take& a, const Take& b, double tolerance) {
   }
 }
 
-/// The channel values of a BVH text, row by row, by the C library.
+/// The channel values of a BVH text, row by row, parsed by the C library.
 inline std::vector<std::vector<double>> rows_of(const std::string& text, std::size_t channels) {
   std::size_t at = text.find('\n', text.find("Frame Time"));
   if (at == text.npos) at = text.find('\r', text.find("Frame Time"));

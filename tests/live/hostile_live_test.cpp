@@ -5,7 +5,7 @@
 namespace kinemend::test {
 namespace {
 
-// No bytes end a stream, and what comes out is frames of finite numbers.
+// No bytes stop a stream, and all output frames are finite numbers.
 void expect_survives(const std::string& text, std::size_t piece, const LiveOptions& options = {}) {
   const auto median = make_cleaner("median");
   LiveRun run(*median, options);

@@ -1,4 +1,4 @@
-// Tests of lines that arrive in pieces of any size.
+// Tests of lines that arrive in chunks of any size.
 #include "live/line_splitter.hpp"
 
 #include <gmock/gmock.h>

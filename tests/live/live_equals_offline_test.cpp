@@ -1,4 +1,4 @@
-// Law: a live session gives what each method makes of the whole file, however the bytes arrive.
+// A live session gives the same result as the method on the whole file, however the bytes arrive.
 #include "kinemend/stream.hpp"
 #include "live_run.hpp"
 
@@ -15,7 +15,7 @@ class LiveText : public testing::TestWithParam<LiveMethod> {
  protected:
   std::unique_ptr<Cleaner> cleaner_ = make_cleaner(GetParam().name, GetParam().options);
 
-  // What the cleaner makes of the file of the same text.
+  // The cleaner's offline result for the same text.
   Take offline(const std::string& text) const {
     Take clip = read_bvh_text(text);
     clean_in_place(*cleaner_, clip);
@@ -78,7 +78,7 @@ TEST_P(LiveText, HoldsWhatIsNoFiniteNumberAsAFileDoes) {
   run.session.finish();
   EXPECT_EQ(run.counts().not_finite, 4);
   EXPECT_EQ(run.counts().malformed, 0);
-  // A window that begins or ends amid a gap does not see both of its sides.
+  // A window that begins or ends within a gap does not see both of its sides.
   const double near_rad =
       make_stream(*cleaner_, noisy_clip(1))->latency_frames() > 0 ? 0.02 : digits_rad;
   const auto [turn, way] = difference(read_bvh_text(run.text), offline(stream.text()));

@@ -1,4 +1,4 @@
-// Tests of the headers of live streams: where they end, how long they may be, and their errors.
+// Tests of the headers of live streams: their end, their maximum length, and their errors.
 #include "live/live_header.hpp"
 
 #include <gmock/gmock.h>

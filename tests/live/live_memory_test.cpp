@@ -1,4 +1,4 @@
-// Law: once a live stream is warm, a line of text allocates no memory.
+// After warm-up, a line of text in a live stream allocates no memory.
 #include "counting_allocation.hpp"
 
 #include "live_run.hpp"

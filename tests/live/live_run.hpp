@@ -25,7 +25,7 @@ struct LiveRun {
           if (!piece.is_header) lines.emplace_back(piece.text);
         }) {}
 
-  /// In pieces of so many bytes.
+  /// Feeds the bytes in chunks of `piece` bytes.
   void feed(std::string_view bytes, std::size_t piece = 1000) {
     for (; !bytes.empty(); bytes.remove_prefix(std::min(piece, bytes.size())))
       session.feed(bytes.substr(0, piece));
@@ -38,7 +38,7 @@ struct LiveRun {
   LiveSession session;
 };
 
-/// A stream of BVH in its parts.
+/// Header and frames of a BVH stream.
 struct StreamText {
   std::string header;
   std::vector<std::string> frames;  ///< each with its newline
@@ -83,7 +83,7 @@ inline std::pair<double, double> difference(const Take& a, const Take& b) {
   return {turn, way};
 }
 
-/// Six decimals, of degrees and of units.
+/// Tolerances for six decimals of degrees and of file units.
 inline constexpr double digits_rad = 1e-7, digits_units = 2e-6;
 
 }  // namespace kinemend::test

@@ -1,4 +1,4 @@
-// Tests of live sessions: frames that are lost, late, doubled, malformed or out of order.
+// Tests of live sessions with lost, late, duplicate, malformed and reordered frames.
 #include <nlohmann/json.hpp>
 
 #include "kinemend/error.hpp"
@@ -13,7 +13,7 @@ using testing::HasSubstr;
 
 class LiveSessionTest : public testing::Test {
  protected:
-  // A cutoff above half the rate changes nothing: what comes out is what was made of the lines.
+  // A cutoff above half the rate changes nothing, so the output equals the parsed input.
   std::unique_ptr<Cleaner> filter_ =
       make_cleaner("butterworth", {{"causal", true}, {"cutoff_hz", 500.0}});
   StreamText stream_ = stream_text(noisy_clip(30));
@@ -21,7 +21,7 @@ class LiveSessionTest : public testing::Test {
   static std::string numbered(std::int64_t number, const std::string& line) {
     return std::to_string(number) + " " + line;
   }
-  // The frames by their numbers, of a session that reads numbers.
+  // The frames with these numbers, for a session that reads numbers.
   std::string lines(const std::vector<int>& numbers) const {
     std::string text;
     for (const int n : numbers) text += numbered(n, stream_.frames[static_cast<std::size_t>(n)]);
@@ -191,7 +191,7 @@ TEST_F(LiveSessionTest, CountsAFrameAsLostWhenTheOthersMayWaitNoLonger) {
   EXPECT_EQ(run.counts().made_up, 1);
   run.feed(lines({2}));
   EXPECT_EQ(run.counts().late, 1);
-  // Silence, a sender that comes back and the end let those that wait go.
+  // Silence, a returning sender, and the end release the waiting frames.
   run.feed(lines({9}));
   run.session.settle();
   EXPECT_EQ(run.lines.size(), 10);
@@ -274,7 +274,7 @@ TEST_F(LiveSessionTest, EndsTheOldStreamWhenAnotherSkeletonComes) {
   EXPECT_EQ(run.counts().sessions, 2);
   EXPECT_EQ(run.headers, 2);
   EXPECT_EQ(run.counts().frames_out, 33);
-  // The old one's last frames stand before the new one's header.
+  // The last frames of the old stream precede the header of the new one.
   EXPECT_GT(run.text.rfind("HIERARCHY"), run.text.find(run.lines[29]));
 }
 
@@ -320,7 +320,7 @@ TEST_F(LiveSessionTest, HoldsTheLastFrameWhileNothingComes) {
   run.session.hold();
   EXPECT_EQ(run.lines.size(), 4);
   EXPECT_EQ(run.lines[3], run.lines[1]);
-  // Three were lost, of which two are out already.
+  // Three frames were lost, and two of them are output already.
   run.feed(lines({5, 6}));
   run.session.finish();
   EXPECT_EQ(run.counts().lost, 3);

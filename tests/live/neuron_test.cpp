@@ -62,7 +62,7 @@ TEST(NeuronLines, HaveTheSkeletonOfFiftyNineJoints) {
 TEST(NeuronLines, BecomeFramesWithoutAHeader) {
   for (const std::size_t values : {std::size_t{180}, std::size_t{354}}) {
     NeuronRelay relay;
-    // As they arrive: several lines at once, cut anywhere.
+    // Lines arrive several at once and cut at any byte.
     const std::string text =
         neuron_line(values, 1) + "\r\n" + neuron_line(values, 2) + neuron_line(values, 3);
     for (std::size_t at = 0; at < text.size(); at += 700) relay.session->feed(text.substr(at, 700));

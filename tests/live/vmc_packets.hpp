@@ -1,5 +1,4 @@
-// A sender of VMC for tests: a body that moves, with noise, as datagrams; and what a receiver
-// reads.
+// A VMC sender for tests: datagrams of a moving body with noise, and the parser of a receiver.
 #pragma once
 
 #include <cmath>
@@ -35,7 +34,7 @@ inline std::string vmc_root(const VmcBonePose& pose) {
   return vmc_message("/VMC/Ext/Root/Pos", "root", pose);
 }
 
-/// The poses in a datagram, found by their addresses alone; nothing of the code under test.
+/// Finds the poses in a datagram by their addresses, independently of the code under test.
 inline VmcBody vmc_poses(const std::string& datagram) {
   VmcBody body;
   for (const std::string address : {"/VMC/Ext/Bone/Pos", "/VMC/Ext/Root/Pos"}) {
@@ -69,7 +68,7 @@ inline const std::vector<std::string>& vmc_names() {
   return names;
 }
 
-/// The body at frame `f`, at 60 Hz: each joint turns about an axis of its own; the root walks.
+/// The body at frame `f` at 60 Hz: each joint turns about a separate axis, and the root walks.
 inline VmcBody vmc_truth(std::size_t f) {
   VmcBody body;
   const double t = static_cast<double>(f) / 60;
@@ -84,7 +83,7 @@ inline VmcBody vmc_truth(std::size_t f) {
   return body;
 }
 
-/// The same with noise of some degrees per axis, and of 5 mm for root and hips.
+/// The same body with noise of `noise_deg` per axis, and 5 mm for root and hips.
 inline VmcBody vmc_noisy(std::size_t f, double noise_deg = 1.5) {
   VmcBody body = vmc_truth(f);
   Random random(f);
@@ -98,7 +97,7 @@ inline VmcBody vmc_noisy(std::size_t f, double noise_deg = 1.5) {
   return body;
 }
 
-/// The messages of a frame as a sender gives them: root, bones, a face, the time.
+/// The messages of a frame in a sender's order: root, bones, a face, the time.
 inline std::vector<std::string> vmc_messages(std::size_t f, const VmcBody& body) {
   std::vector<std::string> messages = {vmc_root(body.at("root"))};
   for (const std::string& name : vmc_names()) {
@@ -114,7 +113,7 @@ inline std::string vmc_datagram(std::size_t f, const VmcBody& body) {
   return osc_bundle(vmc_messages(f, body), 100 + static_cast<std::uint32_t>(f), 5);
 }
 
-/// A datagram with the floats of its poses zeroed: everything that must not change.
+/// A datagram with zeroed pose values; the remaining bytes must not change.
 inline std::string without_poses(std::string datagram) {
   for (const std::string address : {"/VMC/Ext/Bone/Pos", "/VMC/Ext/Root/Pos"}) {
     for (std::size_t at = 0; (at = datagram.find(address, at)) != datagram.npos; ++at) {

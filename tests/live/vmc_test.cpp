@@ -1,5 +1,5 @@
-// Tests of VMC sessions: what leaves is what came, in order and with cleaned bones, whatever
-// happens on the way.
+// Tests of VMC sessions: the output is the input in order with cleaned bones, despite network
+// faults.
 #include "kinemend/experimental/vmc.hpp"
 
 #include <gmock/gmock.h>
@@ -30,7 +30,7 @@ class VmcRelay {
       : cleaner_(make_cleaner(method, values)),
         session(*cleaner_, options,
                 [this](std::string_view datagram) { out.emplace_back(datagram); }) {}
-  // Sent at this time of the sender's clock, with what time alone brings before.
+  // Sends at a time of the sender's clock, after all timeouts that are due before it.
   void send(const std::string& datagram, double now_s) {
     while (session.due_s() < now_s) session.attend(session.due_s());
     in.push_back(datagram);
@@ -88,7 +88,7 @@ TEST(VmcSession, ChangesThePosesAlone) {
   EXPECT_EQ(relay.session.counts().made_up, 0);
 }
 
-// The table of bones gives the take; how it goes through the stream is done here once more.
+// Repeats the bone table and the stream by hand and compares.
 TEST(VmcSession, GivesWhatTheStreamMakesOfTheTake) {
   VmcRelay relay("gaussian");
   relay.send_frames(0, 60);
@@ -129,7 +129,7 @@ TEST(VmcSession, IsAConstantNumberOfFramesBehind) {
     EXPECT_EQ(latency, std::string(method) == "median" ? 4 : 0);
     for (std::size_t f = 0; f < 100; ++f) {
       relay.send_frames(f, f + 1);
-      // The first frame of all ends with a pause, as nothing is known of the sender yet.
+      // The first frame ends only with a pause, because the sender's pattern is not known yet.
       if (f > 0) {
         ASSERT_EQ(relay.out.size(), f + 1 < latency ? 0 : f + 1 - latency) << f;
       }
@@ -190,8 +190,7 @@ TEST(VmcSession, KeepsGoingThroughLossReorderingAndGarbage) {
     relay.session.settle();
     expect_unchanged_but_for_poses(relay);
     SCOPED_TRACE(method);
-    // Noise may make the step across a gap smaller than the motion's; one that averages undoes
-    // that.
+    // Noise may make the motion's step across a gap smaller; an averaging method restores it.
     const bool averages = method == std::string("gaussian") || method == std::string("bilateral");
     expect_no_larger_steps(relay, averages ? 1.25 : 1);
     EXPECT_GT(relay.session.counts().missing, 500) << method;
@@ -213,7 +212,7 @@ TEST(VmcSession, FillsFramesThatWereLostAndStaysAsFarBehind) {
   EXPECT_NEAR(static_cast<double>(relay.session.counts().made_up),
               300.0 - static_cast<double>(sent), 6);
   relay.session.settle();
-  // Across a long loss the body's own motion counts for more than the noise, which may shorten it.
+  // Across a long loss, body motion dominates the noise, which may shorten the step.
   expect_no_larger_steps(relay, 1.1);
 }
 
@@ -351,7 +350,7 @@ TEST(VmcSession, FollowsChangesOfTheRateAndARestart) {
         }
       }
     }
-    // The sender starts again with its first frames.
+    // The sender restarts with its first frames.
     for (f = 0; f < 100; ++f) relay.send(vmc_datagram(f, vmc_noisy(f)), now_s += frame_s);
     relay.session.settle();
     expect_unchanged_but_for_poses(relay);
@@ -368,7 +367,7 @@ TEST(VmcSession, HoldsABoundedNumberOfBytes) {
   VmcRelay relay("median", options);
   relay.send_frames(0, 20);
   std::size_t most = 0;
-  // Time stands still, and one bone comes without the others.
+  // The time does not advance, and one bone arrives without the others.
   const std::string face = osc_message("/face", "s", osc_text(std::string(5000, 'x')));
   for (std::size_t i = 0; i < 2000; ++i) {
     relay.send(i % 50 == 0 ? vmc_bone("Head", vmc_noisy(i).at("Head")) : face, 1);
@@ -444,7 +443,7 @@ TEST(VmcSession, TellsTheNoiseOfEachBone) {
 }
 
 TEST(VmcSession, HoldsAFootThatStands) {
-  // The body drifts by 6 cm a second above feet that turn with nothing.
+  // The body drifts by 6 cm per second over feet that do not turn.
   const auto at = [](std::size_t f) {
     VmcBody body;
     body["root"] = {{0, 0, 0}, {1, 0, 0, 0}};

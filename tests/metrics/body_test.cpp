@@ -10,7 +10,7 @@ namespace {
 
 using test::resting_clip;
 
-// A stick of 170 units with one toe joint at the floor; the root carries everything.
+// A stick of 170 units with one toe joint at the floor; the root carries all of it.
 Skeleton one_legged() {
   Skeleton skeleton;
   skeleton.add_joint("hips", -1, {0, 85, 0}, make_channels(true, parse_rotation_order("ZXY")));
@@ -35,14 +35,14 @@ TEST(FootSlide, IsTheHorizontalTravelPerFrameInContact) {
 TEST(FootSlide, CountsOnlyWhileTheReferenceIsLowAndSlow) {
   Take reference = resting_clip(one_legged(), 6, 100);
   // 0.03 of the height is 5.1 units; 0.25 heights per second at 100 Hz is 0.425 a frame.
-  reference.root_position(3).y += 6;    // high: steps 2-3 and 3-4 are out
-  reference.root_position(5).x += 0.5;  // fast: step 4-5 is out
+  reference.root_position(3).y += 6;    // high: excludes steps 2-3 and 3-4
+  reference.root_position(5).x += 0.5;  // fast: excludes step 4-5
   Take other = reference;
   for (std::size_t f = 1; f < 6; ++f) other.root_position(f).x += static_cast<double>(f);
   const FootSlide slide = foot_slide(reference, other);
   EXPECT_EQ(slide.contact_steps, 2u);
   EXPECT_NEAR(slide.per_frame, 1.0, 1e-12);
-  reference.root_position(5).x -= 0.1;  // 0.4 is slow enough
+  reference.root_position(5).x -= 0.1;  // a step of 0.4 is slow enough
   EXPECT_EQ(foot_slide(reference, other).contact_steps, 3u);
 }
 

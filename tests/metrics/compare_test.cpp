@@ -1,4 +1,4 @@
-// Tests of the comparison of two clips, against each figure alone.
+// Tests of each figure in the comparison of two clips.
 #include <gmock/gmock.h>
 
 #include <limits>
@@ -66,7 +66,7 @@ TEST(CompareClips, LeavesTheCalibrationFrameOut) {
 }
 
 TEST(CompareClips, TellsNoCentimetresWhereTheScaleIsUnknown) {
-  const Take clip = chain_clip(8, 3);  // 8 units long: no person in any unit
+  const Take clip = chain_clip(8, 3);  // 8 units long: not a person in any unit
   EXPECT_FALSE(compare_clips(clip, clip).mpjpe_cm);
   EXPECT_FALSE(compare_clips(clip, clip).rmse_per_marker_m);
 }

@@ -1,4 +1,4 @@
-// Tests of the comparison of marker takes: fits, lags, and samples that one take lacks.
+// Tests of the comparison of marker takes: fits, lags, and samples missing in one take.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ Vec3 path(double s, std::size_t marker) {
           200 * phase + 150 * std::sin(0.7 * s)};
 }
 
-// `place(p, frame, marker)` of each sample of the reference.
+// A take whose samples are `place(p, frame, marker)` for each reference sample p.
 template <class Place>
 Take take_of(const Place& place, std::size_t count = frames) {
   Take clip;
@@ -56,8 +56,8 @@ TEST(CompareMarkers, ATakeWithItselfHasNoError) {
   EXPECT_TRUE(same.unmatched.empty());
 }
 
-// An error of a sin(w t) along x: its mean square is a^2 / 2, its central difference
-// a sin(w / rate) rate cos(w t).
+// The error a sin(w t) along x has the mean square a^2 / 2 and the central difference a sin(w /
+// rate) rate cos(w t).
 TEST(CompareMarkers, ASineHasTheFiguresOfItsClosedForm) {
   const double amplitude = 7, frequency_hz = 4, w = 2 * pi * frequency_hz;
   const MarkerComparison c = compared(take_of([&](Vec3 p, std::size_t f, std::size_t) {
@@ -94,7 +94,7 @@ TEST(CompareMarkers, GainsAndOffsetsOfEachChannelAreFitted) {
   EXPECT_LT(compared(scaled, MarkerFit::gain_offset).all.rms_distance, 1e-6);
 }
 
-// A take that stands still has no error to a reference that is fitted to it.
+// A still take has no error against a reference fitted to it.
 TEST(CompareMarkers, TheFitIsThatToTheTakeBeforeCleaningWhereItIsGiven) {
   const Take still = take_of([](Vec3, std::size_t, std::size_t m) { return path(0, m); });
   const Take raw = take_of([](Vec3 p, std::size_t f, std::size_t) {
@@ -139,7 +139,7 @@ TEST(CompareMarkers, SamplesThatOneTakeLacksDoNotCount) {
 }
 
 TEST(CompareMarkers, OnlyChannelsThatMoveCountWhereThatIsAskedFor) {
-  // z of the reference moves by 106 mm (deviation), x by 212, y by 57.
+  // The reference moves by 106 mm (deviation) in z, 212 in x, and 57 in y.
   const Take other = take_of([](Vec3 p, std::size_t, std::size_t) { return p + Vec3{1, 100, 3}; });
   MarkerComparisonSettings settings;
   settings.least_motion = 80;
@@ -153,7 +153,7 @@ TEST(CompareMarkers, NamesAreFoundWithoutTheirSubjectAndUnitsAreBroughtTogether)
   });
   metres.unit = "m";
   metres.names = {"Ann:C7", "Ann:RASI", "Ann:LWRA"};
-  // C7 comes first there.
+  // C7 is the first marker of this take.
   for (std::size_t f = 0; f < frames; ++f)
     std::swap(metres.positions[3 * f], metres.positions[3 * f + 2]);
   Take whole = reference();

@@ -1,4 +1,4 @@
-// Tests of peak speeds and of the noise in them, by random draws.
+// Tests of peak speeds and the noise in them, by simulation.
 #include "metrics/peaks.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 using test::moving_chain;
 
-// By drawing: one set in twenty holds a longer vector.
+// In a simulation, one set in twenty holds a longer vector.
 TEST(LongestOfNoise, IsPassedByOneSetInTwenty) {
   for (const std::size_t count : {30u, 300u, 3000u}) {
     const int sets = 600000 / static_cast<int>(count);
@@ -32,7 +32,7 @@ TEST(LongestOfNoise, IsPassedByOneSetInTwenty) {
   }
 }
 
-// By drawing.
+// The simulation draws correlated samples.
 TEST(SampleNoise, KnowsHowFarSamplesThatDependOnEachOtherGoApart) {
   const SampleNoise noise{0, 2, 0.8};
   Random random(7);

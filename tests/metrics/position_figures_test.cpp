@@ -1,4 +1,4 @@
-// Tests of the error figures of positions, by hand.
+// Tests of the error figures of positions, against values computed by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,8 +14,8 @@ using test::about_z;
 using test::chain_clip;
 
 TEST(Mpjpe, IsTheMeanDistanceOfJointPositions) {
-  // The root turns by 90 degrees in frame 0: joints at 0, 1, 2 along x go to y. Distances 0, sqrt
-  // 2, 2 sqrt 2.
+  // In frame 0 the root turns by 90 degrees: joints at 0, 1, 2 along x move to y. Distances: 0,
+  // sqrt 2, 2 sqrt 2.
   const Take reference = chain_clip(3, 2);
   Take other = reference;
   other.rotation(0, 0) = about_z(pi / 2);
@@ -33,8 +33,8 @@ TEST(Mpjpe, SeesTheRootsPosition) {
 }
 
 TEST(AccelError, IsTheMeanNormOfTheDifferenceOfSecondDerivatives) {
-  // Frames 0..3; the other's root is off by 1 in frame 1. Second differences of the error: -2, 1 at
-  // 10 Hz.
+  // Frames 0 to 3; the root of the other take is off by 1 in frame 1. Second differences of the
+  // error: -2, 1 at 10 Hz.
   const Take reference = chain_clip(2, 4, 10);
   Take other = reference;
   other.root_position(1) += Vec3{0, 1, 0};

@@ -1,4 +1,4 @@
-// Tests of the error figures of rotations, by hand.
+// Tests of the error figures of rotations, against values computed by hand.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -19,8 +19,8 @@ using test::degree;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-// Three joints, two frames; joint 1 turns about z and joint 2 about x in the reference, nothing
-// else moves.
+// Three joints, two frames: in the reference, joint 1 turns about z and joint 2 about x, and
+// nothing else moves.
 Take two_frame_reference() {
   Take clip = chain_clip(3, 2);
   clip.rotation(1, 0) = about_y(40 * degree);
@@ -63,8 +63,8 @@ TEST(RmsDeg, WrapsDifferencesThatCrossAHalfTurn) {
 }
 
 TEST(RmsDeg, DoesNotMistakeAnotherEulerBranchForADifference) {
-  // ZXY with the x angle above 90 degrees in the reference; the same rotations must give 0, and 1
-  // degree about y 1 degree.
+  // ZXY with the x angle above 90 degrees in the reference. Equal rotations must give 0, and 1
+  // degree about y must give 1 degree.
   Take reference = chain_clip(2, 20), other = reference;
   const RotationOrder order = parse_rotation_order("ZXY");
   for (std::size_t f = 0; f < 20; ++f) {
@@ -113,7 +113,8 @@ TEST(GeodesicRms, IsGivenJointByJoint) {
 TEST(GeodesicPercentile, InterpolatesLinearly) {
   const Take reference = two_frame_reference();
   const Take other = geodesic_example(reference);
-  // Sorted: 0 0 0 3 4 12. numpy.percentile: 99 -> position 4.95; 70 -> 3.5; 100 -> 12; 0 -> 0.
+  // Sorted: 0 0 0 3 4 12. In numpy.percentile, 99 is position 4.95, 70 is 3.5, 100 is 12, and 0 is
+  // 0.
   EXPECT_NEAR(geodesic_percentile_deg(reference, other), 4 + 0.95 * 8, 1e-10);
   EXPECT_NEAR(geodesic_percentile_deg(reference, other, 70), 3.5, 1e-10);
   EXPECT_NEAR(geodesic_percentile_deg(reference, other, 100), 12, 1e-10);
@@ -130,7 +131,7 @@ TEST(PsnrDb, OfAClipWithBrokenValuesIsNoNumber) {
 }
 
 TEST(PsnrDb, ComparesPeakAndMeanSquareOfHalfTheRotationVector) {
-  // One joint of two, one frame of two, turned by 0.4 rad: half vector 0.2; MSE 0.04 / (2 * 2 * 3).
+  // One joint of two in one frame of two turns by 0.4 rad: half vector 0.2; MSE 0.04 / (2 * 2 * 3).
   const Take reference = chain_clip(2, 2);
   Take other = reference;
   other.rotation(1, 1) = exp({0, 0.4, 0});

@@ -1,4 +1,4 @@
-// Tests of calibration poses in real takes: found where they are, and nowhere else.
+// Tests that calibration poses of real takes are found, and no others.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ std::vector<std::filesystem::path> takes_below(const std::string& folder) {
 }
 
 TEST(LeadingCalibrationFramesOfRealTakes, AreFoundInEveryCmuFile) {
-  // Known defects: in these two, frames after the T-pose are all zero.
+  // Known defects: in these two takes, frames after the T-pose are all zero.
   const std::map<std::string, std::size_t> longer{{"07_12", 2}, {"09_10", 5}};
   const auto paths = takes_below("cmu/bvh");
   ASSERT_GT(paths.size(), 200u);
@@ -59,7 +59,7 @@ TEST(LeadingCalibrationFramesOfRealTakes, AreNotInventedInOthers) {
       ++read;
       EXPECT_EQ(leading_calibration_frames(clip), with_pose.count(path.stem().string())) << path;
     } catch (const Error&) {
-      // The malformed ones are the reader's tests.
+      // The tests of the reader cover malformed files.
     }
   }
   EXPECT_GT(read, 100u);

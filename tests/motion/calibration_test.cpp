@@ -1,4 +1,4 @@
-// Tests of work on the frames behind a calibration pose.
+// Tests of processing only the frames after a calibration pose.
 #include "motion/calibration.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t joints = 4, frames = 10, tracks = 3;
 
-// Four joints of which two are translated; no sample is like another.
+// Four joints, two of them translated; all samples differ.
 Take moving_clip() {
   Take clip = test::chain_clip(joints, frames);
   test::add_translations(clip, {1, 3}, Vec3{});

@@ -17,7 +17,7 @@ inline Quat about_x(double angle) { return exp({angle, 0, 0}); }
 inline Quat about_y(double angle) { return exp({0, angle, 0}); }
 inline Quat about_z(double angle) { return exp({0, 0, angle}); }
 
-// All joints at rest, the root at its offset.
+// All joints rest, with the root at its offset.
 inline Take resting_clip(Skeleton skeleton, std::size_t frames, double frame_rate_hz) {
   Take clip;
   clip.frame_rate_hz = frame_rate_hz;
@@ -27,8 +27,8 @@ inline Take resting_clip(Skeleton skeleton, std::size_t frames, double frame_rat
   return clip;
 }
 
-// root -> joint1 -> joint2 ..., each one unit along x from the one before, with an end site at the
-// end. ZXY channels.
+// The chain root -> joint1 -> joint2 ..., each one unit along x from its parent, with an end site
+// and ZXY channels.
 inline Skeleton chain_skeleton(std::size_t joints) {
   Skeleton skeleton;
   const RotationOrder order = parse_rotation_order("ZXY");

@@ -24,8 +24,7 @@ void expect_near(Vec3 a, Vec3 b, double tolerance) {
   EXPECT_NEAR(a.z, b.z, tolerance);
 }
 
-// A chain whose joints have rest rotations, bones in all directions, a hinge and a joint that
-// moves.
+// A chain with rest rotations, bones in all directions, a hinge, and a translated joint.
 Take crooked_clip(std::uint64_t seed) {
   Random random(seed);
   Take clip = moving_chain(5, 40);
@@ -126,7 +125,7 @@ TEST(Resample, LeavesATakeAtItsOwnRateAlone) {
   EXPECT_EQ(scale_lengths(joints, 1).source.document, document);
 }
 
-// The first frame's number is a whole one; what it misses is made up for in the events' times.
+// The first frame's number is an integer; the events' times absorb the remainder.
 TEST(Resample, LeavesEventsAtTheirMomentOfTheMotion) {
   Take clip = line_of_markers(20, 100);
   clip.events = {{"Foot Strike", "Left", 0.5}};

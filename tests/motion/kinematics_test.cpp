@@ -50,12 +50,12 @@ TEST(ForwardKinematics, TurnsALeafWithoutMovingIt) {
 }
 
 TEST(ForwardKinematics, PutsRestRotationsBeforeLocalOnes) {
-  // The joint's frame is turned by 90 degrees about z at rest: its own x axis points along its
+  // At rest, the joint's frame is turned by 90 degrees about z, so its x axis points along its
   // parent's y.
   Take clip = chain_clip(3, 1);
   clip.skeleton.rest_rotations[1] = about_z(pi / 2);
   expect_close(forward_kinematics(clip, 0).positions[2], {1, 1, 0});
-  clip.rotation(0, 1) = about_y(-pi / 2);  // own x to own z, which is the parent's z
+  clip.rotation(0, 1) = about_y(-pi / 2);  // its x axis to its z, the parent's z
   expect_close(forward_kinematics(clip, 0).positions[2], {1, 0, 1});
   clip.skeleton.rest_rotations[0] = about_x(pi / 2);
   expect_close(forward_kinematics(clip, 0).positions[2], {1, -1, 0});
@@ -64,7 +64,7 @@ TEST(ForwardKinematics, PutsRestRotationsBeforeLocalOnes) {
 TEST(ForwardKinematics, ReplacesOffsetsByTranslations) {
   Take clip = chain_clip(4, 2);
   clip.translated_joints = {1, 3};
-  // The root, joint 1 and joint 3, in two frames.
+  // Positions of the root, joint 1 and joint 3, in two frames.
   clip.positions = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 5, 0}, {0, 0, 7}};
   clip.rotation(1, 0) = about_z(pi / 2);
   const Pose pose = forward_kinematics(clip, 1);
@@ -99,7 +99,7 @@ TEST(ForwardKinematics, AgreesWithProductsOfMatrices) {
   clip.root_position(0) = random_vector(random);
   const Pose pose = forward_kinematics(clip, 0);
   for (std::size_t j = 0; j < 6; ++j) {
-    // A point of the joint's frame, carried up to the world joint by joint.
+    // Transforms a point of the joint's frame to the world, joint by joint.
     const Vec3 local{0.3, -0.2, 0.5};
     Vec3 point = local;
     for (auto k = static_cast<std::int32_t>(j); k >= 0;

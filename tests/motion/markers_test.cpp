@@ -1,4 +1,4 @@
-// Tests of takes of markers: names, samples, rules and units.
+// Tests of takes of markers: names, samples, validity and units.
 #include "kinemend/take.hpp"
 
 #include <gtest/gtest.h>

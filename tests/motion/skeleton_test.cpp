@@ -1,4 +1,4 @@
-// Tests of skeletons: rules, channels, and the guessed unit.
+// Tests of skeletons: validity, channels, and the guessed unit.
 #include "kinemend/skeleton.hpp"
 
 #include <gmock/gmock.h>
@@ -22,7 +22,7 @@ auto usage(const char* message) {
                ThrowsMessage<Error>(message));
 }
 
-// A valid skeleton with one thing broken.
+// Makes one change to a valid skeleton and returns a function that validates it.
 template <class Change>
 auto validating(Change change) {
   Skeleton skeleton = chain_skeleton(4);
@@ -33,7 +33,7 @@ auto validating(Change change) {
 TEST(SkeletonRules, AcceptGoodSkeletons) {
   EXPECT_NO_THROW(chain_skeleton(4).validate());
   EXPECT_NO_THROW(chain_skeleton(1).validate());
-  // Several roots, repeated and empty names, channels in any order, an axis that returns.
+  // Several roots, repeated and empty names, channels in any order, and a repeated axis are valid.
   EXPECT_NO_THROW(validating([](Skeleton& s) {
     s.add_joint("", -1, {}, {});
     s.add_joint(

@@ -1,4 +1,4 @@
-// Tests of the names of sources, and of what a file's program says of its motion.
+// Tests of the names of sources, and of the source that a program's name implies.
 #include "kinemend/source.hpp"
 
 #include <gmock/gmock.h>

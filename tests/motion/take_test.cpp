@@ -1,4 +1,4 @@
-// Tests of takes of joints: rules, slices, and leading calibration frames.
+// Tests of takes of joints: validity, slices, and leading calibration frames.
 #include "kinemend/take.hpp"
 
 #include <gmock/gmock.h>
@@ -115,8 +115,8 @@ TEST(Slice, HoldsTheFramesAskedForAndNoSourceDocument) {
   EXPECT_TRUE(slice(moving_chain(2, 4), 1, 3).observed.empty());
 }
 
-// A chain that moves about a pose far from rest, as a person's take does; `pose_frames` frames of
-// T-pose before it.
+// A chain that moves about a pose far from rest, as a person does, after `pose_frames` frames of
+// T-pose.
 Take take_with_pose(std::size_t pose_frames, std::size_t frames) {
   const Take motion = moving_chain(8, frames, 120);
   Take clip = test::resting_clip(motion.skeleton, pose_frames + frames, 120);
@@ -162,7 +162,8 @@ TEST(LeadingCalibrationFrames, FindsNoneInACleanTake) {
 }
 
 TEST(LeadingCalibrationFrames, FindsNoneWhereMotionStartsFromTheRestPose) {
-  // From rest with constant acceleration, fast: 40 degrees a frame at the end.
+  // The motion starts at rest with constant acceleration; the fastest ends at 40 degrees per frame
+  // and more.
   for (const double speed : {0.5, 2.0, 5.0}) {
     Take clip = chain_clip(6, 20, 30);
     for (std::size_t f = 0; f < 20; ++f) {
@@ -171,7 +172,7 @@ TEST(LeadingCalibrationFrames, FindsNoneWhereMotionStartsFromTheRestPose) {
     }
     EXPECT_EQ(leading_calibration_frames(clip), 0u) << speed;
   }
-  // At constant speed from the first frame on, as hand-keyed takes do.
+  // The motion has constant speed from the first frame on, as in hand-keyed takes.
   Take clip = chain_clip(6, 20, 30);
   for (std::size_t f = 0; f < 20; ++f) {
     for (std::size_t j = 1; j < 6; ++j)

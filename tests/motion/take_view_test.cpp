@@ -6,7 +6,7 @@
 namespace kinemend::test {
 namespace {
 
-// Two joints, the second of which has positions of its own.
+// Two joints; the second one has positions of its own.
 Take small_clip() {
   Take clip;
   clip.skeleton.names = {"Hips", "Spine"};

@@ -1,4 +1,4 @@
-// Tests of names that are no labels.
+// Tests which names mark unlabelled points.
 #include "motion/unlabelled.hpp"
 
 #include <gtest/gtest.h>

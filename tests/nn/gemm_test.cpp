@@ -1,4 +1,4 @@
-// Tests of matrix products in both precisions: any shape, and the same bits everywhere.
+// Tests of matrix products in both precisions: any shape, and the same bits on every system.
 #include "nn/gemm.hpp"
 
 #include <gmock/gmock.h>
@@ -14,7 +14,7 @@
 namespace kinemend::nn {
 namespace {
 
-// Everything holds in both precisions.
+// Each test runs in both precisions.
 template <class Real>
 class Gemm : public testing::Test {
  protected:
@@ -31,8 +31,8 @@ double at(const BasicMatrixView<Real>& m, std::size_t r, std::size_t c) {
   return m.values[r * m.row_stride + c * m.column_stride];
 }
 
-// The definition, with the greatest error that rounding may leave: (n + 2) u times the sizes of the
-// n terms, u = 2^-53 or 2^-24; as much again for the sum in doubles that it is compared with.
+// Compares with the definition. The rounding bound is (n + 2) u times the magnitudes of the n
+// terms, u = 2^-53 or 2^-24, plus the same for the reference sum in doubles.
 template <class Real>
 void expect_product(const BasicMatrixView<Real>& a, const BasicMatrixView<Real>& b,
                     const BasicMutableMatrixView<Real>& c) {
@@ -173,7 +173,7 @@ TYPED_TEST(Gemm, GivesTheSameBitsWithAnyNumberOfThreads) {
   EXPECT_EQ(several, one);
 }
 
-// Sums in the order of the depth, block by block: what each instruction set has to give.
+// Every instruction set must sum in the order of the depth, block by block.
 TYPED_TEST(Gemm, SumsInOneOrderOnEveryProcessor) {
   const std::size_t depth = 500;
   const auto a = this->random_values(3 * depth, 11), b = this->random_values(depth * 11, 12);

@@ -13,7 +13,7 @@
 namespace kinemend {
 namespace {
 
-// Numbers and bits by tools/reference/tensors.py.
+// tools/reference/tensors.py wrote the numbers and bits.
 TEST(Half, RoundsAsPythonsStructDoes) {
   const auto rows = test::read_csv("tensors/halves.csv");
   ASSERT_GT(rows.size(), 2000u);

@@ -1,4 +1,4 @@
-// The fixture of layers by LibTorch, and float matrices for tests.
+// The layer fixture from LibTorch, and float matrices for tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 
 namespace kinemend::nn::test {
 
-/// Random weights and inputs, and what LibTorch makes of them (tools/reference/layers.cpp).
+/// Random weights and inputs with LibTorch's results (tools/reference/layers.cpp).
 inline const NamedTensors& expected_of_layers() {
   static const NamedTensors tensors = [] {
     const std::string path = KINEMEND_TEST_FIXTURES "/nn/layers.safetensors";
@@ -36,7 +36,7 @@ struct FloatMatrix {
   MutableMatrixViewF mutable_view() { return {values.data(), rows, columns, columns}; }
 };
 
-/// Within `share` of the size of each number, or of 1.
+/// Expects each number within `share` of its size, or of 1 if that is larger.
 inline void expect_near(const FloatMatrix& found, const Tensor& expected, double share) {
   ASSERT_EQ(found.values.size(), expected.values.size());
   for (std::size_t i = 0; i < found.values.size(); ++i) {

@@ -1,4 +1,4 @@
-// Every instruction set that this processor has gives the same, at addresses that fit no vector.
+// Every instruction set of this processor gives the same result, also at unaligned addresses.
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 using kinemend::test::random_values;
 
-// While it lives, kernels use one instruction set.
+// Restricts the kernels to one instruction set during its lifetime.
 class OneTarget {
  public:
   explicit OneTarget(std::int64_t target) { use(target); }

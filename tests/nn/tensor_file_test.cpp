@@ -1,4 +1,4 @@
-// Tests of tensor files, against the bytes of the reference writer, and of bad ones.
+// Tests of tensor files against the reference writer's bytes, and of invalid files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

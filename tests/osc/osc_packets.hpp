@@ -1,4 +1,4 @@
-// Makes packets of OSC for tests, without the code under test.
+// Makes OSC packets for tests, independently of the code under test.
 #pragma once
 
 #include <cstdint>

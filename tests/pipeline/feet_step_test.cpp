@@ -22,7 +22,7 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 
-/// Changes nothing itself.
+/// A cleaner that changes nothing.
 class Idle final : public Cleaner {
  public:
   std::string_view name() const override { return "idle"; }
@@ -74,7 +74,7 @@ TEST(FeetStep, IsNotTakenUnasked) {
   EXPECT_EQ(off.take.rotations, clip.rotations);
 }
 
-// Learned methods take models of synthetic walks, and the noise that they are for.
+// Learned methods use models of synthetic walks, and the noise that they are trained for.
 class FeetAfter : public testing::TestWithParam<std::string> {};
 
 std::unique_ptr<Cleaner> made(const Method& method) {
@@ -124,7 +124,7 @@ std::vector<std::string> names_of_methods() {
   std::vector<std::string> names;
   for (const Method& method : methods()) {
 #if defined(KINEMEND_SANITIZED)
-    if (method.learned) continue;  // learning takes long in instrumented code
+    if (method.learned) continue;  // training takes long in instrumented code
 #endif
     names.push_back(method.name);
   }
@@ -189,7 +189,7 @@ TEST(FeetStep, StaysWithinTheRangeAndGoesAsFarAsTheStrength) {
   EXPECT_EQ(half.take.rotation(0, 2), clip.rotation(0, 2));
 }
 
-// What is said of a leg does not depend on whether feet are held, but for how far it was moved.
+// The report of a leg does not depend on whether feet are held, except for the distance moved.
 TEST(FeetStep, LeavesTheReportOfTheLegsTrue) {
   const Take clip = sliding_walk();
   const auto strong = make_butterworth({.cutoff_hz = 1});

@@ -1,4 +1,4 @@
-// Real takes with gaps: filling them changes nothing that was measured, and rests on no spike.
+// Real takes with gaps: filling changes no measured sample and is not misled by spikes.
 #include <gtest/gtest.h>
 
 #include "kinemend/clean.hpp"

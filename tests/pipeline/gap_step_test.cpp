@@ -1,4 +1,4 @@
-// What filling gaps adds to a cleaned take, whatever the method: the gaps, and nothing else.
+// Filling changes only the gaps of a cleaned take, whatever the method.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ struct MarkerGaps {
 };
 constexpr MarkerGaps marker_gaps[] = {{4, 100, 107}, {9, 60, 89}, {14, 150, 150}, {21, 110, 199}};
 
-// With noise, and spikes here and there; `spikes_beside`: also next to each gap.
+// Markers with noise and a few spikes; `spikes_beside` adds one next to each gap.
 Take gappy_markers(bool spikes_beside) {
   Take clip = damaged(marker_take("walk", 2), 2, 0.002, 150, 6);
   for (const auto& [marker, first, last] : marker_gaps) {
@@ -43,7 +43,7 @@ Take gappy_markers(bool spikes_beside) {
   return clip;
 }
 
-// A walker whose joints tremble.
+// A walk with jitter in all joints.
 Take walker() {
   Take clip = synthesize({.motion = "walk", .duration_s = 2});
   Random random(3);
@@ -99,7 +99,7 @@ TEST_P(EveryWithFill, AFillingOfMarkersRestsOnNoSpikeBesideIt) {
   for (const auto& [marker, first, last] : marker_gaps) {
     for (std::size_t f = first; f <= last; ++f) {
       ASSERT_TRUE(with.is_observed(f, marker));
-      // The spike is 200 mm; without it one sample less is known, beside others with their noise.
+      // The spike is 200 mm. Without it, one sample less is known, and its neighbours are noisy.
       EXPECT_LT(norm(with.position(f, marker) - without.position(f, marker)), 25)
           << marker << ", frame " << f;
     }
@@ -142,7 +142,7 @@ TEST_P(EveryWithFill, WhatIsFilledIsReportedAsFilled) {
                       [&](std::size_t f, std::size_t j) { return !joints.is_observed(f, j); });
 }
 
-// As a lab would have it: much missing, and noise that is not small.
+// Noise and gaps as in a lab: many missing samples and considerable noise.
 TEST(GapStep, MeasuresTheNoiseOnWhatWasMeasured) {
   const Take truth = marker_take("walk", 4);
   Take clip = damaged(truth, 4, 0.002, 150, 9);

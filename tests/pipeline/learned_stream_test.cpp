@@ -1,4 +1,4 @@
-// The method `learned` on streams: what comes out is what its live form makes of the whole take.
+// The method `learned` on a stream equals its live form on the whole take.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

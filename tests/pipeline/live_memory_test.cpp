@@ -1,4 +1,4 @@
-// Law: a live filter of any method allocates no memory once it is warm.
+// After warm-up, a live filter of any method allocates no memory.
 #include "counting_allocation.hpp"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ class LiveMemory : public testing::TestWithParam<Live> {
 
 #if !defined(KINEMEND_SANITIZED) && defined(__GLIBC__)
 
-// Bytes that the second half of the frames takes from the heap.
+// Bytes allocated in the second half of the frames.
 std::size_t taken_when_warm(Stream& stream, const std::vector<Frame>& frames) {
   Frame out;
   std::size_t came = 0;
@@ -100,7 +100,7 @@ TEST(LearnedMemory, TakesNoneOnceItIsWarm) {
 
 #endif
 
-// What a value is, is never an error.
+// Sample values never cause an error.
 TEST_P(LiveMemory, ThrowsForNoValue) {
   Take clip = moving_take(200, 120);
   std::vector<Frame> frames = frames_of(clip);

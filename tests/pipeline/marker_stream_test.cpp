@@ -1,4 +1,4 @@
-// Streams of markers give the same as the method gives for the whole take.
+// Streams of markers give the same result as the method on the whole take.
 #include <gtest/gtest.h>
 
 #include "kinemend/error.hpp"
@@ -21,7 +21,7 @@ Take live_take() {
   return clip;
 }
 
-// All frames pushed and flushed; checks that every frame comes out at its time.
+// Pushes all frames, flushes, and checks that every frame is output at its time.
 Take run(Stream& stream, const Take& clip) {
   Take result = clip;
   const std::size_t markers = clip.marker_count();

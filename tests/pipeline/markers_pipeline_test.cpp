@@ -14,7 +14,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-// Moves every selected marker, missing ones too.
+// Moves every selected marker, including missing samples.
 class Mover final : public Cleaner {
  public:
   explicit Mover(Vec3 shift, Action stated = Action::denoised) : shift_(shift), stated_(stated) {}
@@ -261,7 +261,7 @@ TEST(Pipeline, FillsTheGapsOfJoints) {
   for (std::size_t f = 100; f < 110; ++f) clip.rotation(f, 5) = exp({2, 0, 0});
   CleanSettings settings;
   settings.fill = FillSettings{};
-  settings.strength = 0.5;  // of the smoothing: a filling is not halfway to what stood in the gap
+  settings.strength = 0.5;  // smoothing only: a filling is not blended with the gap's value
   const CleanResult result = clean_take(clip, *make_auto(), settings);
   ASSERT_THAT(result.report.fill.gaps, SizeIs(1));
   EXPECT_TRUE(result.report.fill.gaps[0].filled) << result.report.fill.gaps[0].reason;

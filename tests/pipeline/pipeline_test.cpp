@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-// Turns every selected joint by `turn` (its own frame) and moves positions by `shift`.
+// Turns every selected joint by `turn` in its own frame and moves positions by `shift`.
 class Turner final : public Cleaner {
  public:
   explicit Turner(Vec3 turn, Vec3 shift = {}) : turn_(turn), shift_(shift) {}
@@ -120,7 +120,7 @@ TEST(Pipeline, PatternsChooseJointsAndTheRest) {
     changed.push_back(output.rotation(2, j) != input.rotation(2, j));
   }
   EXPECT_THAT(changed, ElementsAre(false, true, true, true, false, false, false));
-  EXPECT_EQ(output.positions, input.positions);  // goes with joint 0
+  EXPECT_EQ(output.positions, input.positions);  // selected only with joint 0
 }
 
 TEST(Pipeline, TheRootPositionMayBeLeftAlone) {
@@ -253,7 +253,7 @@ TEST(Report, CountsFramesFromTheTakesFirstAlsoBehindACalibrationPose) {
   EXPECT_EQ(result.take.source.document, input.source.document);
 }
 
-// Still, then 90 degrees in a tenth of a second, then still.
+// The joint rests, turns by 90 degrees in a tenth of a second, and rests again.
 Take punch() {
   Take clip = empty_take(240, 120);
   for (std::size_t f = 0; f < 240; ++f) {
@@ -300,7 +300,7 @@ TEST(Report, DoesNotTakeNoiseOrSpikesForPeaks) {
   for (const std::size_t f : {30, 70, 190})
     input.rotation(f, 2) = input.rotation(f, 2) * exp({1.6, 0, 0});
   const CleanResult fine = clean_take(input, *make_butterworth({.cutoff_hz = 12}));
-  // A spike that a filter smears is no peak that it loses.
+  // Smearing a spike does not count as losing a peak.
   EXPECT_THAT(fine.report.warnings, ElementsAre(HasSubstr("LeftArm: smoothing changes it by ")));
   const TrackSummary& arm = fine.report.tracks[2];
   EXPECT_GT(arm.peak_frames, 1U);

@@ -1,4 +1,4 @@
-// The method `recurrent` on streams: what comes out is what its live form makes of the whole take.
+// The method `recurrent` on a stream equals its live form on the whole take.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -133,7 +133,7 @@ TEST(RecurrentStream, StartsAfreshWhenReset) {
   for (std::size_t f = 0; f < first.size(); ++f) EXPECT_EQ(again[f].rotations, first[f].rotations);
 }
 
-// A value that is no number must not go on in what the network remembers.
+// NaN and infinity must not enter the network's state.
 TEST(RecurrentStream, ForgetsValuesThatAreNoNumbers) {
   const Take clip = noisy_walk(2);
   const auto cleaner = live_cleaner(clip);

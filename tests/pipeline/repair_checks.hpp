@@ -1,4 +1,4 @@
-// The law that a repair is not blended with what it repaired.
+// Checks that a repair is not blended with the value it replaces.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,13 +16,13 @@ namespace kinemend::test {
 
 inline constexpr double spike_deg = 60;
 
-/// Where a sample was thrown off.
+/// The place of an injected spike.
 struct Thrown {
   std::size_t frame, joint;
 };
 
-/// Throws single samples of the given joints off, each about its own axis, no two within `apart`
-/// frames of one joint.
+/// Adds spikes to single samples of the given joints, each about a random axis and at least `apart`
+/// frames from the next one of its joint.
 inline std::vector<Thrown> throw_spikes(Take& clip, const std::vector<std::size_t>& joints,
                                         std::size_t apart, std::uint64_t seed) {
   Random random(seed);
@@ -48,8 +48,8 @@ inline bool is_stated(const std::vector<ReportSpan>& spans, std::size_t frame, s
   return false;
 }
 
-/// At every strength above 0 what the method says it repaired is off by less than a tenth of what
-/// it was thrown off by. Returns how many of `thrown` it repaired.
+/// At every strength above 0, a repaired sample keeps less than a tenth of its spike. Returns how
+/// many of `thrown` were repaired.
 inline std::size_t expect_whole_repairs(const Take& input, const std::vector<Thrown>& thrown,
                                         const Cleaner& cleaner) {
   const CleanResult whole = clean_take(input, cleaner);

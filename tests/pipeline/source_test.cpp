@@ -16,7 +16,7 @@
 namespace kinemend::test {
 namespace {
 
-// Remembers of which source the takes were, and changes nothing.
+// Records the sources of the takes and changes nothing.
 class Listener final : public Cleaner {
  public:
   std::string_view name() const override { return "listener"; }
@@ -111,7 +111,7 @@ TEST(TakeSources, AutoChangesNothingOfKeys) {
   for (const TrackSummary& track : kept.report.tracks) EXPECT_EQ(track.noise, 0) << track.name;
   EXPECT_NE(clean_take(noisy, *make_auto(), given(Source::optical)).take.rotations,
             noisy.rotations);
-  // Who names another method gets what it does.
+  // An explicitly chosen method runs whatever the source.
   EXPECT_EQ(clean_take(noisy, *make_gaussian(), given(Source::keyframed)).take.rotations,
             clean_take(noisy, *make_gaussian()).take.rotations);
 }

@@ -1,4 +1,4 @@
-// Streams of joints give the same as each live method gives for the whole take.
+// Streams of joints give the same result as each live method on the whole take.
 #include "kinemend/stream.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 
 Frame frame_at(const Take& clip, std::size_t f) { return frame_of(view_of(clip), f); }
 
-// All frames pushed and flushed; checks that every frame comes out at its time.
+// Pushes all frames, flushes, and checks that every frame is output at its time.
 std::vector<Frame> run(Stream& stream, const Take& clip) {
   std::vector<Frame> result;
   Frame out;
@@ -42,7 +42,7 @@ void expect_equal(const std::vector<Frame>& live, const Take& offline, std::size
       shift = std::max(shift, norm(live[f].positions[i] - offline.position(f, i)));
   }
   EXPECT_LT(turn, 1e-12);
-  EXPECT_LT(shift, 1e-10);  // of positions of about 100
+  EXPECT_LT(shift, 1e-10);  // for positions of about 100
 }
 
 struct NamedLive {
@@ -53,7 +53,7 @@ struct NamedLive {
   friend void PrintTo(const NamedLive& live, std::ostream* out) { *out << live.name; }
 };
 
-// Every method of the table that runs live as it is, and the causal forms of the others.
+// Every method that runs live by default, and the causal forms of the others.
 std::vector<NamedLive> live_methods() {
   std::vector<NamedLive> list;
   for (const std::string& name : method_names()) {
@@ -131,12 +131,11 @@ TEST_P(LiveMethod, IsDelayedByTheSameNumberOfFramesFromTheFirstOn) {
   const auto stream = make_stream(*cleaner_, clip);
   const std::size_t latency = stream->latency_frames();
   EXPECT_EQ(latency, cleaner_->live(view_of(clip))->lookahead());
-  run(*stream, clip);  // checks each frame's time
+  run(*stream, clip);  // also checks each frame's time
   EXPECT_EQ(stream->latency_frames(), latency);
 }
 
-// Two takes that differ only in the samples of joint 2 where it was not seen, from `begin` to
-// `end`.
+// Two takes that differ only in joint 2's missing samples from frame `begin` to `end`.
 std::pair<Take, Take> unlike_where_unseen(Take a, std::size_t begin, std::size_t end) {
   Take b = a;
   a.observed.assign(a.rotations.size(), 1);

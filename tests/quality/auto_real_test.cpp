@@ -1,5 +1,5 @@
-// The default method on real takes: the figures that the best scripts of its users reach, and the
-// promise to leave clean takes alone.
+// The default method on real takes: it reaches the figures of its users' best scripts and leaves
+// clean takes alone.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -19,8 +19,8 @@ struct Gate {
   double p99;
 };
 
-// What a method makes of a take at its defaults; `kalman-learned`, of which no model ships, with
-// one of other takes, most of them of the same motions.
+// A method's result at its defaults. `kalman-learned`, which ships without a model, uses one of
+// other takes, mostly of the same motions.
 Take cleaned_by_default(const Take& clip, const Method& method) {
   if (method.name != "kalman-learned") return cleaned(clip, method.name);
   static const auto model = std::make_shared<const Model>(train_model(
@@ -63,8 +63,8 @@ TEST_P(AutoOnRealTakes, BeatsEveryFilterWithFixedParameters) {
 TEST_P(AutoOnRealTakes, AndEveryOtherMethodBeatsTheDamageByItsMargin) {
   const Take truth = real_clip(GetParam().clip);
   const Take noisy = damaged(truth, 1.5, 0, 21), spiked = damaged(truth, 0, 0.01, 21);
-  // Share of the damage that may be left: of white noise, or of spikes for the methods that look
-  // for those. The network of `recurrent` has learned noise of each channel's size.
+  // Share of the damage that may remain: white noise, or spikes for methods that detect them. The
+  // network of `recurrent` is trained on noise in proportion to each channel's motion.
   const std::map<std::string, double, std::less<>> of_noise{
       {"auto", 0.45},       {"bilateral", 0.85}, {"nonlocal", 0.75},      {"gaussian", 0.75},
       {"butterworth", 0.8}, {"wavelet", 0.7},    {"weighted-mean", 0.75}, {"kalman", 0.8},
@@ -94,8 +94,7 @@ INSTANTIATE_TEST_SUITE_P(Gates, AutoOnRealTakes,
                                          Gate{"09_03", 1.10, 3.0}),
                          [](const auto& gate) { return "Take" + std::string(gate.param.clip); });
 
-// Impulses of one size on takes that are otherwise clean: nothing that is the take's own is taken
-// for one.
+// Impulses of one size on otherwise clean takes: real motion is not taken for an impulse.
 TEST(AutoOnImpulses, ReachesSixtyFiveDecibels) {
   for (const char* name : {"09_03", "02_05", "01_01"}) {
     const Take truth = real_clip(name);
@@ -119,8 +118,8 @@ INSTANTIATE_TEST_SUITE_P(Kinds, AutoOnCleanTakes,
                                          "16_02", "16_33", "08_10", "49_01", "82_04", "131_05"),
                          [](const auto& clip) { return "Take" + std::string(clip.param); });
 
-// Captures in which a thumb flips by half a turn for a frame or two: those samples are no motion,
-// and nothing else is touched.
+// Captures in which a thumb flips by half a turn for a frame or two. Those samples are not motion,
+// and no other sample changes.
 class AutoOnTakesWithFlips : public testing::TestWithParam<const char*> {};
 
 TEST_P(AutoOnTakesWithFlips, RepairsTheFlipsAndNothingElse) {

@@ -1,5 +1,4 @@
-// The default method on takes that the project makes itself, and the bugs that users of such tools
-// report.
+// The default method on synthetic takes, and problems that users of such tools report.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,8 +24,8 @@ Take shipped(const char* name) {
   return read_joints(std::string(KINEMEND_TAKES) + "/" + name).take;
 }
 
-/// Four joints in a chain: the first turns through +-180 degrees of yaw, the second reaches 88
-/// degrees of pitch.
+/// A chain of four joints: the first passes +-180 degrees of yaw, and the second reaches 88 degrees
+/// of pitch.
 Take turning_chain() {
   Take clip;
   const RotationOrder order = parse_rotation_order("ZYX");
@@ -48,7 +47,7 @@ Take turning_chain() {
   return clip;
 }
 
-// Noise that moves some axes much more than others: half of what each channel does.
+// The noise is half of each channel's motion, so it moves some axes much more than others.
 TEST(Auto, BeatsGaussiansOfAnyWidthWhereNoiseHasDirections) {
   for (const char* motion : {"walk", "run", "punch"}) {
     const Take truth = take(motion);
@@ -187,7 +186,7 @@ TEST(Auto, KeepsTheContactOfALanding) {
 TEST(Auto, LeavesUntouchedJointsBitwiseAlone) {
   Take noisy = damaged(take("wave", 3), 1.5, 0.004, 12);
   const Take truth = take("wave", 3);
-  // Fingers as captured by a glove, exact.
+  // The fingers are exact, as from a glove.
   std::vector<std::size_t> exact;
   for (std::size_t j = 0; j < noisy.joint_count(); ++j) {
     if (noisy.skeleton.names[j].find("Hand") == std::string::npos) continue;
@@ -233,7 +232,7 @@ TEST(Auto, KeepsATPoseOutOfTheMotion) {
             0.0);
 }
 
-// The largest angle between two clips over all joints of some frames, degrees.
+// The largest angle between two clips over all joints in frames `first` to `last`, degrees.
 double largest_difference(const Take& a, const Take& b, std::size_t first, std::size_t last) {
   double largest = 0;
   for (std::size_t f = first; f < last; ++f) {
@@ -245,7 +244,7 @@ double largest_difference(const Take& a, const Take& b, std::size_t first, std::
 }
 
 TEST(Auto, KeepsAFrozenFirstFrameOutOfTheMotion) {
-  // The recorder wrote the last pose of the take before into its first frame.
+  // The recorder wrote the last pose of the previous take into the first frame.
   const Take truth = take("walk", 4);
   const Take noisy = damaged(truth, 1.5, 0, 21);
   Take with_stale_frame = noisy;

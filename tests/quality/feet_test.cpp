@@ -1,4 +1,4 @@
-// Feet that stand tell of the whole leg: what that is worth after cleaning.
+// Tests that standing feet improve the whole leg after cleaning.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace kinemend::quality {
 namespace {
 
-// Figures of a noisy walk, cleaned by `auto`, against its truth.
+// Figures of a noisy walk cleaned by `auto`, against the ground truth.
 struct Outcome {
   double slide = 0, legs_deg = 0, position = 0;
 
@@ -27,7 +27,7 @@ struct Outcome {
   }
 };
 
-// A foot that stands is a measurement: the whole leg is nearer to the truth with it.
+// A standing foot is a measurement that brings the whole leg nearer to the truth.
 TEST(FeetOfNoisyTakes, SlideLessAndLegsAreNoWorse) {
   for (const char* motion : {"walk", "stroll"}) {
     for (const std::uint64_t seed : {1, 2, 3}) {

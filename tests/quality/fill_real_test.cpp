@@ -1,4 +1,4 @@
-// Gaps made in real takes are filled within bounds of error, and promised errors hold.
+// Artificial gaps in real takes are filled within error bounds, and expected errors hold.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -22,8 +22,8 @@ Take take_points(const std::string& path, std::size_t skip, std::size_t most) {
 }
 
 struct Figures {
-  double mean = 0;   ///< over seeds, of the mean distance to the truth
-  double worst = 0;  ///< seed
+  double mean = 0;   ///< mean over seeds of the mean distance to the truth
+  double worst = 0;  ///< worst seed
   std::size_t refused = 0;
 };
 
@@ -75,13 +75,13 @@ TEST(FillRealTakes, AHundredAndTwentyFramesOfALongTakeAreOffByLessThanNineMillim
   EXPECT_LT(f.worst, 14.0);
 }
 
-// Other bodies, rooms and movements.
+// The takes have other bodies, rooms and movements.
 TEST(FillRealTakes, OtherTakesAreOffByAsLittle) {
   EXPECT_LT(fill_figures(take_points("cmu/c3d/05_13.c3d", 0, body_markers), 120).mean, 10.0);
   EXPECT_LT(
       fill_figures(take_points("c3d/other/HDM_bd_05-01_01_120.c3d", 3, body_markers), 120).mean,
       3.0);
-  // Nine points of the legs and the pelvis: joint centres, no clusters.
+  // The nine points are joint centres of legs and pelvis, without clusters.
   EXPECT_LT(fill_figures(take_points("paired/S02-Trial-Walk-1-vicon.c3d", 0, 9), 100).mean, 10.0);
 }
 
@@ -94,7 +94,7 @@ TEST(FillRealTakes, AutoIsBetterThanEachMethodByItself) {
   }
 }
 
-// Promises, over takes that nothing was chosen with: no subject of these is among those that are.
+// Expected errors on takes of subjects on which no constant was chosen.
 struct Promises {
   std::vector<fill::Kept> kept;
 
@@ -106,7 +106,7 @@ struct Promises {
     }
   }
 
-  // `least`: a short gap's error that counts.
+  // `least` is the smallest error of a short gap that is counted.
   fill::Figures figures(const char* what, double least) const {
     const fill::Figures f = fill::figures_of(kept, least);
     printf(
@@ -136,7 +136,7 @@ TEST(FillRealTakes, PromisesOfMarkersHoldOnTakesOfOthers) {
   EXPECT_EQ(f.worse_than_spline, 0U);
 }
 
-// A heel in its swing, seen for three seconds at 60 Hz: what lies nearest in time is slower.
+// A swinging heel, seen for three seconds at 60 Hz: frames nearest in time are slower.
 TEST(FillRealTakes, PromisesHoldForAHeelInItsSwing) {
   const Take truth = take_points("c3d/btk/c3d.org/sample06/MACsample.c3d", 0, body_markers);
   const std::size_t heel = fill::track_of(truth, "LHEE"), length = 20;
@@ -159,7 +159,7 @@ TEST(FillRealTakes, PromisesHoldForAHeelInItsSwing) {
   EXPECT_GE(static_cast<double>(within_twice), 0.87 * static_cast<double>(gaps));
 }
 
-// At 50 Hz six frames are longer than the gaps in which a spline goes first.
+// At 50 Hz, six frames are longer than the gaps for which a spline is tried first.
 TEST(FillRealTakes, GapsOfSixFramesAtFiftyHertzAreSeldomWorseThanTwiceTheSpline) {
   const Take truth = take_points("c3d/btk/c3d.org/sample01/Eb015si.c3d", 0, body_markers);
   std::size_t gaps = 0, worse = 0;

@@ -1,4 +1,4 @@
-// Points of real takes with gaps made in them.
+// Points of real takes with artificial gaps.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,8 @@
 
 namespace kinemend::quality {
 
-/// `most` points of a take from number `skip` on: what comes behind them are angles and the like.
+/// The points of a take from number `skip` on, at most `most`; later ones are angles and similar
+/// data.
 inline Take points_of(const std::filesystem::path& path, std::size_t skip, std::size_t most) {
   const Take all = read_take(path).take;
   std::vector<std::size_t> kept;
@@ -34,7 +35,7 @@ inline Take points_of(const std::filesystem::path& path, std::size_t skip, std::
   return clip;
 }
 
-/// Three gaps in each of five markers, at places drawn by the seed.
+/// Adds three gaps to each of five markers, at random places.
 inline Take with_gaps(const Take& truth, std::size_t length, std::uint64_t seed) {
   constexpr std::size_t damaged_markers = 5, apart = 10;
   Take clip = truth;

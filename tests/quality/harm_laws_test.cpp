@@ -1,6 +1,5 @@
-// The law of harm: the default method gives clean takes back, whatever their rig, rate, length,
-// style and way of making, by takes that the project makes. docs/methods/learned.md has the figures
-// of takes of other studios.
+// Tests on synthetic takes that the default method returns clean takes, whatever their rig, rate,
+// length, style and origin. docs/methods/learned.md has the figures for takes of other studios.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +30,7 @@ Take renamed(Take take) {
   return take;
 }
 
-// The same motion under the same names, with other bone axes and another rest pose.
+// The same motion with the same names, other bone axes and another rest pose.
 Take on_another_rig(const Take& take) { return on_turned_rig(take, rig_turns(take, 1.5)); }
 
 Take played_faster(Take take, double factor) {
@@ -39,7 +38,7 @@ Take played_faster(Take take, double factor) {
   return take;
 }
 
-// Keys at a lower rate; between them straight turns, or the last key until the next.
+// Keyframes at a lower rate, interpolated by straight turns or held until the next one.
 Take keyframed(const Take& take, double keys_hz, bool is_held) {
   const auto step =
       std::max<std::size_t>(2, static_cast<std::size_t>(std::lround(take.frame_rate_hz / keys_hz)));
@@ -59,7 +58,7 @@ Take keyframed(const Take& take, double keys_hz, bool is_held) {
 struct Style {
   std::string name;
   std::function<Take(const Take&)> of;
-  bool is_live = true;  // streams come from systems, and those hold samples of a lower rate
+  bool is_live = true;  // streams come from capture systems, which hold samples of a lower rate
 };
 const std::vector<Style> styles{
     {"as it is made", [](const Take& take) { return take; }},
@@ -73,8 +72,8 @@ const std::vector<Style> styles{
 };
 
 struct Harm {
-  double rms = 0;        // over all tracks: degrees, or file units (centimetres) of markers
-  double peak_loss = 0;  // of tracks that are faster than 100 degrees or 50 cm a second
+  double rms = 0;        // over all tracks: degrees, or file units (centimetres) for markers
+  double peak_loss = 0;  // for tracks faster than 100 degrees or 50 cm per second
 };
 
 Harm harm_of(const Take& take, const Cleaner& cleaner) {
@@ -91,8 +90,8 @@ Harm harm_of(const Take& take, const Cleaner& cleaner) {
   return harm;
 }
 
-// Whatever `auto` measures to be noise, as in runs with few keys, may go, and three quarters more:
-// a run in steps looks like held noise.
+// Where `auto` measures noise, as in runs with few keys, up to 1.75 times its change is allowed: a
+// run in steps looks like held noise.
 void expect_little_harm(const Take& take, const Harm& harm, double most_rms,
                         const std::string& what) {
   constexpr double most_peak_loss = 0.11, more_than_measured = 1.75;
@@ -118,7 +117,7 @@ void expect_law_at(double frame_rate_hz) {
         const Harm harm = harm_of(take, *learned);
         changes.push_back(harm.rms);
         expect_little_harm(take, harm, 1.0, what);
-        // A stream of a run is fast from its first frame on, and no noise is measured.
+        // A stream of a run is fast from its first frame on, so no noise is measured.
         if (style.is_live && duration_s > 1)
           expect_little_harm(take, harm_of(take, *live), 1.5, what + ", live");
       }
@@ -128,7 +127,7 @@ void expect_law_at(double frame_rate_hz) {
   EXPECT_LE(quantile_of(changes, 0.9), 0.1);
 }
 
-// Noise that needs the body: each joint by itself shows little of it.
+// Noise that can only be recognised from the whole body; single joints show little of it.
 Take with_slow_noise(Take take) {
   Random random(7);
   std::vector<Vec3> noise(take.joint_count());
@@ -142,7 +141,7 @@ Take with_slow_noise(Take take) {
   return take;
 }
 
-// Root mean square of the angles between two takes, and between the first and what it came from.
+// Compares the angle between two results with that between result and input (root mean squares).
 TEST(HarmLaw, TheSameMotionOnAnotherRigIsCleanedAlike) {
   const Take noisy =
       with_slow_noise(synthesize({.motion = "walk", .duration_s = 6, .frame_rate_hz = 60}));
@@ -158,7 +157,7 @@ TEST(HarmLaw, TheSameMotionOnAnotherRigIsCleanedAlike) {
     double difference = 0, change = 0;
     for (std::size_t f = 0; f < own.frame_count(); ++f) {
       for (std::size_t j = 1; j < own.joint_count(); ++j) {
-        // Fingers that the model does not know are smoothed axis by axis.
+        // Fingers unknown to the model are smoothed axis by axis.
         if (own.skeleton.names[j].ends_with("2") || own.skeleton.names[j].ends_with("Thumb1"))
           continue;
         const double apart = angle_between(own.rotation(f, j), other.rotation(f, j)),

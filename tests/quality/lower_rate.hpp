@@ -1,4 +1,4 @@
-// Makes clips of which only some frames were measured.
+// Makes clips in which only every n-th frame was measured.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace kinemend::quality {
 
-/// A clip of which only every step-th frame was measured: the frames between repeat the one before
-/// (`is_held`) or lie on the arc to the next; the take ends with a measurement then.
+/// A clip in which only every step-th frame was measured. The frames between repeat the one before
+/// (`is_held`) or lie on the arc to the next one; then the take ends with a measurement.
 inline Take of_lower_rate(Take clip, std::size_t step, bool is_held) {
   if (!is_held) clip = slice(clip, 0, clip.frame_count() - (clip.frame_count() - 1) % step);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {

@@ -1,4 +1,4 @@
-// Takes of a lower rate than their own: samples that were held or interpolated.
+// Tests of takes whose samples are held or interpolated from a lower rate.
 #include "quality/lower_rate.hpp"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, AutoOnALowerRate,
                                   (kind.param.is_held ? "Held" : "Interpolated");
                          });
 
-// Of each frame of `whole` the last sample of a take of a lower rate.
+// Each frame of `whole` shows the last sample of a take of a lower rate.
 Take shown_in(Take whole, const Take& low) {
   for (std::size_t f = 0; f < whole.frame_count(); ++f) {
     const double time_s = static_cast<double>(f) / whole.frame_rate_hz;

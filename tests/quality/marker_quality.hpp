@@ -16,12 +16,12 @@ inline Take cleaned_markers(const Take& clip, std::string_view method,
   return clean_take(clip, *make_cleaner(method, options)).take;
 }
 
-/// Damage as it happens: white noise of `noise_mm` per axis, and 0.5 % of the samples 100 mm off.
+/// Typical damage: white noise of `noise_mm` per axis, and 0.5 % of the samples 100 mm off.
 inline Take damaged_markers(const Take& truth, double noise_mm, std::uint64_t seed) {
   return test::damaged(truth, noise_mm, 0.005, 100, seed);
 }
 
-/// Every method but `auto` at its defaults, of those that learn nothing.
+/// Every method except `auto` and the learned ones, at its defaults.
 inline std::vector<std::string> other_methods() {
   std::vector<std::string> names;
   for (const Method& method : methods()) {

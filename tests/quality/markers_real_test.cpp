@@ -1,4 +1,4 @@
-// The methods auto and learned on optical takes of the CMU database, and on the same with known
+// The methods `auto` and `learned` on optical takes of the CMU database, with and without known
 // damage.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ Take real_take(const char* name) {
   return read_take(folder / "cmu" / "c3d" / name).take;
 }
 
-// As much of it as says enough: 10 s of 41 markers, 2 s of 330.
+// A part that is long enough: 10 s of 41 markers, 2 s of 330.
 Take part(const Take& clip) {
   const std::size_t frames = clip.marker_count() > 100 ? 240 : 1200;
   return slice(clip, 0, std::min(clip.frame_count(), frames));

@@ -1,4 +1,4 @@
-// The method auto, and learned, on markers of synthetic bodies.
+// The methods `auto` and `learned` on markers of synthetic bodies.
 #include <gtest/gtest.h>
 
 #include "kinemend/experimental/corrupt.hpp"
@@ -74,7 +74,7 @@ TEST(AutoOnMarkers, HoldsWithGapsInEveryMarker) {
   EXPECT_LT(rms_distance(cleaned_markers(noisy, "auto"), truth), 1.2 * whole);
 }
 
-// Video stands on a floor of fast noise that slow noise has no word for.
+// Video has a floor of fast noise that a model of slow noise does not cover.
 TEST(AutoOnMarkers, LeaveNoTremblingOfVideo) {
   for (const char* motion : {"walk", "wave"}) {
     const Take truth = marker_take(motion, 20, 60);

@@ -1,4 +1,4 @@
-// What is said of a take's noise, and what is told of it.
+// Tests of measured noise in reports, and of noise given as known.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -73,8 +73,8 @@ TEST(NoiseFound, IsWhatACheckFindsBeforeCleaning) {
   EXPECT_EQ(checked.noise[0].strength, cleaned.noise[0].strength);
 }
 
-// Of noise whose samples depend on each other, speeds over a few frames are smaller than of white
-// noise of the same highest frequencies.
+// Speeds over a few frames are smaller for correlated noise than for white noise with the same
+// highest frequencies.
 TEST(NoiseFound, SlowNoiseThatGoesIsNoPeakThatFalls) {
   for (const double correlation : {0.0, 0.8, 0.95}) {
     const CleanReport report = report_of(with_noise(walk(), 1.5, correlation, 4));
@@ -86,7 +86,7 @@ TEST(KnownNoise, IsGoneByInPlaceOfWhatIsFound) {
   const Take truth = walk(), noisy = with_noise(truth, 1.5, 0.8, 5);
   CleanSettings white;
   white.noise.emplace();
-  // The report says what was measured, whatever is given.
+  // The report states the measured noise, even if another one is given.
   EXPECT_EQ(report_of(noisy, white).noise.at(0).correlation,
             report_of(noisy).noise.at(0).correlation);
   EXPECT_GT(error_of(truth, noisy, white), 1.2 * error_of(truth, noisy));
@@ -97,7 +97,7 @@ TEST(KnownNoise, IsGoneByInPlaceOfWhatIsFound) {
   EXPECT_LT(error_of(truth, noisy, known), 1.03 * error_of(truth, noisy));
 }
 
-// One second shows too little of it by itself.
+// One second alone is too short to measure the noise.
 TEST(KnownNoise, OfALongTakeServesAShortOneOfTheSameSystem) {
   const CleanReport found = report_of(with_noise(walk(8), 1.5, 0.8, 6));
   CleanSettings known;

@@ -1,4 +1,4 @@
-// Real pairs: one motion seen by a video or depth camera and by optical markers.
+// Real pairs of takes: one motion from a video or depth camera and from optical markers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ Take half_of(const std::string& pair, const std::string& half) {
   return read_take(folder / "real" / (pair + "." + half + ".trc")).take;
 }
 
-// Root mean square of the difference of velocities, units a second.
+// Root mean square of the velocity difference, units per second.
 double velocity_error(const Take& a, const Take& b) {
   double sum = 0, count = 0;
   for (std::size_t f = 1; f + 1 < a.frame_count(); ++f) {
@@ -47,7 +47,7 @@ TEST_P(RealPairs, LeaveTheirReferenceAlone) {
   EXPECT_LT(test::rms_distance(cleaned_markers(reference, "auto"), reference), 0.3);
 }
 
-// Slow dances, whose markers hardly move, at the rates of video and depth cameras.
+// Slow dances whose markers hardly move, at the rates of video and depth cameras.
 TEST(CleanMarkersAtLowRates, AreLeftAlone) {
   const std::filesystem::path folder = KINEMEND_DATA_FOLDER;
   for (const char* take : {"49_09", "49_22"}) {
@@ -60,7 +60,7 @@ TEST(CleanMarkersAtLowRates, AreLeftAlone) {
   }
 }
 
-// White, but in proportion to the motion of each channel: quiet joints have next to none.
+// White noise in proportion to the motion of each channel: quiet joints have almost none.
 TEST(NoiseOfEachChannel, IsNotTakenForSlow) {
   const std::filesystem::path folder = KINEMEND_DATA_FOLDER;
   for (const char* take : {"07_11", "08_02", "09_03"}) {

@@ -47,7 +47,7 @@ inline Figures figures(const Take& truth, const Take& other) {
   return {geodesic_rms_deg(truth, other), geodesic_percentile_deg(truth, other, 99)};
 }
 
-/// Every filter with fixed parameters, over the settings a person would try.
+/// Every filter with fixed parameters, over the settings that a user would try.
 inline std::vector<std::pair<std::string, OptionValues>> fixed_filters() {
   std::vector<std::pair<std::string, OptionValues>> list;
   for (const double width : {0.01, 0.02, 0.03, 0.04, 0.06}) {

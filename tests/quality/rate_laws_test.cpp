@@ -1,5 +1,5 @@
-// Laws over every rate that a take may have: results are finite, and what they cost goes by the
-// number of frames, not by the rate.
+// Tests over every valid frame rate: results are finite, and their cost depends on the number of
+// frames, not on the rate.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,7 +55,7 @@ Take walk_of_markers(std::size_t frames, double rate_hz) {
   return clip;
 }
 
-// What was taken from the heap, ever and at once; zero under sanitizers.
+// Bytes allocated in total and at peak; zero under sanitizers.
 struct Cost {
   std::size_t taken = 0, peak = 0;
 };
@@ -66,13 +66,13 @@ Cost cost_of(const std::function<void()>& action) {
   return {memory_taken - before, peak};
 }
 
-// `run` does something with takes of so many frames and this rate.
+// Expects that `run(frames, rate)` costs about the same at every rate.
 void expect_cost_by_frames(const std::function<void(std::size_t, double)>& run,
                            const std::vector<std::size_t>& sizes = {few_frames, more_frames}) {
-  // How many threads hold their memory at a time is up to the system.
+  // With several threads, the system decides how many hold memory at a time.
   const ThreadLimit one_thread(1);
   for (const std::size_t frames : sizes) {
-    run(frames, 120);  // what is made once and kept
+    run(frames, 120);  // fills caches
 #if !defined(KINEMEND_SANITIZED)
     ASSERT_GT(cost_of([&] { run(frames, 120); }).taken, 0U);
 #endif
@@ -84,7 +84,8 @@ void expect_cost_by_frames(const std::function<void(std::size_t, double)>& run,
     for (const double rate_hz : rates_hz) {
       SCOPED_TRACE(testing::Message() << frames << " frames at " << rate_hz << " Hz");
       const Cost cost = cost_of([&] { run(frames, rate_hz); });
-      // Rounds of iterations and trials differ; what goes by the rate differs a hundredfold.
+      // The number of iterations and trials varies a little; a dependence on the rate would be a
+      // hundredfold.
       constexpr std::size_t slack = 1 << 18, rounds = 6;
       EXPECT_LE(cost.taken, rounds * usual.taken + slack);
       EXPECT_LE(cost.peak, usual.peak + usual.peak / 2 + slack);
@@ -92,7 +93,7 @@ void expect_cost_by_frames(const std::function<void(std::size_t, double)>& run,
   }
 }
 
-// Words for numbers that are none.
+// Expects that the text holds neither "inf" nor "nan" as a word.
 void expect_words(const std::string& text) {
   for (const char* word : {"inf", "nan"}) {
     const std::size_t at = text.find(word);
@@ -123,7 +124,7 @@ std::unique_ptr<Cleaner> made(const std::string& method) {
 
 std::vector<std::string> every_method() {
 #if defined(KINEMEND_SANITIZED)
-  return method_names();  // those with a model are slow, and nothing is counted
+  return method_names();  // methods with a model are slow here, and allocations are not counted
 #else
   std::vector<std::string> names;
   for (const Method& method : methods()) names.push_back(method.name);
@@ -131,7 +132,7 @@ std::vector<std::string> every_method() {
 #endif
 }
 
-// Of those with a model, `learned` is the one whose model knows markers.
+// Of the methods with a model, only `learned` supports markers.
 std::vector<std::string> methods_for_markers() {
   std::vector<std::string> names = method_names();
 #if !defined(KINEMEND_SANITIZED)
@@ -140,7 +141,8 @@ std::vector<std::string> methods_for_markers() {
   return names;
 }
 
-// Those that run live with their own options; those with a model have tests of their own streams.
+// Methods that run live with their default options; methods with a model have separate stream
+// tests.
 std::vector<std::string> methods_that_run_live() {
   std::vector<std::string> names = method_names();
   std::erase_if(
@@ -151,7 +153,7 @@ std::vector<std::string> methods_that_run_live() {
 class EveryRate : public testing::TestWithParam<std::string> {
  protected:
   std::unique_ptr<Cleaner> cleaner_ = made(GetParam());
-  // Those with a model take longer.
+  // Methods with a model are slower.
   std::vector<std::size_t> sizes() const {
     if (find_method(GetParam()).learned) return {few_frames};
     return {few_frames, more_frames};

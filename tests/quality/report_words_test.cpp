@@ -1,4 +1,4 @@
-// What a report says is what happened.
+// Tests that a report describes the result.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -59,8 +59,8 @@ TEST(ReportWords, SmoothingThatIsFarMoreThanNoiseIsSaid) {
 
 class FallBacks : public testing::TestWithParam<const char*> {};
 
-// Where the general model has nothing to say the result is `auto`'s, and so is what the report says
-// of it; and wherever it is, the report names it.
+// Where the general model cannot help, the result and its report are those of `auto`, and the
+// report names each such track.
 TEST_P(FallBacks, AreNamedAndReportedAsWhatTheyAre) {
   std::size_t fallen_back = 0;
   for (const char* motion : {"walk", "wave"}) {
@@ -91,7 +91,7 @@ TEST_P(FallBacks, AreNamedAndReportedAsWhatTheyAre) {
       }
     }
   }
-  EXPECT_GT(fallen_back, 0u);  // joints of fingers, which no model that ships knows
+  EXPECT_GT(fallen_back, 0u);  // finger joints, which no shipped model knows
 }
 
 #if !defined(KINEMEND_SANITIZED)

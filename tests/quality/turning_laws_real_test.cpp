@@ -1,4 +1,4 @@
-// A take that is turned slowly as a whole is cleaned as well as it is unturned.
+// A take that slowly turns as a whole is cleaned as accurately as without the turn.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ Take turned(Take clip, Vec3 speed_deg_s) {
   return clip;
 }
 
-// About a level axis the root turns farther than its channels can say, and is left to `auto`: no
+// About a level axis, the root turns beyond the range of its channels and is cleaned by `auto`; no
 // other joint may suffer.
 TEST(SlowTurns, OfAnyAxisLeaveSparseAsGood) {
   KINEMEND_LONG_TEST();

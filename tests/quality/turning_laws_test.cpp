@@ -1,5 +1,5 @@
-// Takes that turn on and on, stand far from the origin or go on for long: what a method makes of a
-// motion does not depend on these.
+// Long takes, takes far from the origin, and takes that keep turning are cleaned as accurately as
+// short ones.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ Take noisy(const Take& truth, std::uint64_t seed = 7) {
   return clip;
 }
 
-// The whole take_to_turn turns about the origin, or stands elsewhere.
+// Turns the whole take about the origin, or moves it.
 Vec3 turned(Vec3 p, Vec3 speed_deg_s, double time_s) {
   return rotate(exp(radians_per_degree * time_s * speed_deg_s), p);
 }
@@ -53,7 +53,7 @@ Take about_its_middle(const Take& clip) {
 }
 
 struct Squares {
-  double rotations = 0, positions = 0;  // sums over frames
+  double rotations = 0, positions = 0;  // summed over frames
 
   void add(const Take& a, const Take& b) {
     for (std::size_t i = 0; i < a.rotations.size(); ++i)
@@ -71,25 +71,25 @@ class OfAnyMethod : public testing::TestWithParam<std::string> {
   std::unique_ptr<Cleaner> cleaner_ = make_cleaner(GetParam());
 
   Take cleaned(const Take& clip) const { return clean_take(clip, *cleaner_).take; }
-  // Follows travel late by nature, the later the faster.
+  // A causal method lags behind travel, and more so at higher speed.
   bool is_causal() const { return test::runs_without_delay(*cleaner_); }
-  // A filter of fixed weights turns with the take_to_turn; others measure, compare or choose anew.
+  // A filter with fixed weights commutes with turns; other methods measure, compare or choose anew.
   bool has_fixed_weights() const {
     for (const char* name : {"gaussian", "butterworth", "weighted-mean", "kalman"})
       if (GetParam() == name) return true;
     return false;
   }
-  bool is_learned() const { return find_method(GetParam()).learned; }  // and takes longer
+  bool is_learned() const { return find_method(GetParam()).learned; }  // learned methods are slower
   std::vector<Vec3> speeds() const {
     if (is_learned()) return {{0, 60, 0}, {40, 0, 0}, {-20, 30, 20}};
     return {{0, 20, 0}, {0, 60, 0}, {60, 0, 0}, {-20, 30, 20}};
   }
-  // What the error of rotations may grow by. The atoms of `sparse` know how legs follow the pelvis,
-  // and a root that leans far is no pelvis to them; on real takes the growth is smaller.
+  // Allowed growth of the rotation error. The atoms of `sparse` relate the legs to the pelvis, and
+  // a root that leans far is unlike any pelvis; on real takes the growth is smaller.
   double rotation_limit(Vec3 speed_deg_s) const {
     return GetParam() == "sparse" && speed_deg_s.y == 0 ? 1.08 : 1.02;
   }
-  // What the error of the root position may grow by.
+  // Allowed growth of the error of the root position.
   double position_limit() const {
     for (const char* name : {"butterworth", "hampel", "kalman"})
       if (GetParam() == name) return 1.02;
@@ -99,11 +99,11 @@ class OfAnyMethod : public testing::TestWithParam<std::string> {
   }
 };
 
-// About an axis through the take_to_turn, as a person turns who walks in a circle. A position that
-// goes round is another motion: who walks at 1.2 m/s and is turned by 60 degrees a second is
-// accelerated by 2.5 m/s^2, as much as by each step. An average over a window cuts that curve, and
+// The take turns about an axis through itself, as a person does who walks in a circle. A circling
+// position would be another motion: walking at 1.2 m/s and turning by 60 degrees per second gives
+// an acceleration of 2.5 m/s^2, as much as each step. A window average cuts that curve, and
 // strengths chosen by evidence follow it; over many seeds the error of `auto` changes by -5 to 9 %
-// a motion, less and more alike.
+// per motion, less and more alike.
 TEST_P(OfAnyMethod, TheErrorDoesNotDependOnHowTheTakeTurns) {
   if (GetParam() == "sparse" || GetParam() == "example") KINEMEND_LONG_TEST();
   Squares still;
@@ -166,7 +166,7 @@ TEST_P(OfAnyMethod, TheErrorDoesNotGrowWithTheLengthOfTheTake) {
   }
 }
 
-// Methods that look ahead; of those with a model, `learned` is the one whose model knows markers.
+// Methods that look ahead. Of those with a model, only `learned` supports markers.
 class OfAnyMethodForMarkers : public OfAnyMethod {};
 
 TEST_P(OfAnyMethodForMarkers, TurnAndStandAnywhere) {
@@ -207,7 +207,7 @@ std::vector<std::string> with_models_that_ship() {
   std::vector<std::string> names;
   for (const Method& method : methods()) {
 #if defined(KINEMEND_SANITIZED)
-    if (method.learned) continue;  // their products take_to_turn minutes
+    if (method.learned) continue;  // their products take minutes
 #endif
     if (method.name != "kalman-learned") names.push_back(method.name);
   }

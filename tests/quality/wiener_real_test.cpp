@@ -1,6 +1,6 @@
-// The model that ships, on hold-outs of every kind of motion, which it has not seen, and on dance
-// and acrobatics, of which it has seen little else than these takes. (What it makes of subjects
-// that it has not seen is on docs/methods/wiener.md.)
+// The shipped model on hold-outs of every kind of motion, and on dance and acrobatics, for which it
+// was trained on little besides these takes. docs/methods/wiener.md has the figures for subjects
+// outside its training.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -18,8 +18,8 @@ namespace {
 
 struct Damaging {
   const char* name;
-  double noise_deg;      // of white noise; 0: Mall's half of each channel's own deviation
-  double outlier_share;  // of 25 degrees
+  double noise_deg;      // white noise; 0: half of each channel's own deviation, as in Mall et al.
+  double outlier_share;  // outliers of 25 degrees
 };
 constexpr Damaging damagings[] = {{"1 deg", 1, 0}, {"4 deg and spikes", 4, 0.004}, {"half", 0, 0}};
 
@@ -31,7 +31,7 @@ Take damaged_by(const Damaging& damaging, const Take& truth) {
   return clip;
 }
 
-// The error of the Gaussian whose width is the best for this take and this noise.
+// The error of the Gaussian whose width is best for this take and noise.
 double best_gaussian(const Take& noisy, const Take& truth) {
   double best = std::numeric_limits<double>::infinity();
   for (const double width_s :
@@ -45,7 +45,7 @@ double best_gaussian(const Take& noisy, const Take& truth) {
 struct Group {
   const char* name;
   std::vector<const char*> clips;
-  double mean_limits[3];  // of the error over that of the best Gaussian, for each damage
+  double mean_limits[3];  // error relative to the best Gaussian, for each damage
   friend void PrintTo(const Group& group, std::ostream* out) { *out << group.name; }
 };
 
@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(
                           {0.81, 0.78, 0.85}}),
     [](const auto& group) { return std::string(group.param.name); });
 
-// Until the models know the noise of each system, what `auto` finds clean stays as it is.
+// Models do not know the noise of each system yet, so takes that `auto` finds clean stay unchanged.
 class LearnedOnCleanTakes : public testing::TestWithParam<const char*> {};
 
 TEST_P(LearnedOnCleanTakes, ChangesLessThanATwentiethOfADegree) {

@@ -1,5 +1,5 @@
-// Walks at 30 Hz of which a fifth of the samples is thrown off, which `auto` takes for noise: what
-// it makes of such a take holds back no method with a model of other walks of the person.
+// Walks at 30 Hz with a fifth of the samples thrown off, which `auto` takes for noise. Its result
+// does not hold back a method with a model of the person's other walks.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -41,7 +41,7 @@ double error_left(const Cleaner& cleaner, const Take& truth, std::uint64_t seed)
 TEST(DenseOutliersOfRealTakes, ArePutRight) {
   const auto wiener = make_wiener({}, model_of_walks("wiener"));
   const auto example = make_example({}, model_of_walks("example"));
-  // Takes of which `auto` left more than 7 degrees when it took dense outliers for noise.
+  // `auto` left more than 7 degrees in these takes when it took dense outliers for noise.
   for (const auto& [name, seed] : {std::pair{"08_03", 3}, {"08_09", 2}}) {
     const Take truth = resample(walk_of(name), 30);
     const auto draw = static_cast<std::uint64_t>(seed);

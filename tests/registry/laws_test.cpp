@@ -1,4 +1,4 @@
-// Laws that every method in the table keeps, with its default options.
+// Properties of every method in the table, with its default options.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ class Every : public testing::TestWithParam<std::string> {
   }
 };
 
-// Laws of methods that look ahead, and of those that follow the past alone and so lag behind.
+// Separate tests for methods that look ahead and for causal ones, which lag behind.
 class EveryAhead : public Every {};
 class EveryCausal : public Every {};
 
@@ -149,7 +149,7 @@ TEST_P(EveryAhead, KeepsASteadyTurnUpToBothEnds) {
 }
 
 TEST_P(Every, TakesAnyNumberOfFrames) {
-  // Measured: 5.5 degrees at most, but 12 of `butterworth` in two frames.
+  // Measured: at most 5.5 degrees, but 12 for `butterworth` in two frames.
   const double bound = GetParam() == "butterworth" ? 14 : 7;
   for (const std::size_t frames : {0, 1, 2, 3, 4, 7}) {
     Take clip = moving_take(frames, 120);
@@ -162,7 +162,7 @@ TEST_P(Every, TakesAnyNumberOfFrames) {
 }
 
 TEST_P(Every, GivesTheSameOnAnyNumberOfThreads) {
-  Take clip = moving_take(1500, 120);  // enough for the work to be spread
+  Take clip = moving_take(1500, 120);  // enough frames to spread the work
   add_noise(clip, 1.5, 0.5, 3);
   const auto on_threads = [&](std::size_t count) {
     const ThreadLimit control(count);
@@ -212,8 +212,8 @@ TEST_P(EveryAhead, GoesStraightThroughAGap) {
     clip.rotation(f, 2) = {};
   }
   const Take result = cleaned(clip);
-  // The chord over a tenth of a second of this motion is within 8 degrees of it. Measured: 9.2 of
-  // `nonlocal`, 5.3 at most of the others.
+  // The chord over a tenth of a second of this motion is within 8 degrees of it. Measured: 9.2 for
+  // `nonlocal`, at most 5.3 for the others.
   const double bound = GetParam() == "nonlocal" ? 10.5 : 6.5;
   for (std::size_t f = 0; f < truth.frame_count(); ++f) {
     ASSERT_LT(angle_between(result.rotation(f, 2), truth.rotation(f, 2)) * degrees_per_radian,
@@ -222,7 +222,7 @@ TEST_P(EveryAhead, GoesStraightThroughAGap) {
   }
 }
 
-// The delays of the others add up.
+// Causal methods are excluded, because their delays add up.
 TEST_P(EveryAhead, ChangesLittleWhenRunAgain) {
   const Take input = noisy_take();
   const Take once = cleaned(input), twice = cleaned(once);
@@ -235,11 +235,11 @@ TEST_P(Every, BeatsItsDamagedInputOnAWalk) {
   const Take truth = synthesize(options);
   Take damaged = truth;
   Random random(7);
-  // Each against the damage it is made for.
+  // Each method cleans the damage it is made for.
   double margin = GetParam() == "one-euro" ? 0.65 : 0.45;  // measured: 0.59, and 0.40 at most
   if (GetParam() == "hampel") {
     apply_damage(damaged, "outliers", {{"share", 0.01}, {"std_deg", 25.0}}, random);
-    margin = 0.15;  // 0.09
+    margin = 0.15;  // measured: 0.09
   } else {
     apply_damage(damaged, "gaussian", {{"std_deg", 1.5}}, random);
   }
@@ -260,7 +260,7 @@ std::vector<std::string> timed_method_names() {
   return names;
 }
 
-// Methods whose options are times and frequencies do the same to the same motion at every rate.
+// Methods with options in seconds and hertz do the same to the same motion at every rate.
 class EveryTimed : public Every {};
 
 TEST_P(EveryTimed, GoesBySecondsNotByFrames) {
@@ -282,7 +282,7 @@ TEST_P(EveryTimed, GoesBySecondsNotByFrames) {
     wrong += std::pow(angle_between(mislabelled.rotation(f, 2), fast.rotation(2 * f, 2)), 2);
   }
   const auto frames = static_cast<double>(slow.frame_count());
-  EXPECT_LT(std::sqrt(right / frames) * degrees_per_radian, 0.3);  // 0.21
+  EXPECT_LT(std::sqrt(right / frames) * degrees_per_radian, 0.3);  // measured: 0.21
   EXPECT_LE(right, wrong);
 }
 

@@ -1,5 +1,4 @@
-// What the methods `example` and `wiener` promise on takes, with models learned from synthetic
-// walks.
+// Tests of the methods `example` and `wiener` on takes, with models trained on synthetic walks.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -49,7 +48,7 @@ struct LearnedFilter {
 
 class Learned : public testing::TestWithParam<LearnedFilter> {
  protected:
-  // Each model is learned once.
+  // Each model is trained once.
   const Cleaner& cleaner() const {
     static std::map<std::string, std::unique_ptr<Cleaner>> cleaners;
     auto& made = cleaners[GetParam().name];
@@ -89,8 +88,7 @@ TEST_P(Learned, TakesDenseSpikesOut) {
   }
 }
 
-// At 30 Hz `auto` takes a fifth of thrown samples for noise, and what it makes of them is no
-// measure.
+// At 30 Hz, `auto` takes a fifth of outliers for noise, so its result is not a reference.
 TEST_P(Learned, TakesMoreSpikesOutThanAutoTellsFromNoise) {
   const Take truth = walk(4, 30);
   for (const double share : {0.2, 0.25}) {
@@ -226,7 +224,8 @@ TEST(Wiener, TakesNoiseForWhatItIsInEachDirection) {
   EXPECT_LT(error(truth, uneven, *wiener), 0.8 * error(truth, even, *wiener));
 }
 
-// Some of the outliers are spikes to `auto`, and the rest noise: too few to tell from its result.
+// `auto` takes some outliers for spikes and the rest for noise; the rest are too few to show in its
+// result.
 TEST(Wiener, IsNotHeldToAutoWhereItFindsDenseOutliersItself) {
   SynthOptions options{.motion = "run", .duration_s = 4, .frame_rate_hz = 30};
   options.seed = 4;
@@ -235,7 +234,7 @@ TEST(Wiener, IsNotHeldToAutoWhereItFindsDenseOutliersItself) {
   EXPECT_LT(error(truth, input, *wiener), 0.35 * error(truth, input, *make_auto()));
 }
 
-// Both arms missing throughout: where the descent stops is where it would end, within 2 %.
+// Both arms are missing throughout; stopping early changes the result by less than 2 %.
 TEST(Example, StopsWhereLimbsThatAreMissingHaveSettled) {
   const Take truth = walk(4, 30);
   Take input = noisy(truth, 1, 0);

@@ -1,4 +1,4 @@
-// What long takes need: one copy of the take, and word of how far the work is.
+// Tests that long takes need memory for one copy and report progress.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,8 +28,8 @@ Take noisy_stroll(double duration_s) {
   return clip;
 }
 
-// Beside the take itself, which is 32 bytes a rotation. What it takes: the vectors of all joints,
-// marks, and what two threads work on.
+// The peak excludes the take itself (32 bytes per rotation). It holds the vectors of all joints,
+// marks, and the work of two threads.
 TEST(LongTakes, AreCleanedInLittleMoreRoomThanTheyTake) {
   const ThreadLimit control(2);
   const auto cleaner = make_auto();
@@ -37,11 +37,11 @@ TEST(LongTakes, AreCleanedInLittleMoreRoomThanTheyTake) {
   const auto rotations = static_cast<double>(clip.rotations.size());
   const std::size_t peak = peak_memory([&] { clip = clean_take(std::move(clip), *cleaner).take; });
   EXPECT_LT(static_cast<double>(peak), 90 * rotations);
-  EXPECT_GT(static_cast<double>(peak), 10 * rotations);  // counted at all
+  EXPECT_GT(static_cast<double>(peak), 10 * rotations);  // proves that allocations are counted
 }
 
-// With the model that ships: what grows with the take are five vectors of its channels, the marks
-// of its samples and the copy that is handed over; the rest is for one stretch.
+// With the shipped model, memory grows only by five vectors of the take's channels, the marks of
+// its samples, and the copy passed on; the rest is for one stretch.
 TEST(LongTakes, AreCleanedByExampleInRoomThatGrowsLittle) {
   const ThreadLimit control(2);
   const auto cleaner = make_example();
@@ -55,7 +55,7 @@ TEST(LongTakes, AreCleanedByExampleInRoomThatGrowsLittle) {
   whole.frame_rate_hz = 30;
   const double growth = peak_of(whole) - peak_of(slice(whole, 0, whole.frame_count() / 2));
   EXPECT_LT(growth, 150 * static_cast<double>(whole.rotations.size() / 2));
-  // The rate of the take makes little difference: its windows are brought to the model's rate.
+  // The take's rate matters little, because windows are resampled to the model's rate.
   whole.frame_rate_hz = 120;
   const double usual = peak_of(whole);
   whole.frame_rate_hz = 1000;
@@ -102,7 +102,7 @@ TEST_P(EveryOnLongTakes, TellsOfEachStageOnceFromBeginningToEnd) {
   EXPECT_THAT(stages(), ElementsAre("cleaning", "filling", "feet"));
 }
 
-// What a cleaner hands over may take the place of its input at once.
+// A track passed on may replace the input at once.
 TEST_P(EveryOnLongTakes, ReadsNoTrackThatItHasHandedOver) {
   Take clip = moving_take(600, 120);
   add_noise(clip, 1.5, 0.5, 2);

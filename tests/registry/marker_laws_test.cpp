@@ -1,4 +1,4 @@
-// Laws that every method in the table keeps on markers, with its default options.
+// Properties of every method in the table on markers, with its default options.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ class EveryOnMarkers : public testing::TestWithParam<std::string> {
   }
 };
 
-// Laws of methods that look ahead, and of those that follow the past alone.
+// Separate tests for methods that look ahead and for causal ones.
 class EveryAheadOnMarkers : public EveryOnMarkers {};
 class EveryCausalOnMarkers : public EveryOnMarkers {};
 
@@ -77,8 +77,8 @@ TEST_P(EveryOnMarkers, MovesWithTheTake) {
 
 TEST_P(EveryOnMarkers, TurnsWithTheTake) {
   const Take clip = gappy_take();
-  // Wavelets work on each axis by itself, so that only turns onto other axes commute with them. So
-  // does the choice of a strength in `auto`, but for the rounding of its principal axes.
+  // Wavelets work on each axis separately, so they commute only with turns that map axes to axes.
+  // The choice of strength in `auto` does so up to the rounding of its principal axes.
   const Quat by = GetParam() == "wavelet" ? Quat{0.5, 0.5, 0.5, 0.5} : exp({0.3, -1.1, 0.8});
   const auto turn = [&](Vec3 p) { return rotate(by, p); };
   EXPECT_LT(max_distance(cleaned(mapped(clip, turn)), mapped(cleaned(clip), turn)), 1e-3);
@@ -146,10 +146,10 @@ TEST_P(EveryOnMarkers, LeavesMarkersThatWereNotAskedForByteForByte) {
   EXPECT_GT(max_distance(result, clip), 1);
 }
 
-// Nothing is thrown off in so few frames: what a method takes out is noise of 3 mm an axis.
+// There are no outliers in so few frames, only noise of 3 mm per axis.
 TEST_P(EveryOnMarkers, TakesAnyNumberOfFrames) {
   const Take whole = damaged(marker_take(), 3, 0, 0, 1);
-  // Measured: 14.8 mm at most, but 50 mm of `butterworth` in three frames.
+  // Measured: at most 14.8 mm, but 50 mm for `butterworth` in three frames.
   const double bound = GetParam() == "butterworth" ? 60 : 18;
   for (const std::size_t frames : {0, 1, 2, 3, 4, 5, 7}) {
     const Take clip = slice(whole, 0, frames);
@@ -171,7 +171,7 @@ TEST_P(EveryOnMarkers, TakesALonelyMarkerAndNone) {
   const Take result = cleaned(clip);
   EXPECT_NO_THROW(result.validate());
   EXPECT_EQ(result.observed, clip.observed);
-  EXPECT_LT(max_distance(result, clip), 0.02);  // of a slow swing of 1; measured: 0.015 at most
+  EXPECT_LT(max_distance(result, clip), 0.02);  // for a slow swing of 1; measured: at most 0.015
   EXPECT_EQ(cleaned(make_marker_take({}, 0, 100)).frame_count(), 0u);
 }
 
@@ -186,14 +186,14 @@ TEST_P(EveryOnMarkers, GivesTheSameOnAnyNumberOfThreads) {
 
 TEST_P(EveryOnMarkers, IsNotMovedByWhatLiesBeyondALongGap) {
   const Take clip = gappy_take();
-  Take other = clip;  // marker 2 comes back elsewhere
+  Take other = clip;  // marker 2 reappears elsewhere
   for (std::size_t f = 161; f < clip.frame_count(); ++f) other.position(f, 2) += {400, 0, 0};
   Selection selection;
   selection.body_height = body_height(clip);
   Take a = clip, b = other;
   clean_in_place(*cleaner_, a, selection);
   clean_in_place(*cleaner_, b, selection);
-  // `auto` chooses strengths from the whole take, but nothing rings over; measured: 1.2 mm.
+  // `auto` chooses strengths from the whole take, but has no ringing; measured: 1.2 mm.
   const double bound = GetParam() == "auto" ? 1.6 : 1e-9;
   double most = 0;
   for (std::size_t f = 0; f < 100; ++f)
@@ -205,12 +205,12 @@ TEST_P(EveryAheadOnMarkers, BeatsItsDamagedInputOnAWalk) {
   const Take truth = marker_take("walk", 3);
   const bool spikes = GetParam() == "hampel";
   const Take noisy = spikes ? damaged(truth, 0, 0.01, 100, 2) : damaged(truth, 5, 0, 0, 2);
-  // Measured: 0.86 of `hampel`, 0.59 at most of the others.
+  // Measured: 0.86 for `hampel`, at most 0.59 for the others.
   EXPECT_LT(rms_distance(cleaned(noisy), truth),
             (spikes ? 0.9 : 0.65) * rms_distance(noisy, truth));
 }
 
-// A body at rest, where a lag costs nothing.
+// The body rests, so a lag costs nothing.
 TEST_P(EveryCausalOnMarkers, BeatsItsDamagedInputAtRest) {
   Take truth = marker_take("walk", 3);
   for (std::size_t f = 1; f < truth.frame_count(); ++f) {
@@ -221,10 +221,10 @@ TEST_P(EveryCausalOnMarkers, BeatsItsDamagedInputAtRest) {
   EXPECT_LT(rms_distance(cleaned(noisy), truth), 0.5 * rms_distance(noisy, truth));  // 0.41
 }
 
-// On a walk its lag costs about as much as its smoothing brings.
+// On a walk, the lag costs about as much as the smoothing gains.
 TEST_P(EveryCausalOnMarkers, IsNoWorseThanItsDamagedInputOnAWalk) {
   const Take truth = marker_take("walk", 3), noisy = damaged(truth, 5, 0, 0, 2);
-  EXPECT_LT(rms_distance(cleaned(noisy), truth), rms_distance(noisy, truth));  // 0.95 times
+  EXPECT_LT(rms_distance(cleaned(noisy), truth), rms_distance(noisy, truth));  // measured: 0.95
 }
 
 TEST_P(EveryCausalOnMarkers, StaysBehindOnAStraightLineByTheSameTime) {
@@ -250,7 +250,7 @@ TEST_P(EveryAheadOnMarkers, MakesNoBumpAtTheEdgesOfGaps) {
   std::vector<std::pair<std::size_t, std::size_t>> edges;
   for (std::size_t m = 0; m < noisy.marker_count(); ++m) {
     const std::size_t first = 60 + static_cast<std::size_t>(m % 7) * 30;
-    const std::size_t length = m % 2 == 0 ? 20 : 50;  // short and long ones
+    const std::size_t length = m % 2 == 0 ? 20 : 50;  // short and long gaps
     lose(noisy, m, first, first + length - 1);
     for (std::size_t k = 1; k <= 6; ++k) {
       edges.emplace_back(first - k, m);
@@ -264,7 +264,7 @@ TEST_P(EveryAheadOnMarkers, MakesNoBumpAtTheEdgesOfGaps) {
     squares += dot(error, error);
   }
   const double edge_error = std::sqrt(squares / static_cast<double>(edges.size()));
-  // Measured: 1.8 times of `nonlocal`, 1.6 times at most of the others.
+  // Measured: 1.8 times for `nonlocal`, at most 1.6 times for the others.
   EXPECT_LT(edge_error, 1.7 * rms_distance(cleaned(damaged(truth, 2, 0, 0, 3)), truth) + 0.5);
 }
 

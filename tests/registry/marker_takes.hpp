@@ -48,8 +48,8 @@ inline Take marker_take(const std::string& motion = "walk", double duration_s = 
   return take;
 }
 
-/// White noise per axis, and `outlier_share` of the samples thrown off by `outlier` in some
-/// direction.
+/// Adds white noise per axis, and moves `outlier_share` of the samples by `outlier` in random
+/// directions.
 inline Take damaged(Take clip, double noise, double outlier_share, double outlier,
                     std::uint64_t seed) {
   Random random(seed);
@@ -63,7 +63,7 @@ inline Take damaged(Take clip, double noise, double outlier_share, double outlie
   return clip;
 }
 
-/// Root mean square distance of the samples observed in both.
+/// Root mean square distance of the samples observed in both takes.
 inline double rms_distance(const Take& a, const Take& b) {
   double sum = 0, count = 0;
   for (std::size_t i = 0; i < a.positions.size(); ++i) {
@@ -84,7 +84,7 @@ inline double max_distance(const Take& a, const Take& b) {
   return largest;
 }
 
-/// Takes the samples of one marker away.
+/// Hides the samples of one marker.
 inline void lose(Take& clip, std::size_t marker, std::size_t first, std::size_t last) {
   for (std::size_t f = first; f <= last; ++f) {
     clip.observed[f * clip.marker_count() + marker] = 0;

@@ -1,4 +1,4 @@
-// Tests of which methods say that they can clean a take.
+// Tests which methods state that they can clean a take.
 #include "kinemend/experimental/method_choice.hpp"
 
 #include <gmock/gmock.h>

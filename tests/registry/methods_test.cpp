@@ -1,4 +1,4 @@
-// Tests of the table of methods: names, options, and cleaners made from them.
+// Tests of the table of methods: names, options, and creation of cleaners.
 #include "kinemend/methods.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Laws that every method keeps on takes of a few frames.
+// Properties of every method on takes of a few frames.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace kinemend::test {
 namespace {
 
 constexpr std::size_t most_frames = 8;
-// A causal method is late by nature: it may leave a runner's foot behind by so much.
+// A causal method lags and may be further behind a runner's foot.
 constexpr double bound_ahead_mm = 10, causal_bound_mm = 25;
 
 Take first_frames(Take take, std::size_t frames) {
@@ -45,7 +45,7 @@ Take running_joints() {
   return synthesize(options);
 }
 
-// Methods whose model ships are here too: those that know joints alone refuse markers.
+// Methods with a shipped model are included; those for joints only refuse markers.
 std::vector<std::string> methods_that_need_no_file() {
   std::vector<std::string> names;
   for (const Method& method : methods()) {
@@ -81,7 +81,7 @@ TEST_P(EveryOnShortTakes, LeavesSmoothJointsNearlyAsTheyWere) {
   }
 }
 
-// A marker that is seen for a few frames between long gaps is a short take of its own.
+// A marker seen for a few frames between long gaps is a short take by itself.
 TEST_P(EveryOnShortTakes, LeavesMarkersThatAreSeenForAFewFramesNearlyAsTheyWere) {
   if (find_method(GetParam()).learned) GTEST_SKIP() << "models clean whole markers";
   Take take = marker_take("run", 1);

@@ -1,4 +1,4 @@
-// Laws of a strength between 0 and 1: smoothing goes part of the way, repairs are whole.
+// Tests of strengths between 0 and 1: smoothing is partial, repairs are complete.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ class EveryAtStrength : public testing::TestWithParam<std::string> {
   std::unique_ptr<Cleaner> cleaner_ = make_cleaner(GetParam());
 };
 
-// Laws of methods that repair samples and say so.
+// Methods that repair samples and report it.
 class EveryRepairAtStrength : public EveryAtStrength {};
 
 TEST_P(EveryRepairAtStrength, RepairsRotationsWhole) {
@@ -70,7 +70,7 @@ TEST_P(EveryRepairAtStrength, RepairsPositionsWhole) {
   const double tenth = 0.1 * norm(off);
   std::size_t repaired = 0;
   for (std::size_t f = 15; f < 470; f += 60) {
-    // What stands within a tenth of the truth has been repaired.
+    // A sample within a tenth of the truth has been repaired.
     if (norm(whole.take.root_position(f) - truth.root_position(f)) < tenth) {
       ++repaired;
       EXPECT_LT(norm(part.take.root_position(f) - truth.root_position(f)), tenth) << f;
@@ -106,11 +106,11 @@ TEST_P(EveryRepairAtStrength, RepairsMarkersWhole) {
               0.1 * norm(off))
         << at.frame << " " << at.joint;
   }
-  // Measured: all 79 of `auto`, 24 of `hampel`.
+  // Measured: all 79 for `auto`, 24 for `hampel`.
   EXPECT_GE(repaired, GetParam() == "auto" ? thrown.size() - 2 : thrown.size() / 4);
 }
 
-// Root mean square distance of samples from the middle of their neighbours, degrees.
+// Root mean square distance of samples from the midpoint of their neighbours, degrees.
 struct Roughness {
   double repaired = 0, others = 0;
 };
@@ -182,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryAtStrength, testing::ValuesIn(method_name
 INSTANTIATE_TEST_SUITE_P(Methods, EveryRepairAtStrength, testing::Values("auto", "hampel"),
                          test_name_of);
 
-// Moves everything, and repairs one sample of each kind on the way.
+// Moves all tracks, and repairs one sample of each kind.
 class RepairingMover final : public Cleaner {
  public:
   explicit RepairingMover(const Take& truth) : truth_(truth) {}
@@ -208,7 +208,7 @@ class RepairingMover final : public Cleaner {
     }
     return {};
   }
-  // Grows steadily.
+  // The turn grows linearly.
   static Vec3 turn(std::size_t frame) { return 0.004 * static_cast<double>(frame) * Vec3{1, 2, 0}; }
 
  private:

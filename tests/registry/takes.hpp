@@ -1,4 +1,4 @@
-// Small takes with every kind of joint, known in closed form at any time.
+// Small takes with every kind of joint, in closed form.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@
 
 namespace kinemend::test {
 
-/// hips (position, ZXY), spine (YXZ), arm (XYZ), hinge (X), saddle (Z X), fixed (no channels), prop
-/// (ZXY with translations).
+/// The joints are hips (position, ZXY), spine (YXZ), arm (XYZ), hinge (X), saddle (Z X), fixed (no
+/// channels), and prop (ZXY with translations).
 inline Take empty_take(std::size_t frames, double rate_hz) {
   Take clip;
   Skeleton& s = clip.skeleton;
@@ -35,13 +35,13 @@ inline Take empty_take(std::size_t frames, double rate_hz) {
   return clip;
 }
 
-/// Whether a method runs live without looking ahead: it follows the motion late by nature.
+/// Returns whether a method runs live without lookahead, and so lags behind the motion.
 inline bool runs_without_delay(const Cleaner& cleaner) {
   const Take like = empty_take(0, 120);
   return cleaner.live_support(120).runs() && cleaner.live(view_of(like))->lookahead() == 0;
 }
 
-/// Rotation of joint `joint` of the moving take at a time.
+/// Rotation of joint `joint` of the moving take at `time_s`.
 inline Quat motion_at(std::size_t joint, double time_s) {
   const double a = std::sin(2 * pi * 0.8 * time_s + 0.7 * static_cast<double>(joint));
   const double b = std::sin(2 * pi * 1.3 * time_s + static_cast<double>(joint));
@@ -70,7 +70,7 @@ inline Take moving_take(std::size_t frames, double rate_hz) {
   return clip;
 }
 
-/// White noise per axis on every joint that has three axes, and on the positions (file units).
+/// Adds white noise per axis to every joint with three axes and to the positions (file units).
 inline void add_noise(Take& clip, double noise_deg, double noise_position, std::uint64_t seed) {
   Random random(seed);
   const auto noise = [&random](double size) {
@@ -107,7 +107,7 @@ inline double max_angle_deg(const Take& a, const Take& b) {
   return largest * degrees_per_radian;
 }
 
-/// The methods that work on any body: those with a learned model have tests of their own.
+/// Methods that work on any body; those with a learned model have separate tests.
 inline std::vector<std::string> method_names() {
   std::vector<std::string> names;
   for (const Method& method : methods()) {
@@ -116,7 +116,7 @@ inline std::vector<std::string> method_names() {
   return names;
 }
 
-/// Those of them that follow the past alone by default, and so lag behind the motion.
+/// Methods among these that are causal by default and lag behind the motion.
 inline std::vector<std::string> causal_method_names() {
   std::vector<std::string> names = method_names();
   std::erase_if(names,
@@ -124,7 +124,7 @@ inline std::vector<std::string> causal_method_names() {
   return names;
 }
 
-/// The others, which look ahead.
+/// Methods among these that look ahead.
 inline std::vector<std::string> other_method_names() {
   std::vector<std::string> names = method_names();
   for (const std::string& causal : causal_method_names()) std::erase(names, causal);

@@ -1,4 +1,4 @@
-// Tests of the rows of a batch and of sums over them.
+// Tests of the rows of a batch and of their sums.
 #include "kinemend/experimental/batch_rows.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Tests of curves over time and of their drawings.
+// Tests of curves over time and their drawings.
 #include "kinemend/experimental/curves.hpp"
 
 #include <gmock/gmock.h>

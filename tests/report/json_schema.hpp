@@ -19,13 +19,13 @@ class JsonSchema {
     root_ = Json::parse(file);
   }
 
-  /// A line for each thing that breaks the schema.
+  /// Returns a line for each violation of the schema.
   std::vector<std::string> problems(const Json& value) const {
     std::vector<std::string> lines;
     check(value, root_, "", lines);
     return lines;
   }
-  /// The same of one of its definitions.
+  /// Checks against one of the schema's definitions.
   std::vector<std::string> problems(const Json& value, const std::string& definition) const {
     std::vector<std::string> lines;
     check(value, root_.at("$defs").at(definition), "", lines);
@@ -99,7 +99,7 @@ class JsonSchema {
     }
   }
 
-  // What is wrong is told of the one that fits best.
+  // Reports the violations of the alternative that fits best.
   void check_one_of(const Json& value, const Json& schemas, const std::string& place,
                     Lines& lines) const {
     std::size_t fitting = 0;
@@ -117,7 +117,7 @@ class JsonSchema {
   Json root_;
 };
 
-/// docs/report.schema.json.
+/// Loads docs/report.schema.json.
 inline const JsonSchema& report_schema_file() {
   static const JsonSchema schema(std::filesystem::path(KINEMEND_TEST_FIXTURES) /
                                  "../../docs/report.schema.json");

@@ -6,7 +6,7 @@
 
 namespace kinemend::test {
 
-/// How often a text holds a part.
+/// Counts the occurrences of a part.
 inline std::size_t count_of(const std::string& text, const std::string& part) {
   std::size_t found = 0;
   for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++found;

@@ -105,7 +105,7 @@ TEST(Euler, NearGimbalLockGivesTheRotationBack) {
   }
 }
 
-// All angles with the same rotation, by brute force over the two branches and whole turns.
+// Tries all angles with the same rotation: both branches and whole turns.
 double least_largest_change(const Angles& angles, RotationOrder order, const Angles& previous) {
   const bool proper = order.axes[0] == order.axes[2];
   const Angles other{angles[0] + pi, proper ? -angles[1] : pi - angles[1], angles[2] + pi};
@@ -171,8 +171,8 @@ TEST(EulerNear, InGimbalLockSplitsTheChangeBetweenTheLockedAngles) {
 }
 
 TEST(EulerNear, FollowsAPathThroughGimbalLockAndWholeTurns) {
-  // The middle angle runs through the lock and beyond, the first through whole turns; no branch is
-  // changed on the way.
+  // The middle angle passes through gimbal lock, the first one makes whole turns, and the branch
+  // never changes.
   for (const RotationOrder order : all_rotation_orders()) {
     Angles found{0.1, 0.55, -0.2};
     for (int f = 0; f <= 600; ++f) {
@@ -196,8 +196,8 @@ TEST(EulerNear, WithNoiseAcrossGimbalLockMakesNoJumpOfATurn) {
           turns({0.5 * t, middle, 0.3}, order) * exp(random_vector(random, 0.5 * degree));
       const Angles next = to_euler_near(q, order, found);
       ASSERT_LT(angle_between(from_euler(next, order), q), 1e-13);
-      // In lock a small turn may need a large change of two angles: a quarter turn shared between
-      // them, never more than a half.
+      // In gimbal lock a small turn may need a large change of two angles: they share a quarter
+      // turn, never more than a half.
       if (f > 0) {
         ASSERT_LT(largest_change(next, found), pi / 2 + 0.05) << to_string(order) << " frame " << f;
       }

@@ -1,4 +1,4 @@
-// Tests of the laws of rotations: group, exponential and logarithm, angles, and slerp.
+// Tests of the properties of rotations: group, exponential and logarithm, angles, and slerp.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -11,8 +11,7 @@ namespace {
 using test::random_rotation;
 using test::random_vector;
 
-// Elements on which every law is tried: identity, nearly identity, half turns, nearly half turns,
-// ordinary and random ones.
+// Test elements: identity, near identity, half turns, near half turns, ordinary and random ones.
 std::vector<Quat> elements() {
   std::vector<Quat> list{{}, {-1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, 0}, normalized({0, 1, 1, 1})};
   const Vec3 axis = (1 / norm(Vec3{1, -2, 0.5})) * Vec3{1, -2, 0.5};
@@ -109,7 +108,7 @@ TEST(ExpLog, AtExactlyAHalfTurnIsEitherSignOfTheAxis) {
 }
 
 TEST(ExpLog, OfManyTurnsComesBackAsTheShortestVector) {
-  // |v| = 30 is 4 turns and 4.867 rad: 1.416 rad the other way round.
+  // |v| = 30 is 4 turns and 4.867 rad, which equals 1.416 rad in the other direction.
   const Vec3 axis = (1 / norm(Vec3{1, 2, 3})) * Vec3{1, 2, 3};
   EXPECT_LT(norm(log(exp(30 * axis)) - (30 - 10 * pi) * axis), 1e-14);
   EXPECT_LE(norm(log(exp(30 * axis))), pi);

@@ -37,7 +37,7 @@ double sum_of_squares(Quat mean, const Sample& sample) {
   return sum;
 }
 
-// Downhill by trial steps of shrinking length, from every sample in turn.
+// Descends from every sample by trial steps of shrinking length.
 Quat brute_force_mean(const Sample& sample) {
   Quat best = sample.rotations[0];
   for (const Quat start : sample.rotations) {
@@ -171,7 +171,7 @@ TEST(ChordalMean, AgreesWithNumpysEigenvector) {
 }
 
 TEST(ChordalMean, OfASymmetricSetStaysInItsSpan) {
-  // Identity and a half turn about x: any turn about x is a leading eigenvector.
+  // Between identity and a half turn about x, any turn about x is a leading eigenvector.
   const Quat mean = chordal_mean(std::vector<Quat>{{1, 0, 0, 0}, {0, 1, 0, 0}});
   EXPECT_NEAR(std::hypot(mean.w, mean.x), 1, 1e-12);
 }

@@ -6,13 +6,13 @@
 
 namespace kinemend::test {
 
-/// Each coordinate normal, of that deviation.
+/// Each coordinate is normal with the given deviation.
 inline Vec3 random_vector(Random& random, double deviation = 1) {
   const double x = random.normal(), y = random.normal(), z = random.normal();
   return {deviation * x, deviation * y, deviation * z};
 }
 
-/// Uniform over the rotations.
+/// A uniformly distributed rotation.
 inline Quat random_rotation(Random& random) {
   const double w = random.normal(), x = random.normal(), y = random.normal(), z = random.normal();
   return normalized({w, x, y, z});

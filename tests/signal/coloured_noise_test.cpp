@@ -72,7 +72,7 @@ TEST(NoisePrecision, LeavesMissingSamplesOutAndBeginsAnewBehindThem) {
   EXPECT_EQ(precision.observed[0], frames - 3);
 }
 
-// -2 log of the density of the differences, which a flat prior of what they do not see leaves.
+// -2 log of the density of the differences, with a flat prior for the polynomial they remove.
 TEST(EvidenceOf, IsTheLikelihoodOfTheDifferences) {
   Random random(1);
   ChannelBlock y(frames);

@@ -1,5 +1,5 @@
-// Smoothing by evidence: the marginal likelihood against its dense formula, and what the adaptive
-// smoother is for.
+// Tests of smoothing by evidence: the marginal likelihood against its dense formula, and the
+// adaptive smoother on its intended signals.
 #include "signal/evidence.hpp"
 
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@
 namespace kinemend::signal {
 namespace {
 
-// -2 log of the likelihood of y under the model, in the space of its differences: D y ~ N(0, s (D
-// D^T + I / strength)).
+// -2 log likelihood of y under the model, in the space of its differences: D y ~ N(0, s (D D^T + I
+// / strength)).
 double dense_misfit(const Eigen::VectorXd& y, const SmoothingModel& model, double variance) {
   Eigen::MatrixXd d = Eigen::MatrixXd::Identity(y.size(), y.size());
   for (std::size_t i = 0; i < model.order; ++i) {
@@ -51,8 +51,8 @@ TEST(Evidence, ChoosesTheModelOfLargestLikelihood) {
   for (std::size_t c = 0; c < channels; ++c) {
     Eigen::VectorXd y(static_cast<Eigen::Index>(frames));
     for (std::size_t t = 0; t < frames; ++t) y(static_cast<Eigen::Index>(t)) = measured(t, c);
-    // Orders differ in the number of differences they explain, so only models of one order compare
-    // in this form.
+    // Models of different orders explain different numbers of differences, so only models of one
+    // order are compared.
     const double own = dense_misfit(y, grid.models()[chosen[c]], variance[c]);
     for (const SmoothingModel& model : grid.models()) {
       if (model.order != grid.models()[chosen[c]].order) continue;
@@ -92,7 +92,7 @@ TEST(Evidence, TooShortATakeHasNoModel) {
   EXPECT_TRUE(most_likely_models(matrix, std::vector<double>(2, 1.0), ModelGrid(3, 60)).empty());
 }
 
-// A channel at rest, then a snap of a few frames, then at rest.
+// A channel at rest with a snap of a few frames.
 PoseMatrix sudden_move(std::size_t frames) {
   PoseMatrix matrix(frames, 1);
   for (std::size_t t = 0; t < frames; ++t) {

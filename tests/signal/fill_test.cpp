@@ -1,4 +1,4 @@
-// Tests of filled samples of channels, against SciPy and NumPy.
+// Tests of filling missing samples of channels, against SciPy and NumPy.
 #include <gtest/gtest.h>
 
 #include "kinemend/error.hpp"
@@ -18,7 +18,7 @@ TEST(Fill, GivesTheNumbersOfSciPysNaturalSplineAndOfNumPysInterp) {
     PoseMatrix take = column(reference().at("input/long"));
     const PoseMatrix input = take;
     for (std::size_t t = 0; t < take.frames; ++t) {
-      if (marks[t]) take(t, 0) = 1e6;  // a missing value is not looked at
+      if (marks[t]) take(t, 0) = 1e6;  // missing values are ignored
     }
     (cubic ? fill_cubic : fill_linear)(take, marks);
     EXPECT_LT(largest_difference(take.values, reference().at(cubic ? "fill_cubic" : "fill_linear")),

@@ -27,7 +27,7 @@ TEST(Gaussian, RefusesWidthsThatMakeNoSense) {
   }
 }
 
-// Key by key, as the graph editor of Blender has it: two means that lean to the past and to the
+// Smooths key by key as Blender's graph editor does, with two means weighted to the past and the
 // future.
 std::vector<double> smooth_keys(const std::vector<double>& x) {
   std::vector<double> y = x;

@@ -152,7 +152,7 @@ TEST(SettlingFrames, IsHowLongTheImpulseResponseLasts) {
       const auto sections = butterworth_lowpass(order, cutoff_hz, 120);
       const std::size_t settled = settling_frames(sections, 1e-8);
       PoseMatrix impulse(settled + 401, 1);
-      impulse(1, 0) = 1;  // the run starts at rest before it
+      impulse(1, 0) = 1;  // the signal before it is at rest
       filter_causally(impulse, sections);
       double largest = 0;
       double late = 0;
@@ -166,8 +166,8 @@ TEST(SettlingFrames, IsHowLongTheImpulseResponseLasts) {
 }
 
 TEST(SettlingFrames, PadsSoThatALowCutoffBendsNoEnd) {
-  // With the default padding a slow filter leans at the ends of a steep line; with the settled one
-  // it does not.
+  // With the default padding, a slow filter tilts the ends of a steep line; with the settled
+  // padding it does not.
   const auto sections = butterworth_lowpass(4, 1.5, 120);
   PoseMatrix line(1000, 1);
   for (std::size_t t = 0; t < 1000; ++t) line(t, 0) = static_cast<double>(t);

@@ -1,4 +1,4 @@
-// Laws that every filter of channels keeps.
+// Properties of every filter of channels.
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
@@ -13,9 +13,9 @@ struct Filter {
   std::string name;
   std::function<void(PoseMatrix&)> apply;
   bool linear = true;
-  bool keeps_lines = true;     // to `line_tolerance`
-  bool time_symmetric = true;  // to rounding, ends included
-  std::size_t reach = 0;       // frames on each side that count; 0: all of them
+  bool keeps_lines = true;     // within `line_tolerance`
+  bool time_symmetric = true;  // up to rounding, including the ends
+  std::size_t reach = 0;       // frames on each side that affect a sample; 0: all
   double line_tolerance = 1e-10;
 };
 
@@ -42,12 +42,12 @@ std::vector<Filter> all_filters() {
   {
     Filter& f = add("butterworth", [=](PoseMatrix& m) { filter_zero_phase(m, order_4); });
     f.keeps_lines = f.time_symmetric =
-        false;  // beyond SciPy's padding the start is only nearly right
+        false;  // the start is only approximate beyond SciPy's padding
   }
   {
     Filter& f =
         add("butterworth, settled", [=](PoseMatrix& m) { filter_zero_phase(m, order_4, settled); });
-    f.time_symmetric = false;  // to rounding: not bit for bit
+    f.time_symmetric = false;  // not bit for bit
   }
   {
     Filter& f = add("causal butterworth", [=](PoseMatrix& m) { filter_causally(m, order_3); });
@@ -58,7 +58,7 @@ std::vector<Filter> all_filters() {
     Filter& f = add("blender's weighted mean",
                     [](PoseMatrix& m) { weighted_mean_filter(m, 3, WeightedMeanEnds::blender); });
     f.keeps_lines = f.time_symmetric = false;
-    f.reach = 8;  // each pass carries its rule for the ends two frames further
+    f.reach = 8;  // each pass extends the end rule by two frames
   }
   {
     Filter& f = add("median", [](PoseMatrix& m) { median_filter(m, 3); });
@@ -121,8 +121,7 @@ TEST(EveryFilter, KeepsAStraightLineUpToItsEnds) {
         input(t, 0) = 3 - 0.5 * static_cast<double>(t);
         input(t, 1) = 0.25 * static_cast<double>(t);
       }
-      // A Butterworth run settles only in a take that is long enough to be reflected over that
-      // length.
+      // Butterworth settles only in a take long enough to be reflected over the settling length.
       if (filter.name == "butterworth, settled" && frames < 300) continue;
       EXPECT_LT(largest_difference(filtered(input, filter.apply).values, input.values),
                 filter.line_tolerance)
@@ -270,9 +269,9 @@ TEST(EveryDenoiser, BringsANoisySignalNearerToTheCleanOneAndBendsNoEnd) {
   const PoseMatrix noisy = noisy_sines(400, 8, 14, 0.1);
   for (const Filter& filter : all_filters()) {
     if (filter.name == "causal butterworth" || filter.name == "wide gaussian")
-      continue;  // late, or too strong for this signal
+      continue;  // lags, or is too strong for this signal
     const PoseMatrix result = filtered(noisy, filter.apply);
-    const double share = filter.name == "universal soft wavelet" ? 0.9 : 0.75;  // known to flatten
+    const double share = filter.name == "universal soft wavelet" ? 0.9 : 0.75;  // it flattens
     EXPECT_LT(rms(result.values, clean.values), share * rms(noisy.values, clean.values))
         << filter.name;
     // The ends keep at most the noise of the end sample.

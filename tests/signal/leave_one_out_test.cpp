@@ -1,4 +1,4 @@
-// Tests of leave-one-out predictions and of the smoothers that they choose.
+// Tests of leave-one-out predictions and of the choice of smoothers.
 #include "signal/leave_one_out.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double rate_hz = 120;
 
-// Eight tracks of curves with noise; one goes far.
+// Eight tracks of curves with noise; one track drifts far.
 LaneBlock noisy_lanes(std::size_t frames, std::uint64_t seed) {
   LaneBlock block(frames);
   Random random(seed);
@@ -29,7 +29,7 @@ LaneBlock noisy_lanes(std::size_t frames, std::uint64_t seed) {
   return block;
 }
 
-// One axis of one track as a channel of its own, solved as a whole.
+// Solves one axis of one track as a single channel.
 std::vector<double> whole_fit(const LaneBlock& y, std::size_t axis_and_lane, double cutoff_hz) {
   ChannelBlock channel(y.frames), x(y.frames);
   for (std::size_t t = 0; t < y.frames; ++t) channel(t, 0) = y.row(t)[axis_and_lane];
@@ -44,7 +44,7 @@ double cutoff_of(std::size_t smoother) {
   return 0.3 * std::pow(100.0, static_cast<double>(smoother) / 9);
 }
 
-// Takes of a tile, of several, and of ends of one frame.
+// The lengths cover one tile, several tiles, and a last tile of one frame.
 TEST(LeaveOneOut, FitsInTilesAsTheWholeIsFitted) {
   for (const std::size_t frames : {6, 300, 2048, 2049, 9000}) {
     const LaneBlock y = noisy_lanes(frames, frames);

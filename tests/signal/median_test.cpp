@@ -23,7 +23,7 @@ std::vector<double> window(const PoseMatrix& m, std::size_t c, std::ptrdiff_t fi
   return values;
 }
 
-// By the 0-1 principle a network that sorts all zeros and ones sorts everything.
+// By the 0-1 principle, a network that sorts all zeros and ones sorts any values.
 TEST(SortingNetwork, SortsEveryWidth) {
   for (std::size_t width = 1; width <= 17; ++width) {
     const auto network = signal::sorting_network(width);

@@ -67,7 +67,7 @@ inline double largest_difference(const std::vector<double>& a, const std::vector
   if (a.size() != b.size()) throw std::runtime_error("compared vectors differ in size");
   double largest = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    // Also true for not-a-number.
+    // The negated comparison catches NaN too.
     if (!(std::abs(a[i] - b[i]) <= largest)) largest = std::abs(a[i] - b[i]);
   }
   return largest;

@@ -62,7 +62,7 @@ TEST(WaveletFilter, OfDaubechiesHasTheNumbersOfSciPy) {
   for (int moments = 1; moments <= 10; ++moments) {
     EXPECT_LT(largest_difference(wavelet_filter(daubechies, moments),
                                  reference().at("daub/" + std::to_string(moments))),
-              1e-7)  // as far as SciPy's own root finding goes at 10
+              1e-7)  // precision of SciPy's root finding at 10
         << moments;
   }
 }
@@ -115,8 +115,8 @@ TEST(WaveletFilter, OfASymletIsNearerToLinearPhaseAndOtherwiseTheSameAsDaubechie
 }
 
 TEST(WaveletFilter, OfFourMomentsIsThatOfTenLecturesTable6_3) {
-  // The book's least asymmetric filter for N = 4, scaled to sum sqrt(2) instead of 2, read
-  // backwards.
+  // The book's least asymmetric filter for N = 4, scaled to sum sqrt(2) instead of 2, in reverse
+  // order.
   const double table[] = {-0.107148901418, -0.041910965125, 0.703739068656,  1.136658243408,
                           0.421234534204,  -0.140317624179, -0.017824701442, 0.045570345896};
   const auto s = wavelet_filter(symlet, 4);
@@ -144,8 +144,8 @@ TEST(WaveletTransform, GivesBackEverySignalOfEveryLength) {
   });
 }
 
-// One level written out as a matrix: reflect, then filter and keep every second row. The signal's
-// reflection by repeated mirroring, the mirror filter and the positions are spelled out anew here.
+// One level as a matrix: reflect, filter, and keep every second row. Reflection by repeated
+// mirroring, the mirror filter and the positions are implemented independently.
 std::vector<double> dense_level(const std::vector<double>& x, const std::vector<double>& filter) {
   const auto n = static_cast<int>(x.size());
   const auto taps = static_cast<int>(filter.size());
@@ -202,8 +202,8 @@ TEST(WaveletTransform, KnowsWhichCoefficientsSeeNoReflection) {
     const auto h = wavelet_filter(daubechies, static_cast<int>(taps / 2));
     for (const std::size_t frames : {8u, 13u, 40u}) {
       const auto range = signal::inner_coefficients(frames, taps);
-      // Coefficients outside the range change when the ends' reflections do: compare with a take
-      // that goes on.
+      // Coefficients outside the range depend on the reflections at the ends, so they differ from
+      // those of a longer take.
       const PoseMatrix longer = noisy_sines(frames + 40, 1, 3, 1.0);
       PoseMatrix part(frames, 1);
       std::copy_n(longer.values.begin() + 20, frames, part.values.begin());
@@ -224,8 +224,8 @@ TEST(WaveletTransform, KnowsWhichCoefficientsSeeNoReflection) {
 }
 
 TEST(WaveletDenoise, ThresholdsAsDonohoAndJohnstoneDo) {
-  // The whole method in its plainest form, on top of the transform.
-  // Jumps here and there, so that all levels hold signal as well as noise.
+  // Implements the whole method directly on top of the transform. Random jumps give all levels
+  // signal as well as noise.
   PoseMatrix input = noisy_sines(200, 1, 21, 0.1);
   Random random(22);
   double jump = 0;

@@ -1,4 +1,4 @@
-// The banded solvers of the Whittaker smoother, against dense linear algebra.
+// Tests of the banded solvers of the Whittaker smoother, against dense linear algebra.
 #include "signal/whittaker.hpp"
 
 #include <gtest/gtest.h>
@@ -101,7 +101,7 @@ TEST_P(WhittakerOrder, PassesHalfTheAmplitudeAtTheCutoff) {
   for (std::size_t t = 500; t < 520; ++t) EXPECT_NEAR(x(t, 2), 0.5 * y(t, 2), 1e-6);
 }
 
-// y plus a polynomial that the differences of this order do not see.
+// Adds a polynomial that differences of this order remove.
 ChannelBlock with_trend(ChannelBlock y, std::size_t order) {
   for (std::size_t t = 0; t < y.frames; ++t) {
     double trend = 1e5;
@@ -140,7 +140,7 @@ TEST_P(WhittakerOrder, LargeTrendsCostTheStrongestSmootherNoDigits) {
   EXPECT_LT(largest_difference(weighted, shared), 1e-4);
 }
 
-// The rows of a factor are stored until they settle.
+// Rows of a factor are stored only until they settle.
 TEST_P(WhittakerOrder, FactorOfALongTakeIsThatOfAShortOneContinued) {
   const std::size_t order = GetParam();
   const double strength = strength_of_cutoff(0.02, order);
@@ -151,7 +151,7 @@ TEST_P(WhittakerOrder, FactorOfALongTakeIsThatOfAShortOneContinued) {
   ChannelBlock x(6000);
   const SharedFactor shorter = factor_shared(6000, order, strength);
   solve_shared(shorter, y, x);
-  // What the equations leave: y - x - strength D^T D x.
+  // The residual of the equations: y - x - strength D^T D x.
   const auto c = difference_coefficients(order);
   for (std::size_t t = 3000; t < 3100; ++t) {
     double left = y(t, 0) - x(t, 0);

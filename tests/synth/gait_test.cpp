@@ -1,4 +1,4 @@
-// Tests of synthetic gait: standing feet, and angles and speeds as published.
+// Tests of synthetic gait: standing feet, and published angles and speeds.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -24,7 +24,7 @@ constexpr std::array<double, 50> published_knee{
     14.4, 18.1, 22.6, 28.0, 34.1, 40.6, 47.0, 52.5, 56.8, 59.4, 60.5, 60.0, 58.2,
     55.0, 50.8, 45.5, 39.5, 32.9, 26.0, 19.0, 12.6, 7.5,  4.5,  3.8};
 
-// Frames of the largest value in each stride of about `period` frames.
+// Frames of the local maxima above `threshold`.
 std::vector<std::size_t> peaks(const std::vector<double>& values, double threshold) {
   std::vector<std::size_t> result;
   for (std::size_t f = 1; f + 1 < values.size(); ++f) {
@@ -88,7 +88,7 @@ TEST(Gait, AWalkerAlwaysStandsAndARunnerFlies) {
     for (int feet : feet_down)
       share[static_cast<std::size_t>(feet)] += 1.0 / static_cast<double>(feet_down.size());
     if (motion == std::string("walk")) {
-      // On the balls alone; the heel, which comes first, adds 8 % a step.
+      // Counts only the balls of the feet; the heel lands earlier and adds 8 % per step.
       EXPECT_LT(share[0], 0.02);
       EXPECT_GT(share[2], 0.02);
     } else {
@@ -146,7 +146,7 @@ TEST(Gait, SpeedAndCadenceAreThoseOfPeople) {
 
 TEST(Gait, StepsOfBothSidesAreAlikeButNotEqual) {
   const Take clip = make("walk", 30, 60);
-  std::vector<std::pair<double, int>> prints;  // distance along the way, side
+  std::vector<std::pair<double, int>> prints;  // distance along the path, side
   for (int side = 0; side < 2; ++side) {
     const auto ball = track(clip, side == 0 ? "LeftToeBase" : "RightToeBase");
     for (const auto& stance : rests(ball, 15))

@@ -1,4 +1,4 @@
-// Tests of synthetic gestures and jumps, by their kinematics.
+// Tests of the kinematics of synthetic gestures and jumps.
 #include <gtest/gtest.h>
 
 #include "synth/measure.hpp"
@@ -39,7 +39,7 @@ TEST(Gesture, AClapBringsThePalmsTogetherAndHoldsThem) {
       closing = std::max(closing, (gap[f - 1] - gap[f]) * 240);
     EXPECT_GT(closing, 330);
     EXPECT_LT(closing, 600);
-    // Contacts of 40 ms or more, several of them.
+    // Counts contacts of 40 ms or more.
     std::size_t contacts = 0, length = 0;
     for (double g : gap) {
       length = g < closest + 0.05 ? length + 1 : 0;
@@ -63,7 +63,7 @@ TEST(Gesture, ALandingStopsTheFeetAtOnceAndTheBodyLater) {
   EXPECT_GT(foot_fall[touch], 250);
   EXPECT_LT(std::fabs(foot_fall[touch + 15]), 1);  // 31 ms later
   EXPECT_GT(fall[touch + 15], 150);
-  // From a box of 40 cm, and the ball stays where it came down.
+  // The jump starts from a box of 40 cm, and the ball stays where it lands.
   EXPECT_NEAR(ball.front().y - ball.back().y, 40, 0.01);
   for (std::size_t f = touch + 15; f < ball.size(); ++f)
     EXPECT_LT(norm(ball[f] - ball.back()), 0.01);

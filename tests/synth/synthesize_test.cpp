@@ -1,4 +1,4 @@
-// Tests of artificial takes: valid, repeatable and continuous, with options within their ranges.
+// Tests that synthetic takes are valid, repeatable and continuous, with options in range.
 #include <gtest/gtest.h>
 
 #include "kinemend/error.hpp"
@@ -78,7 +78,7 @@ TEST(Synth, RateAndDurationDoNotChangeTheMotion) {
   }
 }
 
-// A kink in a curve shows as a change of speed that does not shrink with the step in time.
+// A kink in a curve is a change of speed that does not shrink with the time step.
 TEST(Synth, MotionIsContinuousAndSoIsItsSpeed) {
   for (std::string_view motion : synth_motions()) {
     const Take clip = make(std::string(motion), 3.2, 1000, 2);
@@ -91,7 +91,7 @@ TEST(Synth, MotionIsContinuousAndSoIsItsSpeed) {
         jerk = std::max(jerk, norm(after - before) * degrees_per_radian);
       }
     }
-    EXPECT_LT(speed, 3.0) << motion;  // degrees a millisecond
+    EXPECT_LT(speed, 3.0) << motion;  // degrees per millisecond
     EXPECT_LT(jerk, 0.75) << motion;
   }
 }

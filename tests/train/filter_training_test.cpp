@@ -1,4 +1,5 @@
-// Tests of the training of Mall et al.'s networks: it resumes to the same result, and it learns.
+// Tests of the training of Mall et al.'s networks: it resumes to the same result and reduces the
+// error.
 #include "filter_training.hpp"
 
 #include <gtest/gtest.h>
@@ -53,7 +54,7 @@ TEST_P(EveryKind, GoesOnFromACheckpointToTheSameResult) {
   second.resume(first.checkpoint(), "checkpoint");
   for (int i = 0; i < 3; ++i) second.step();
   EXPECT_EQ(write_model(whole.model()), write_model(second.model()));
-  // What it has made is a network that cleans.
+  // The result is a network that can clean.
   const Model model = whole.model();
   const Take clip = walks()[0];
   const FilterTake take =
@@ -90,7 +91,7 @@ TEST(Checkpoints, WithoutTheirNumbersAreRefused) {
 }
 
 TEST(FilterTraining, LeavesLessErrorTheLongerItGoesOn) {
-  // A free shape begins as the mean of 31 frames.
+  // A free shape starts as the mean of 31 frames.
   FilterTraining training = tiny("ebf", "shape");
   training.epochs = 40;
   FilterTrainer trainer(walks(), training);
@@ -108,7 +109,7 @@ TEST(FilterTraining, LearnsABiasThatIsOnTopOfTheNoise) {
   FilterTrainer trainer(walks(), training);
   const double before = trainer.share_left(walks());
   for (int i = 0; i < 120; ++i) trainer.step();
-  // No filter takes a constant away.
+  // No filter removes a constant bias.
   EXPECT_LT(trainer.share_left(walks()), 0.8 * before);
 }
 
@@ -120,7 +121,7 @@ TEST(SequenceNetwork, OfLstmLayersIsTheSameWhetherItIsTrainedOrRun) {
   shape.units = 4;
   shape.decoder = {6};
   SequenceNetwork network(shape, {.dropout = 0}, 1);
-  // The last layer begins with zeros.
+  // The last layer starts at zero.
   TensorFile state = network.state();
   for (auto& [name, tensor] : state.tensors) {
     for (std::size_t i = 0; i < tensor.values.size(); ++i)
@@ -133,7 +134,7 @@ TEST(SequenceNetwork, OfLstmLayersIsTheSameWhetherItIsTrainedOrRun) {
   ASSERT_EQ(trained.size(), run.size());
   for (std::size_t i = 0; i < run.size(); ++i) EXPECT_NEAR(trained[i], run[i], 1e-5);
 
-  // The gradient that a step reports is that of differences of sum(outputs).
+  // The gradient norm of a step equals that of finite differences of sum(outputs).
   network.add_gradient(std::vector<float>(trained.size(), 1.0F));
   const double norm = network.step(0);
   double square = 0;
@@ -183,7 +184,7 @@ TEST(SequenceNetwork, LetsTheSignalThroughAllItsLayersBeforeItHasLearned) {
   for (std::size_t i = 0; i < last.values.size(); ++i)
     last.values[i] = (i % 2 == 0 ? 1 : -1) / std::sqrt(static_cast<double>(last.values.size()));
   network.set_state(state);
-  // Each input a wave of its own about 0, of deviation 1.
+  // Each input is a different wave about 0 with deviation 1.
   std::vector<float> inputs;
   for (std::size_t i = 0; i < frames * shape.inputs; ++i) {
     const double frame = static_cast<double>(i / shape.inputs);

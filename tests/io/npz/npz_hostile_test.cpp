@@ -44,7 +44,8 @@ std::vector<std::string> readable_fixtures() {
   return all;
 }
 
-// A checksum would hide what damaged arrays do. Heads are damaged as often as elements.
+// The checksum is made to match, or it would hide the damage. Array headers are damaged as often as
+// elements.
 std::string with_damaged_array(const std::string& bytes, Random& random) {
   const std::size_t members = read_zip(bytes, "take.npz").members.size();
   std::size_t left = random.below(members);
@@ -73,7 +74,7 @@ TEST(HostileNpz, ArraysDamagedBelowTheirChecksums) {
   }
 }
 
-// What is read of a damaged file must still be written when it changes.
+// A take that is read from a damaged file can still be written after a change.
 TEST(HostileNpz, DamagedTakesThatAreReadCanBeChanged) {
   Random random(33);
   const auto all = readable_fixtures();

@@ -112,7 +112,7 @@ TEST(NpzReader, IsFoundByContent) {
   EXPECT_EQ(sniff_npz("PK"), 0);
 }
 
-// Deflate packs a thousand zeros into a byte.
+// Deflate compresses a thousand zeros to a byte.
 TEST(NpzReader, AFileThatUnpacksToGigabytesIsRefused) {
   const std::size_t size = std::size_t{64} << 20;
   const std::string bytes = make_zip({{"positions.npy", std::string(size, '\0'), true}});

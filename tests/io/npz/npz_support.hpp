@@ -1,4 +1,4 @@
-// Small takes that NumPy wrote, and archives whose checksums match again after damage.
+// Small takes that NumPy wrote, and archives whose checksums are corrected after damage.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace kinemend::test {
 
-/// Written by tools/reference/npz_takes.py, which is NumPy's own writer.
+/// A file that tools/reference/npz_takes.py wrote with NumPy's own writer.
 inline std::string npz_fixture(const std::string& name) {
   return read_file(std::filesystem::path(KINEMEND_TEST_FIXTURES) / "npz" / (name + ".npz"));
 }
@@ -19,7 +19,7 @@ inline TakeResult read_npz_bytes(std::string bytes, const ReadOptions& options =
   return read_take(std::move(bytes), "take.npz", options);
 }
 
-/// The archive with each content as `change` leaves it, stored.
+/// The archive after `change` has edited each content, stored without compression.
 inline std::string npz_with(
     const std::string& bytes,
     const std::function<void(std::string& name, std::string& content)>& change) {
@@ -32,7 +32,7 @@ inline std::string npz_with(
   return make_zip(contents);
 }
 
-/// The unpacked bytes of an array's member; empty where there is none.
+/// The unpacked bytes of an array's member, or empty if there is no such array.
 inline std::string npz_content(const std::string& bytes, const std::string& array) {
   const ZipArchive archive = read_zip(bytes, "take.npz");
   const ZipMember* const member = archive.find(array + ".npy");

@@ -18,7 +18,7 @@ TEST(NpzWriter, EveryFixtureComesBackToTheByte) {
   }
 }
 
-// Names of the members whose unpacked bytes differ.
+// The names of the members whose unpacked bytes differ.
 std::vector<std::string> changed_members(const std::string& before, const std::string& after) {
   std::vector<std::string> changed;
   const ZipArchive archive = read_zip(after, "after");

@@ -124,7 +124,8 @@ TEST(CsvReader, MarkersOfOptiTrackExportsAreRead) {
   EXPECT_EQ(clip.position(2, 0), (Vec3{-0.2005, 0.7215, 0.117}));
 }
 
-// Of each program's exports: markers, rate, unit and frames are right, whatever else is in them.
+// Each program's exports are read with the right markers, rate, unit and frames, whatever else they
+// hold.
 TEST(CsvReader, LaboratoriesTablesAreReadRight) {
   struct Table {
     const char* name;
@@ -133,7 +134,7 @@ TEST(CsvReader, LaboratoriesTablesAreReadRight) {
     const char* unit;
     std::int64_t first_frame;
     std::vector<std::uint8_t> observed;
-    Vec3 last;  // the last sample that there is
+    Vec3 last;  // last observed sample
   };
   const std::vector<Table> tables{
       {"nexus",
@@ -165,7 +166,7 @@ TEST(CsvReader, LaboratoriesTablesAreReadRight) {
   for (const Table& table : tables) {
     SCOPED_TRACE(table.name);
     const std::string bytes = csv_fixture(std::string("good/") + table.name + ".csv");
-    // By its content, under any name.
+    // The format is recognised by its content, under any name.
     const Take take = read_take(bytes, "take.txt").take;
     const auto& clip = take;
     EXPECT_EQ(clip.names, table.markers);
@@ -324,7 +325,7 @@ TEST(CsvWriter, OnlyChangedJointsGetNewDigits) {
   EXPECT_EQ(write_take(clip, "csv"), with(expected, "0.8,0,,,,,", "0.8,0,0.6,0,0,0.8,"));
 }
 
-// Only the trajectories of an export change; what stands above and below them stays.
+// Only the trajectories of an export change; the text above and below them is kept.
 TEST(CsvWriter, SectionsAndColumnsOfOtherThingsStay) {
   const std::string nexus = csv_fixture("good/nexus.csv");
   Take clip = read_markers(nexus);

@@ -1,4 +1,4 @@
-// Fixtures and text replacement that the tests of tables share.
+// Fixtures and text replacement shared by the tests of tables.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ inline Take read_trc(std::string bytes) {
   return read_take(std::move(bytes), "take.trc", options).take;
 }
 
-/// The text with `from` (which it holds once) replaced.
+/// Replaces `from`, which the text holds once.
 inline std::string with(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   EXPECT_NE(at, text.npos) << from;

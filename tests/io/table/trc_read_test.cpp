@@ -23,7 +23,7 @@ std::string trc_error(std::string bytes, ErrorKind kind = ErrorKind::unreadable_
   return message_of([&] { read_trc_take(std::move(bytes), options); }, kind);
 }
 
-// Names of the diagnostics, with their counts.
+// Counts the diagnostics by name.
 std::map<std::string, std::size_t> trc_repairs_of(const std::string& name) {
   std::map<std::string, std::size_t> counts;
   const TakeResult result = read_trc_take(trc_fixture(name));

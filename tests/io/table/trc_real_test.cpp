@@ -1,4 +1,4 @@
-// Real TRC files are read to the last sample and come back to the byte.
+// Real TRC files are read to the last sample and written back byte for byte.
 #include "io/support.hpp"
 
 namespace kinemend {
@@ -17,7 +17,7 @@ std::vector<std::filesystem::path> real_trc_files() {
   return paths;
 }
 
-// Cells of the file's rows with something in all three of a marker's columns, counted by hand.
+// Counts the markers with three non-empty columns over all rows, without the reader.
 std::size_t full_triples(const std::string& text) {
   std::size_t count = 0, line_number = 0;
   for (std::size_t at = 0; at < text.size(); ++line_number) {
@@ -68,7 +68,7 @@ TEST(RealTrc, EmptyAndTruncatedFilesAreOneClearLine) {
 TEST(RealTrc, KnownFactsHold) {
   const auto read = [](const char* name) { return read_take(folder / name).take; };
   const Take gait = read("Gait.trc");
-  // 33 have names, the header says 66, the widest row holds 105.
+  // 33 markers have names, the header says 66, and the widest row holds 105.
   EXPECT_EQ(gait.marker_count(), 105u);
   EXPECT_EQ(gait.names[32], "PX");
   EXPECT_EQ(gait.names[33], "*34");

@@ -82,7 +82,7 @@ TEST(TrcWriter, SpacesAndCommasStay) {
   Take clip = read_trc(spaces);
   clip.position(0, 0).x = 7;
   EXPECT_EQ(write_take(clip, "trc"), with(spaces, "-201.20056", "7.00000"));
-  // Only tabs can show that a cell is empty.
+  // Only tabs can mark an empty cell.
   unset(clip, 1, 1);
   const std::string tabs = write_take(clip, "trc");
   EXPECT_NE(tabs.find("2\t0.010000\t-200.70854\t-116.63701\t721.52441\t\t\t\n"), tabs.npos);
@@ -96,7 +96,7 @@ TEST(TrcWriter, SpacesAndCommasStay) {
 TEST(TrcWriter, RandomChangesReadBackAndLeaveTheRestAlone) {
   Random random(5);
   for (const auto& path : fixture_paths("trc")) {
-    // Markers without a name are as many as the widest row has, which may change.
+    // The number of unnamed markers is that of the widest row, which may change.
     if (path.parent_path().filename() != "good" || path.stem() == "unnamed") continue;
     SCOPED_TRACE(path.filename());
     const Take source = read_trc(read_file(path));
@@ -111,7 +111,7 @@ TEST(TrcWriter, RandomChangesReadBackAndLeaveTheRestAlone) {
       const Take again = read_trc(write_take(clip, "trc"));
       ASSERT_EQ(again.observed.size(), clip.observed.size());
       for (std::size_t i = 0; i < clip.positions.size(); ++i) {
-        // What was beside it told whether the origin is a place or means missing.
+        // The neighbouring samples decide whether the origin is a place or means missing.
         if (clip.observed[i] != 0 && clip.positions[i] == Vec3{}) continue;
         ASSERT_EQ(again.observed[i], clip.observed[i]) << i;
         if (clip.observed[i] == 0) continue;
@@ -148,7 +148,7 @@ TEST(TrcWriter, AClipMadeInMemoryReadsBackExactly) {
   Random random(3);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     set(clip, f, 0, {random.normal(), 1e-3, -5});
-    // As from a C3D file: written with the digits of a float.
+    // These values come from floats, as in a C3D file, and are written with a float's digits.
     set(clip, f, 1, {static_cast<float>(random.normal()), 0.1f, 1e6f});
     if (f % 3 == 0) set(clip, f, 2, {std::round(1e6 * random.normal()) / 1e6, 0, 1});
   }

@@ -132,7 +132,7 @@ TEST(TsvWriter, OnlyChangedSamplesGetNewDigits) {
   EXPECT_EQ(write_take(clip, "tsv"), expected);
 }
 
-// Once a cell is empty, zeros say no longer that a sample is missing.
+// Once a cell is empty, zeros no longer mean that a sample is missing.
 TEST(TsvWriter, MissingSamplesStayMissingBesideNewOnes) {
   Take clip = tsv_markers("good/zeros.tsv");
   clip.observed[0] = 0;
@@ -169,7 +169,7 @@ TEST(TsvWriter, TakesOfOtherFormatsReadBack) {
             "TSV files are in millimetres, the take is in \"m\"");
 }
 
-// A row without number or time whose only marker is missing would be a blank line.
+// Without number and time, a row whose only marker is missing would be a blank line.
 TEST(TsvWriter, ARowWithoutAnySampleStaysAFrame) {
   const std::string text =
       "NO_OF_FRAMES\t3\nNO_OF_MARKERS\t1\nFREQUENCY\t100\nMARKER_NAMES\tA\n"

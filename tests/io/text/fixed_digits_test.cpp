@@ -1,4 +1,4 @@
-// The project's own way to write digits agrees with that of the standard library.
+// The project's digit writer agrees with that of the standard library.
 #include "io/text/fixed_digits.hpp"
 
 #include <gtest/gtest.h>

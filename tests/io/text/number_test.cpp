@@ -15,7 +15,7 @@
 namespace kinemend {
 namespace {
 
-// The token amid text, so that reading before and after it is allowed.
+// Surrounds the token with text, because the parser may read before and after it.
 struct Padded {
   explicit Padded(const std::string& token)
       : text("0.12345 " + token + " 7.1 8.2 9.3 4.4 5.5 6.6 7.7 8.8 ") {}
@@ -162,7 +162,7 @@ TEST(WriteFixed, EqualsTheCLibrary) {
     const auto decimals = static_cast<unsigned>(random.below(10));
     double value =
         random.uniform(-360, 360) * std::pow(10.0, static_cast<double>(random.below(12)) - 6);
-    // Ties and near ties.
+    // Adds ties and near ties.
     if (random.chance(0.3))
       value = std::round(value * 2000) / 2000 + (random.chance(0.5) ? 1e-14 : 0);
     std::snprintf(expected, sizeof expected, "%.*f", static_cast<int>(decimals), value);

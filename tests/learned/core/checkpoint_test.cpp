@@ -1,4 +1,4 @@
-// Trainings that are interrupted and resumed give the same bytes.
+// Interrupted and resumed trainings give the same bytes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -53,7 +53,7 @@ std::string trained(const Case& which, TrainCheckpoint checkpoint = {}) {
   return write_model(train_model(which.method, walks(2), which.options, settings));
 }
 
-/// Every state that a training keeps, one after the other.
+/// Every state that a training keeps, in order.
 std::vector<std::string> states_of(const Case& which) {
   std::vector<std::string> states;
   TrainCheckpoint checkpoint;
@@ -136,7 +136,7 @@ TEST(Checkpoint, IsKeptNoOftenerThanAsked) {
   checkpoint.every_s = 1e6;
   checkpoint.keep = [&](const std::string&) { ++seldom; };
   trained(sparse_case, checkpoint);
-  // The first and the last of each poselet.
+  // Only the first and the last state of each poselet are kept.
   EXPECT_LE(seldom, 2 * 5u);
   EXPECT_GT(states_of(sparse_case).size(), seldom);
 }

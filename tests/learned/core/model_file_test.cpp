@@ -1,4 +1,4 @@
-// Tests of model files: layout, checksum, versions, and the models that ship.
+// Tests of model files: layout, checksum, versions, and the shipped models.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -92,8 +92,7 @@ std::string error_of(const std::function<void()>& action, ErrorKind kind) {
   return "no error";
 }
 
-/// The message for a model file with something changed in its tensors and metadata.
-/// The model as a file of format 1, which has no checksum.
+/// Returns the model as a file of format 1, which has no checksum.
 TensorFile without_checksum(const Model& model) {
   TensorFile file = parse_tensors(write_model(model), "source");
   file.metadata["kinemend.model"] = "1";
@@ -121,7 +120,7 @@ TEST(ModelFile, ComesBackWhole) {
   EXPECT_FALSE(parse_model(write_model(without_place), "a").layout.with_place);
 }
 
-// The files by tools/reference/tensors.py.
+// tools/reference/tensors.py wrote the fixtures.
 TEST(ModelFile, IsLaidOutAsTheReferenceLaysItOut) {
   const auto fixture = [](const char* name) {
     return std::filesystem::path(KINEMEND_TEST_FIXTURES) / "models/good" / name;

@@ -1,4 +1,4 @@
-// Tests of motion in a mirror and backwards.
+// Tests of mirrored and reversed motion.
 #include "learned/core/motion_forms.hpp"
 
 #include <gtest/gtest.h>

@@ -9,7 +9,7 @@
 
 namespace kinemend::test {
 
-/// A body of one joint and its place, with the tensors of a file in tests/fixtures/nn.
+/// A body of one joint with a position, and the tensors of a file in tests/fixtures/nn.
 inline Model model_of_one_joint(const std::string& method, const std::string& tensors) {
   const std::string path = KINEMEND_TEST_FIXTURES "/nn/" + tensors;
   std::ifstream file(path, std::ios::binary);

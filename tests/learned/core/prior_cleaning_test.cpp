@@ -1,5 +1,4 @@
-// Tests of the path of a take through the methods with a learned model, with filters of known
-// effect.
+// Tests how the learned methods pass a take through the pipeline, with filters of known effect.
 #include "learned/core/prior_cleaning.hpp"
 
 #include <gmock/gmock.h>
@@ -57,7 +56,7 @@ std::ptrdiff_t count_of(const InPlaceTrace& trace, Action action) {
   return count;
 }
 
-// Does to the takes of the pipeline what the filter does.
+// A cleaner that applies the given filter.
 class Filtering final : public Cleaner {
  public:
   Filtering(BodyLayout layout, bool fill, PriorFilter filter, NameMap names = {},
@@ -81,7 +80,7 @@ class Filtering final : public Cleaner {
   PriorFilter filter_;
 };
 
-// A filter whose result may be as far from what `auto` makes of the take as it likes.
+// Lets a filter's result differ from that of `auto` by any amount.
 PriorFilter unlimited(PriorFilter filter) {
   return [filter](PriorWork& work) {
     filter(work);
@@ -171,7 +170,7 @@ TEST(PriorCleaning, AFilterOfWhiteNoiseLeavesNoiseWithAColourToAuto) {
   EXPECT_TRUE(has_run) << "gaps are";
 }
 
-// What the filter puts into a gap joins the samples beside it, which it may not change.
+// The filling of a gap joins the samples beside it, which the filter must not change.
 TEST(PriorCleaning, WhatIsFilledInACleanTakeMeetsTheSamplesBesideIt) {
   const Take truth = noisy_walk();
   const auto arm = static_cast<std::size_t>(truth.skeleton.find("LeftArm"));
@@ -248,7 +247,7 @@ TEST(PriorCleaning, FillsGapsOfJointsOrBridgesThem) {
     clip.observed[f * clip.joint_count() + arm] = 0;
     clip.rotation(f, arm) = exp({1, 2, 0});
   }
-  // A filter that knows the truth.
+  // This filter knows the ground truth.
   const PriorFilter oracle = [&](PriorWork& work) {
     work.channels.poses =
         encode_body(truth, layout, match_body(layout, truth), work.channels).poses;

@@ -1,4 +1,4 @@
-// Tests of how far a learned model may change a part of a take.
+// Tests of the limit on how far a learned model may change a part of a take.
 #include "learned/core/prior_hold.hpp"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t frames = 200;
 
-// One part; `auto` makes zero of it, the filter a leap of this size at frame 10, and noise is one
-// degree per axis.
+// A take of one part: `auto` gives zero, the filter a jump of this size at frame 10, and the noise
+// is one degree per axis.
 PriorWork leaping(double size) {
   PriorWork work;
   work.channels.poses = PoseMatrix(frames, 3);
@@ -63,7 +63,7 @@ TEST(SuspectShare, CountsWhatIsFarFromAResultAndWhatAutoSuspects) {
   EXPECT_NEAR(suspect_share(work, work.fallback), 60.0 / (frames * 3), 1e-12);
 }
 
-// `auto` may take so many for noise, and suspects none of them.
+// `auto` may mistake this many outliers for noise and suspect none of them.
 TEST(HoldToNeeds, DoesNotHoldWhereManySamplesAreFarFromAutos) {
   for (const auto& [outliers, farthest] : {std::pair{10, std::sqrt(3)}, {14, 20.0}}) {
     PriorWork work = leaping(0);

@@ -1,4 +1,4 @@
-// Tests of the table of learned methods and of what all trainings share.
+// Tests of the table of learned methods and of the code that all trainings share.
 #include "kinemend/experimental/train.hpp"
 
 #include <gmock/gmock.h>
@@ -99,7 +99,7 @@ TEST(TrainModel, GivesTheSameBytesForTheSameTakes) {
   }
 }
 
-// A small mixture: other windows make another one.
+// The mixture is small, so other windows give another mixture.
 TEST(TrainModel, DrawsFromOneSeed) {
   const OptionValues few = {{"rate_hz", 30.0},
                             {"coefficients", std::int64_t{4}},

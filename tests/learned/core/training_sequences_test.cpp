@@ -33,7 +33,7 @@ Take markers_of(const Take& clip) {
   return markers;
 }
 
-// A gap of every part in frames 40 to 49.
+// Hides every part in frames 40 to 49.
 void lose_frames(Take& clip) {
   clip.observed.assign(clip.rotations.size(), 1);
   std::fill_n(clip.observed.begin() + static_cast<std::ptrdiff_t>(40 * clip.joint_count()),
@@ -53,7 +53,7 @@ std::vector<Take> marker_takes() {
   return {markers_of(walk_at(1)), markers_of(walk_at(2, 120)), markers_of(walk_at(3, 50))};
 }
 
-// Small and quick; what is learned does not matter here.
+// Trains a small, quick model; its quality does not matter here.
 Model trained(const LearnedMethod& method, const TrainingTakes& takes,
               TrainSettings settings = {}) {
   const std::map<std::string, OptionValues> quick = {
@@ -105,7 +105,7 @@ TEST(TrainingSequences, AreTheChannelsOfWholeStretchesInEveryPhase) {
   const TrainingSequences sequences = encode_takes(takes_of(takes), {}, 60);
   std::vector<std::size_t> of_take(takes.size(), 0);
   for (const auto& entry : sequences.entries) ++of_take[entry.take];
-  // The first has a gap, the second twice the rate.
+  // The first take has a gap; the second has twice the rate.
   EXPECT_EQ(of_take, (std::vector<std::size_t>{2, 2, 1, 1}));
   EXPECT_EQ(sequences.takes, takes.size());
 
@@ -158,7 +158,7 @@ TEST(TrainingSequences, GiveTheSameModelFromMemoryAndFromAFile) {
       };
       const std::string in_memory = bytes(std::size_t{1} << 30);
       EXPECT_EQ(bytes(0), in_memory) << method.name;
-      EXPECT_EQ(bytes(300'000), in_memory) << method.name;  // in both
+      EXPECT_EQ(bytes(300'000), in_memory) << method.name;  // partly in memory, partly in the file
     }
   }
 }

@@ -1,4 +1,4 @@
-// Calibration of joints' frames by the mean pose.
+// Tests of the calibration of joint frames by the mean pose.
 #include "learned/corrector/body_calibration.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace kinemend::test {
 namespace {
 
-// A chain with a branch, whose references are no identity.
+// A chain with a branch whose references differ from the identity.
 BodyLayout small_layout() {
   BodyLayout layout;
   layout.names = {"Hips", "Spine", "LeftArm", "LeftForeArm"};
@@ -24,7 +24,7 @@ BodyLayout small_layout() {
   return layout;
 }
 
-// Degrees, with a mean that is not the reference.
+// Motion in degrees whose mean differs from the reference.
 PoseMatrix some_motion(const BodyLayout& layout) {
   PoseMatrix poses(90, layout.channel_count());
   Random random(3);
@@ -66,7 +66,7 @@ TEST(BodyCalibration, PutsTheMeanPoseWhereTheReferenceIs) {
 TEST(BodyCalibration, TakesOutWhatTheAxesOfBonesAdd) {
   const BodyLayout layout = small_layout();
   const PoseMatrix poses = some_motion(layout);
-  // The rotations of another rig, whose frames are turned: by constants from both sides.
+  // Another rig multiplies each rotation by constants on both sides.
   const BodyCalibration axes{
       {exp({1, 0, 0.3}), exp({0, 0.8, 0}), exp({-0.5, 0.4, 0}), exp({0, 0, 1})}};
   const PoseMatrix turned = calibrated(poses, 30, layout, axes);

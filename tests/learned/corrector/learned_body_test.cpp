@@ -1,4 +1,4 @@
-// What the network of `learned` sees of joints that its model knows.
+// Tests how the network of `learned` sees the joints that its model knows.
 #include "learned/corrector/learned_body.hpp"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ std::optional<KnownBody> body_of(const Take& take, const BodyLayout& layout) {
   return reading_of(take, layout, 20).body;
 }
 
-// A joint that turns on and on, past what a rotation vector says.
+// Makes a joint turn continuously, beyond the range of a rotation vector.
 Take with_wheel(Take take, std::size_t joint) {
   for (std::size_t f = 0; f < take.frame_count(); ++f)
     take.rotation(f, joint) = exp(Vec3{0.2 * static_cast<double>(f), 0, 0});
@@ -86,7 +86,7 @@ TEST(KnownBody, SeesABridgeOverAGapAndNotTheSampleBeforeIt) {
   constexpr std::size_t length = 24;
   const Take truth = synthesize({.motion = "walk", .duration_s = 2, .frame_rate_hz = 120});
   const auto knee = static_cast<std::size_t>(truth.skeleton.find("LeftLeg"));
-  // Where the ends of the gap are farthest apart.
+  // The gap lies where its ends are farthest apart.
   std::size_t first = 20;
   const auto way = [&](std::size_t f) {
     return angle_between(truth.rotation(f - 1, knee), truth.rotation(f + length, knee));

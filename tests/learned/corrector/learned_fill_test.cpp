@@ -1,4 +1,4 @@
-// Gaps of joints filled by the network of `learned`, as `fill_gaps` does it.
+// Tests of joint gaps that `fill_gaps` fills with the network of `learned`.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ FillReport filled(Take& clip, const LearnedFill& model) {
   return fill_gaps(clip, settings);
 }
 
-// A network that says of every sample what it is shown.
+// A network that returns its input.
 LearnedFill content() {
   return make_learned_fill({}, std::make_shared<const Model>(one_smoother_model(0)));
 }

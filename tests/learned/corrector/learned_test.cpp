@@ -1,4 +1,4 @@
-// What the method `learned` does with takes, whatever its network says. This one asks for the
+// Tests of the method `learned` that do not depend on its weights; this network selects the
 // Gaussian of 50 ms everywhere.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -42,12 +42,12 @@ CleanResult cleaned_from(Source source, const Take& take, const Cleaner& cleaner
   return clean_take(take, cleaner, settings);
 }
 
-// Asks for one smoother, whatever it sees.
+// A cleaner whose network always selects one smoother.
 std::unique_ptr<Cleaner> asking_for(std::size_t smoother) {
   return cleaner_of(one_smoother_model(smoother));
 }
 
-// States one deviation of its result, whatever it sees.
+// Makes the network always state one deviation of its result.
 Model expecting(Model model, double deviation_deg) {
   model.tensors["output.bias"].values.back() = 2 * std::log(deviation_deg);
   return model;
@@ -74,7 +74,7 @@ TEST(LearnedCleaner, MakesTheSameOfJointsWhoseNamesItDoesNotKnow) {
   const Take known = clean_take(noisy, *smoothing).take;
   Take unknown = clean_take(without_known_names(noisy), *smoothing).take;
   unknown.skeleton.names = known.skeleton.names;
-  // Vectors about another reference are the same but for the curvature of rotations.
+  // Rotation vectors about another reference differ only by the curvature of rotations.
   EXPECT_LT(rms_deg(known, unknown), 0.1);
 }
 
@@ -146,7 +146,7 @@ TEST(LearnedCleaner, SaysHowFarItsResultIsExpectedToBeOff) {
 TEST(LearnedCleaner, LeavesTracksAloneWhoseChangeIsSmallBesideWhatMayBeWrongAnyway) {
   const Take truth = walk_for_networks(120);
   Take clip = with_damage(truth, "gaussian", {{"std_deg", 0.2}});
-  // A spike is repaired all the same.
+  // A spike is repaired even so.
   const std::size_t knee = 2, frame = 200;
   clip.rotation(frame, knee) = clip.rotation(frame, knee) * exp(Vec3{2, 0, 0});
   const Model smoothing = one_smoother_model(gaussian_of_50_ms);
@@ -164,7 +164,7 @@ TEST(LearnedCleaner, LeavesTracksAloneWhoseChangeIsSmallBesideWhatMayBeWrongAnyw
   EXPECT_NE(sure.take.rotation(100, knee), clip.rotation(100, knee));
 }
 
-// A network that takes the peaks of fast moves for errors: the take shows no noise.
+// The network takes the peaks of fast moves for errors, and the take shows no noise.
 TEST(LearnedCleaner, KeepsAFastMoveThatItsNetworkWouldSmoothUnlessTheSourceHasSlowNoise) {
   const Take punch = synthesize({.motion = "punch", .duration_s = 6, .frame_rate_hz = 60});
   const auto cleaner = asking_for(gaussian_of_50_ms);
@@ -182,7 +182,7 @@ TEST(LearnedCleaner, KeepsAFastMoveThatItsNetworkWouldSmoothUnlessTheSourceHasSl
   EXPECT_EQ(cleaned_from(Source::unknown, punch, *cleaner).take.rotations, kept.take.rotations);
 }
 
-// Who says what recorded a take needs no advice.
+// With a stated source, the report gives no advice to state one.
 TEST(LearnedCleaner, CleansOpticalTakesAsUnknownOnesWithoutTheAdvice) {
   const Take punch = synthesize({.motion = "punch", .duration_s = 6, .frame_rate_hz = 60});
   const auto cleaner = asking_for(gaussian_of_50_ms);
@@ -220,8 +220,7 @@ TEST(LearnedCleaner, ChangesNothingOfKeysButGaps) {
   }
 }
 
-// What shows from frame to frame is measurable, however large it is; and small errors are nothing
-// to speak of.
+// Noise that shows from frame to frame is measurable at any size, and small errors need no mention.
 TEST(LearnedCleaner, NamesNoiseThatIsLargeAndSlowOnly) {
   const Take clip = walk_for_networks(120);
   const auto characters = [&](const Take& take, double expected_deg) {

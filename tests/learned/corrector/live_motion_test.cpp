@@ -1,5 +1,4 @@
-// The learned cleaner frame by frame, beside what it makes of takes that end where it looks ahead
-// to.
+// The frame-by-frame learned cleaner agrees with the offline one on takes cut at its lookahead.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -69,7 +68,7 @@ std::vector<float> live_filtered(const MotionNetwork& network, const MotionTake&
   return result;
 }
 
-// Frames up to the last one, behind two seconds and more in which nothing moves.
+// The frames up to `last` after a still lead-in of two seconds or more.
 MotionTake cut_take(const MotionTake& take, std::size_t last, std::size_t still) {
   MotionTake cut = take;
   cut.frames = still + last + 1;
@@ -238,7 +237,7 @@ TEST(LiveMotion, HoldsWhatIsMissingAndJoinsItByALineWhatNeverStandsThere) {
       other.values[6 * f + channel] = -400;
     }
   };
-  hide(1, 100, 109);  // out again before it is given
+  hide(1, 100, 109);  // ends before its frames are output
   hide(2, 200, 259);
   hide(3, 0, 30);
   const std::vector<float> result = live_filtered(network, take);
@@ -248,7 +247,7 @@ TEST(LiveMotion, HoldsWhatIsMissingAndJoinsItByALineWhatNeverStandsThere) {
     const float from = take.values[6 * 99 + 1], to = take.values[6 * 110 + 1];
     EXPECT_NEAR(result[6 * f + 1], from + share * (to - from), 1e-3);
   }
-  // What has come out before the end of the gap was held.
+  // Frames that were output before the end of the gap hold the last sample.
   for (std::size_t f = 200; f < 245; ++f)
     EXPECT_NEAR(result[6 * f + 2], take.values[6 * 199 + 2], 1e-3);
   for (std::size_t f = 0; f < 16; ++f) EXPECT_TRUE(std::isfinite(result[6 * f + 3]));

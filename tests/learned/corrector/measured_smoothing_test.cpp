@@ -1,4 +1,4 @@
-// Tests of joining the result of the network with that of measured noise.
+// Tests of joining the network's result with measured smoothing.
 #include "learned/corrector/measured_smoothing.hpp"
 
 #include <gtest/gtest.h>
@@ -10,9 +10,9 @@
 namespace kinemend {
 namespace {
 
-using Change = std::function<double(double)>;  // of a frame, taken out of each axis
+using Change = std::function<double(double)>;  // correction of each axis, by frame
 
-// One track that turns slowly; `measured` and the result take out what is given.
+// One track that turns slowly; `measured` and the result subtract the given change.
 MotionTake take_with(const Change& measured) {
   MotionTake take;
   take.frames = 600;
@@ -37,7 +37,7 @@ MotionResult result_of(const MotionTake& take, const Change& taken_out) {
   return result;
 }
 
-// How far the result went towards `measured`, of the whole way; where both differ.
+// The share of the distance to `measured` that the result moved, where both differ.
 double share_gone(const MotionTake& take, const MotionResult& before, const MotionResult& after) {
   double gone = 0, way = 0;
   for (std::size_t i = 0; i < before.values.size(); ++i) {
@@ -48,7 +48,7 @@ double share_gone(const MotionTake& take, const MotionResult& before, const Moti
   return gone / way;
 }
 
-// Is another 5 frames later: a 25th of a second.
+// Changes sign every 5 frames, a 25th of a second.
 double quick(double t) { return std::fmod(t, 10) < 5 ? 1 : -1; }
 
 TEST(JoinMeasured, TakesTheMeanWhereBothTakeOutAsMuchQuickNoise) {

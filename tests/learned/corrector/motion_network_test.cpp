@@ -72,7 +72,7 @@ TEST(SmootherBank, SpreadsAnImpulseByTheWidthOfItsLevel) {
       square += away * away * static_cast<double>(result[f]);
     }
     EXPECT_NEAR(sum, 1, 1e-5);
-    // Cut at 3.3 deviations, a Gaussian has lost 1 % of its own.
+    // Truncation at 3.3 deviations reduces the deviation of a Gaussian by 1 %.
     EXPECT_NEAR(std::sqrt(square), bank_widths_s[level - 1], 0.02 * bank_widths_s[level - 1]);
   }
 }
@@ -82,7 +82,8 @@ TEST(MotionSteps, TellStrengthsThatNoiseOfThisDeviationHas) {
   Random random(11);
   for (float& value : take.values) value = static_cast<float>(2 * random.normal());
   const MotionReader reader(take);
-  // White noise in the band between two Gaussians: the difference of their kernels, squared.
+  // The variance of white noise between two Gaussians is the sum of squares of their kernels'
+  // difference.
   const SmootherBank& bank = reader.bank();
   std::vector<float> impulse(401, 0.0F), upper(impulse.size()), lower(impulse.size());
   impulse[200] = 1;

@@ -27,7 +27,7 @@ MotionSample drawn(const MotionSampling& sampling, std::uint64_t seed) {
   return random_motion_sample({walks(), mirror_of(walks().layout)}, sampling, Random(seed));
 }
 
-// Of what was measured.
+// Root mean square of the damage over observed samples.
 double size_of_damage(const MotionSample& sample) {
   double square = 0;
   for (std::size_t i = 0; i < sample.truth.size(); ++i) {
@@ -101,7 +101,7 @@ TEST(MotionSamples, ShowTheReferenceOfAPairInTheShareThatIsClean) {
   }
 }
 
-// Two markers that travel at 2 degrees a frame; the second swings about the first.
+// Two markers that travel at 2 degrees per frame; the second swings about the first.
 MarkerMotion travelling_markers() {
   MarkerMotion motion{120, PoseMatrix(1200, 6)};
   for (std::size_t f = 0; f < 1200; ++f) {
@@ -125,7 +125,7 @@ TEST(MotionSamples, OfMarkersArePositionsOfNoKnownBody) {
     EXPECT_EQ(std::count(take.is_position.begin(), take.is_position.end(), 1),
               static_cast<std::ptrdiff_t>(take.channels));
     EXPECT_EQ(*std::max_element(take.slots.begin(), take.slots.end()), -1);
-    // What is no marker stays 0.
+    // Channels that are not markers stay 0.
     for (std::size_t f = 0; f < take.frames; ++f)
       for (std::size_t c = 6; c < take.channels; ++c)
         ASSERT_EQ(take.values[f * take.channels + c], 0);
@@ -171,13 +171,13 @@ TEST(MotionSamples, MapAReferenceByTheGainAndOffsetOfEachChannel) {
   for (std::size_t f = 0; f < take.frames; ++f) {
     for (std::size_t c = 0; c < 2; ++c)
       ASSERT_NEAR(mapped.sample.truth[3 * f + c], take.values[3 * f + c], 1e-4);
-    // It hardly moves: nothing is told of it.
+    // A channel that hardly moves is set to zero.
     EXPECT_EQ(mapped.sample.truth[3 * f + 2], 0);
     EXPECT_EQ(mapped.sample.take.values[3 * f + 2], 0);
   }
 }
 
-// Two tracks that swing, on a rig of 30 Hz whose first joint the model knows.
+// Two swinging tracks on a rig at 30 Hz whose first joint the model knows.
 RigMotion swinging_rig() {
   RigMotion rig{30, PoseMatrix(40, 6), {0, 1, 2, -1, -1, -1}, std::vector<std::uint8_t>(6)};
   for (std::size_t f = 0; f < 40; ++f)

@@ -1,4 +1,4 @@
-// A small network of `learned` and a take, from the fixture that LibTorch made.
+// A small network of `learned` and a take, from a LibTorch fixture.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace kinemend::test {
 
-/// Of a body of one joint and its place: the random network of train/reference_motion_network.cpp,
-/// and beside its tensors a take and what LibTorch makes of it.
+/// The random network of train/reference_motion_network.cpp for a body of one joint with a
+/// position. Its tensor file also holds a take and LibTorch's results.
 inline Model small_motion_model() {
   Model model = model_of_one_joint("learned", "motion.safetensors");
   model.numbers = {{"blocks", 2},
@@ -21,7 +21,7 @@ inline Model small_motion_model() {
   return model;
 }
 
-/// The take beside the tensors: one track of the body, and a marker.
+/// The take in the tensor file: one track of the body, and a marker.
 inline MotionTake small_motion_take(const Model& model) {
   MotionTake take;
   take.channels = 6;
@@ -38,7 +38,7 @@ inline MotionTake small_motion_take(const Model& model) {
   return take;
 }
 
-/// The model with a network that asks for one smoother everywhere and corrects nothing.
+/// The model with a network that always selects one smoother and corrects nothing.
 inline Model one_smoother_model(std::size_t smoother) {
   Model model = small_motion_model();
   for (const char* name : {"output", "slot_corrections"}) {

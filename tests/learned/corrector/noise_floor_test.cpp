@@ -1,4 +1,4 @@
-// Tests of the bound by the noise floor, offline and live.
+// Tests of the noise floor as a bound, offline and live.
 #include "learned/corrector/noise_floor.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace kinemend {
 namespace {
 
-// Degrees that are taken out of each axis, by frame and track.
+// Degrees subtracted from each axis, by frame and track.
 using Removal = std::function<double(std::size_t frame, std::size_t track)>;
 
 struct Case {
@@ -22,7 +22,7 @@ struct Case {
   MotionResult result;
 };
 
-// Tracks that swing; the result takes out what is given.
+// Swinging tracks; the result subtracts the given removal.
 Case case_of(std::size_t frames, std::size_t tracks, const Removal& removal,
              double frame_rate_hz = 120) {
   Case both;
@@ -68,9 +68,9 @@ Case bound_live(const Case& both) {
   return bounded;
 }
 
-// Slow noise: most of it is the same a 60th of a second later.
+// Slow noise: a 60th of a second later it has hardly changed.
 double slow(std::size_t frame) { return 2 + std::sin(0.05 * static_cast<double>(frame)); }
-// A fast move for half a second, of which a smoother takes the peak.
+// A fast move of half a second whose peak a smoother would cut off.
 double peak(std::size_t frame) {
   return frame >= 600 && frame < 660
              ? 5 * std::sin(3.14159265358979 * static_cast<double>(frame - 600) / 60)

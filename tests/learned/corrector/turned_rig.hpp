@@ -11,7 +11,7 @@
 
 namespace kinemend::test {
 
-/// How the frame of each joint is turned: by `angle` radians, about an axis of its own.
+/// Turns the frame of each joint by `angle` radians about a random axis.
 inline std::vector<Quat> rig_turns(const Take& take, double angle) {
   std::vector<Quat> turns;
   Random random(5);
@@ -23,7 +23,7 @@ inline std::vector<Quat> rig_turns(const Take& take, double angle) {
   return turns;
 }
 
-/// The same motion with other bone axes: all joints are where they were, and so is the rest pose.
+/// The same motion with other bone axes; world positions and the rest pose are unchanged.
 inline Take with_turned_axes(Take take, const std::vector<Quat>& turns) {
   Skeleton& skeleton = take.skeleton;
   for (std::size_t j = 0; j < take.joint_count(); ++j) {
@@ -39,8 +39,8 @@ inline Take with_turned_axes(Take take, const std::vector<Quat>& turns) {
   return take;
 }
 
-/// The same, and the pose without any rotation is no standing person: rest rotations are part of
-/// the motion, as in BVH files.
+/// The same motion without rest rotations, as in BVH files: the pose with zero rotations is not a
+/// standing person.
 inline Take on_turned_rig(const Take& take, const std::vector<Quat>& turns) {
   Take turned = with_turned_axes(take, turns);
   for (std::size_t j = 0; j < take.joint_count(); ++j) {

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// Channels that swing together, at `rate_hz`.
+// Channels that swing together, sampled at `rate_hz`.
 PoseMatrix swing(std::size_t frames, std::size_t channels, double rate_hz, double start_s = 0) {
   Random body(1);
   PoseMatrix poses(frames, channels);
@@ -153,7 +153,7 @@ TEST(ExampleFilter, SolvesTheLinearSystemWhereThereIsNoRobustness) {
   PoseMatrix found = y;
   example_filter(found, y, observed, bases, mean, weights, {.iterations = 400, .tolerance = 1e-15});
 
-  // (W + 2 lambda N - 2 A) z = W y, column by column of the penalty's own matrix.
+  // (W + 2 lambda N - 2 A) z = W y, with the columns of the penalty's own matrix.
   std::vector<double> prior = {0.4, 1.4}, ridge = {0.2, 0.4, 0.6};
   PatternPenalty penalty(bases, prior, ridge, frames);
   Eigen::MatrixXd system(size, size);
@@ -321,8 +321,8 @@ double largest_difference(const PoseMatrix& a, std::size_t first, const PoseMatr
   return most;
 }
 
-// A take of more than one stretch, at a rate at which windows are no whole number of hops: about
-// each seam it is what it would be of the frames about it alone.
+// A take of several stretches, at a rate at which windows are not whole numbers of hops. Near each
+// seam the result equals that of the surrounding frames alone.
 TEST(ExampleFilter, HasNoSeamsInLongTakes) {
   constexpr std::size_t channels = 64, frames = 9001, hop = 2;
   const FilterBases bases = swing_bases(6, channels, 6);

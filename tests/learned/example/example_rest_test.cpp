@@ -1,4 +1,4 @@
-// Tests of how `example` treats noise, strange motion, and the motion outside of its bases.
+// Tests how `example` treats noise, strange motion, and motion outside its bases.
 #include "learned/core/example_rest.hpp"
 #include "learned/example/example_filter.hpp"
 
@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::size_t frames = 200, channels = 6;
 
-// Smooth motion with noise of standard deviation `noise`; `auto` made the motion itself of it.
+// Smooth motion with noise of standard deviation `noise`; the result of `auto` is the motion
+// itself.
 PriorWork work_of(double noise, std::uint64_t seed = 1) {
   Random random(seed);
   PriorWork work;
@@ -58,7 +59,7 @@ TEST(ExampleNoise, IsTheTypicalOneWhereNothingIsKnown) {
   EXPECT_NEAR(example_noise(work)[4], 0.05, 1e-12);
 }
 
-// What lies outside of the bases has 100 times the variance that it had in training.
+// The motion outside the bases has 100 times its variance in training.
 TEST(Strangeness, IsTheVarianceOutsideOfTheBasesOverThatOfTraining) {
   const PriorWork work = work_of(1);
   Random random(2);
@@ -66,7 +67,7 @@ TEST(Strangeness, IsTheVarianceOutsideOfTheBasesOverThatOfTraining) {
   for (double& value : expressed.values) value += 2 * random.normal();
   const std::vector<double> noise(channels, 1.0), residual(channels, 0.04);
   EXPECT_NEAR(strangeness(work, work.channels.poses, expressed, noise, residual), 100, 12);
-  // The noise alone makes nothing strange.
+  // Noise alone is not strange.
   EXPECT_EQ(strangeness(work, work.channels.poses, work.fallback, noise, residual), 1);
 }
 
@@ -84,8 +85,8 @@ TEST(FallBack, TakesWhatAutoMadeOfStrangeMotionButFillsNoGaps) {
   EXPECT_NEAR(between(1, 0), 0.5 * (5 + work.fallback(1, 0)), 1e-9);
 }
 
-// The filter's result lies `deviations` deviations of the noise beside what was measured from frame
-// 100 on: below one nothing is taken of `auto`, beyond two all, in the middle half.
+// From frame 100 on, the result is off the measurement by `deviations` noise deviations. Below one,
+// `auto` is ignored; beyond two, it is used fully; at 1.5, by half.
 TEST(FallBack, TakesWhatAutoMadeOfAPartWhereTheResultIsBiased) {
   const std::vector<double> noise(channels, 1.0);
   for (const auto& [deviations, taken] : {std::pair{0.9, 0.0}, {1.5, 0.5}, {2.1, 1.0}}) {
@@ -105,8 +106,8 @@ TEST(FallBack, TakesWhatAutoMadeOfAPartWhereTheResultIsBiased) {
   }
 }
 
-// Bases of one constant pattern in one channel know next to nothing of the motion: what is outside
-// of them is kept, smoothed, and comes nearer to the truth than the measurements.
+// Bases of one constant pattern in one channel represent almost no motion. The rest is kept and
+// smoothed, and lies nearer to the truth than the measurements.
 TEST(SmoothRest, KeepsSmoothMotionThatTheBasesDoNotKnow) {
   PriorWork work = work_of(1);
   WindowBases bases;
@@ -118,7 +119,7 @@ TEST(SmoothRest, KeepsSmoothMotionThatTheBasesDoNotKnow) {
   for (std::size_t f = 0; f < 10; ++f) bases.values[f * channels] = 1 / std::sqrt(10.0);
   const std::vector<double> mean(channels, 0.0), noise(channels, 1.0);
   PoseMatrix weights(frames, channels, 1.0), cleaned = work.channels.poses;
-  // A rejected sample does not count.
+  // A rejected sample is ignored.
   work.channels.poses(50, 1) += 1000;
   weights(50, 1) = 0;
   smooth_rest(work, weights, filter_linearly(cleaned, bases, mean), noise, cleaned);
@@ -126,7 +127,7 @@ TEST(SmoothRest, KeepsSmoothMotionThatTheBasesDoNotKnow) {
   EXPECT_NEAR(cleaned(50, 1), work.fallback(50, 1), 2);
 }
 
-// A gap at the end: what the filter made of it stays, however the motion beside it goes on.
+// In a gap at the end, the filter's filling is kept, whatever the motion beside it.
 TEST(SmoothRest, LeavesLongGapsAsTheFilterFilledThem) {
   PriorWork work = work_of(0.1);
   WindowBases bases;

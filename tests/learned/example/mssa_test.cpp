@@ -15,7 +15,7 @@
 namespace kinemend {
 namespace {
 
-// Smooth channels that move together, with an offset each.
+// Smooth channels that move together, each with an offset.
 PoseMatrix waves(std::size_t frames, std::size_t channels, std::uint64_t seed) {
   Random random(seed);
   PoseMatrix poses(frames, channels);
@@ -52,7 +52,7 @@ Eigen::VectorXd frame_mean(const std::vector<Weighted>& sequences) {
   return sum / count;
 }
 
-// Eq. 1-3: the trajectory matrix of all sequences, written out.
+// Eq. 1-3 with an explicit trajectory matrix of all sequences.
 Eigen::MatrixXd brute_covariance(const std::vector<Weighted>& sequences, std::size_t window,
                                  const Eigen::VectorXd& mean) {
   const std::size_t L = sequences[0].poses.channels;

@@ -14,7 +14,7 @@ namespace {
 
 using test::random_values;
 
-// Window by window, of a sequence that repeats itself.
+// Sums window by window over a cyclic sequence.
 std::vector<double> brute_product(const std::vector<double>& patterns, std::size_t window,
                                   std::size_t values, std::size_t count,
                                   const std::vector<double>& z) {
@@ -41,7 +41,7 @@ TEST(PatternConvolution, IsTheSumOverAllWindowsOfARepeatingSequence) {
       for (const std::size_t count : {1UL, 5UL}) {
         const std::vector<double> patterns = random_values(window * values * count, window);
         PatternConvolution convolution(patterns, window, values, count);
-        // One object serves sequences of any length, longer ones and shorter ones than before.
+        // One object serves sequences of any length, in any order.
         for (const std::size_t rows : {window, window + 1, 200UL, 41UL}) {
           const std::vector<double> z = random_values(rows * values, rows);
           const std::vector<double> expected = brute_product(patterns, window, values, count, z);
@@ -55,7 +55,7 @@ TEST(PatternConvolution, IsTheSumOverAllWindowsOfARepeatingSequence) {
   }
 }
 
-// Products of this size are themselves shared among threads.
+// A product of this size is itself split among threads.
 TEST(PatternConvolution, IsTheSameWithAnyNumberOfThreads) {
   const std::size_t window = 12, values = 320, count = 200, rows = 40;
   const std::vector<double> patterns = random_values(window * values * count, 1);

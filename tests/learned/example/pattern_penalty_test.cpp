@@ -1,4 +1,4 @@
-// Tests of the distance from patterns: by windows and by frequencies it is the same.
+// Tests of the distance from patterns: computation by windows and by frequencies agrees.
 #include "learned/example/pattern_penalty.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ PoseMatrix random_poses(std::size_t frames, std::size_t channels, std::uint64_t 
   return poses;
 }
 
-// sum_s min_c, by least squares for each window.
+// sum_s min_c, with a least-squares solution for each window.
 double brute_penalty(const WindowBases& bases, const std::vector<double>& weights,
                      const std::vector<double>& ridge, const PoseMatrix& z, std::size_t windows) {
   const Eigen::MatrixXd E = matrix_of(bases);
@@ -44,7 +44,7 @@ double brute_penalty(const WindowBases& bases, const std::vector<double>& weight
   return total;
 }
 
-// How far the two ways to multiply are from each other, relative to the largest value.
+// The largest difference of the two products, relative to the largest value.
 double largest_difference(const WindowBases& bases, std::size_t frames) {
   const std::vector<double> weights(bases.channels, 1.5);
   PatternPenalty windows(bases, weights, {}, frames, 1, Product::windows);
@@ -56,7 +56,7 @@ double largest_difference(const WindowBases& bases, std::size_t frames) {
   double size = 0, most = 0;
   for (std::size_t i = 0; i < found.values.size(); ++i) {
     size = std::max(size, std::abs(expected.values[i]));
-    // Also true for not-a-number.
+    // The negated comparison catches NaN too.
     const double difference = std::abs(found.values[i] - expected.values[i]);
     if (!(difference <= most)) most = difference;
   }
@@ -127,7 +127,7 @@ TEST(PatternPenalty, IsTheSameWithBasesThatStayAtTheModelsRate) {
   }
 }
 
-// Matrices of 17 MB are kept in single precision.
+// Matrices of 17 MB are stored in single precision.
 TEST(PatternPenalty, IsTheSameButForSinglePrecisionWhereMatricesAreLarge) {
   const std::size_t channels = 520, frames = 60;
   const double difference = largest_difference(random_bases(2, 1, channels, 4, 5), frames);

@@ -35,7 +35,7 @@ inline Eigen::MatrixXd random_covariance(Random& random, Eigen::Index n) {
          0.1 * Eigen::MatrixXd::Identity(n, n);
 }
 
-/// S = A S A^T + Q, by adding up what each past step left.
+/// S = A S A^T + Q, summed over all past steps.
 inline Eigen::MatrixXd long_run_spread(const Eigen::MatrixXd& a, const Eigen::MatrixXd& q) {
   Eigen::MatrixXd spread = q, left = q;
   for (int i = 0; i < 5000; ++i) {
@@ -45,7 +45,7 @@ inline Eigen::MatrixXd long_run_spread(const Eigen::MatrixXd& a, const Eigen::Ma
   return spread;
 }
 
-/// First order, all channels.
+/// First-order dynamics of all channels.
 inline LinearDynamics random_dynamics(Random& random, Eigen::Index channels) {
   LinearDynamics dynamics;
   dynamics.mean = 10 * random_matrix(random, channels, 1);
@@ -56,7 +56,7 @@ inline LinearDynamics random_dynamics(Random& random, Eigen::Index channels) {
   return dynamics;
 }
 
-/// Motion that the dynamics make, without measurement noise.
+/// Simulates motion of the dynamics without measurement noise.
 inline PoseMatrix simulate(const LinearDynamics& dynamics, std::size_t frames, Random& random) {
   const Eigen::Index n = dynamics.states();
   const Eigen::MatrixXd first = root_of(dynamics.spread);

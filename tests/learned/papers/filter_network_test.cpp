@@ -16,8 +16,8 @@
 namespace kinemend {
 namespace {
 
-// A body of a root and two joints with the random network of train/reference_filter_network.cpp;
-// beside its tensors some features and what LibTorch makes of them.
+// The random network of train/reference_filter_network.cpp for a root and two joints. Its tensor
+// file also holds features and LibTorch's results.
 Model small_model(const std::string& kind) {
   const std::string path = KINEMEND_TEST_FIXTURES "/nn/filter_" + kind + ".safetensors";
   std::ifstream file(path, std::ios::binary);
@@ -114,8 +114,8 @@ TEST(FilterTake, HoldsTheJointsButTheRootAndHowTheRootTurns) {
   BodyLayoutBuilder builder;
   builder.add(clip);
   const BodyLayout layout = builder.finish();
-  // Turned about the vertical by 60 degrees a second more: the joints' channels stay, and the
-  // root's angular velocity is 60 degrees a second larger about the vertical.
+  // An extra turn of 60 degrees per second about the vertical leaves the joint channels and adds 60
+  // degrees per second to the root's angular velocity about the vertical.
   const FilterTake before =
       filter_take_of(encode_body(clip, layout, match_body(layout, clip)), layout);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {

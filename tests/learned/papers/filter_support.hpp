@@ -9,8 +9,7 @@
 
 namespace kinemend::test {
 
-/// A network of Mall et al. of one layer whose outputs are `output` for every channel, whatever it
-/// sees.
+/// A one-layer network of Mall et al. with the constant output `output` in every channel.
 inline Model constant_filter_model(const BodyLayout& layout, FilterHead head, double output,
                                    FilterInputs inputs = {}) {
   const std::size_t channels = 3 * (layout.track_count() - 1);

@@ -1,4 +1,4 @@
-// Tests of gaps that a network fills, with networks of known output.
+// Tests of gaps filled by networks of known output.
 #include "learned/papers/gap_network.hpp"
 
 #include <gtest/gtest.h>

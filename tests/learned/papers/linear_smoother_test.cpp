@@ -48,7 +48,7 @@ LinearDynamics first_order(std::uint64_t seed, Index channels = 4) {
   return random_dynamics(random, channels);
 }
 
-// Two directions in five channels, state of two poses.
+// Dynamics with two directions in five channels and a state of two poses.
 LinearDynamics second_order_in_a_plane(std::uint64_t seed) {
   Random random(seed);
   LinearDynamics dynamics = random_dynamics(random, 4);
@@ -164,7 +164,8 @@ TEST(LinearSmoother, ReturnsTheMeanWhereNothingWasSeen) {
   }
 }
 
-// Plain textbook recursions that never settle: Kalman 1960 with a gain, and Rauch, Tung & Striebel.
+// Plain textbook recursions without a steady state: Kalman 1960 with a gain, and Rauch, Tung &
+// Striebel.
 PoseMatrix by_full_recursion(const Scene& scene, bool smooth) {
   const LinearDynamics& model = scene.dynamics;
   const Index n = model.states();
@@ -215,15 +216,15 @@ TEST(LinearSmoother, EqualsTheFullRecursionAfterItsGainsHaveSettled) {
   }
 }
 
-// Long enough that covariances are given up on the way and worked out again: every frame has a
-// pattern of missing samples of its own.
+// The take is long enough that covariances are discarded and recomputed: every frame has another
+// pattern of missing samples.
 TEST(LinearSmoother, DoesNotDependOnWhatItKeepsBetweenItsPasses) {
   constexpr Index channels = 30;
   constexpr std::size_t frames = 22000;
   Scene scene = scene_of(first_order(8, channels), frames, 0.2, 8);
   PoseMatrix whole = scene.measured;
   smooth_with_dynamics(whole, scene.facts(), scene.dynamics);
-  // The same end on its own: what came long before does not matter.
+  // The end alone gives the same result; frames long before do not matter.
   const std::size_t first = frames - 1000;
   PoseMatrix end(1000, channels);
   const auto skip = static_cast<std::ptrdiff_t>(first * channels);
@@ -235,7 +236,7 @@ TEST(LinearSmoother, DoesNotDependOnWhatItKeepsBetweenItsPasses) {
       ASSERT_NEAR(end(f, c), whole(first + f, c), 1e-6) << f;
     }
   }
-  // And the start.
+  // The start alone gives the same result.
   scene.observed.resize(1000 * channels);
   PoseMatrix start(1000, channels);
   std::copy_n(scene.measured.values.begin(), start.values.size(), start.values.begin());

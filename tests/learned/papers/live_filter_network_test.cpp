@@ -1,4 +1,4 @@
-// Tests of a network of Mall et al. 2017 on a stream, beside its result on whole takes.
+// Tests of a network of Mall et al. 2017 on a stream, against its result on whole takes.
 #include "learned/papers/live_filter_network.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using test::RandomNetwork;
 constexpr std::size_t delay = LiveFilterNetwork::delay, period = LiveFilterNetwork::period;
 constexpr std::size_t frame_count = 90;
 
-// Random motion of so many joints about a root that turns.
+// Random motion of joint channels about a turning root.
 struct Motion {
   FilterTake take;
   std::vector<Quat> roots;
@@ -43,7 +43,7 @@ Motion motion(std::size_t channels, std::size_t frames = frame_count) {
   return made;
 }
 
-// As `filter_take_of` has it, of the first `frames` frames.
+// The first `frames` frames, in the form of `filter_take_of`.
 FilterTake cut(const Motion& whole, std::size_t frames, double rate_hz) {
   FilterTake take;
   take.frames = frames;
@@ -79,16 +79,16 @@ std::vector<float> live(LiveFilterNetwork& network, const Motion& motion) {
   return result;
 }
 
-// The newest frame that the outputs for frame t are made from: they are made for three together,
-// and begun when the first of these has 13 frames ahead; at the end from all that are there.
+// The newest frame that the outputs for frame t use. A pass computes three outputs and starts when
+// the first has 13 frames ahead; at the end, it uses all remaining frames.
 std::size_t newest(std::size_t t, std::size_t frames, bool is_recurrent) {
   if (!is_recurrent) return std::min(t + delay, frames - 1);
   return std::min(t / period * period + delay + 1 - period, frames - 1);
 }
 
-// With one recurrent layer the carried state is that of the whole past: the outputs for a frame are
-// those of the take up to the newest frame, if what the network sees of earlier frames does not
-// change, which roughness does.
+// With one recurrent layer the carried state covers the whole past. Outputs equal those of the take
+// up to the newest frame, provided the inputs of earlier frames do not change; roughness would
+// change them.
 TEST(LiveFilterNetwork, GivesWhatTheNetworkSaysOfTheTakeSoFar) {
   for (const RandomNetwork kind :
        {RandomNetwork{.layers = 1}, RandomNetwork{.layers = 0, .reach = 15}}) {
@@ -98,7 +98,7 @@ TEST(LiveFilterNetwork, GivesWhatTheNetworkSaysOfTheTakeSoFar) {
     const std::vector<float> result = live(stream, whole);
     ASSERT_EQ(result.size(), whole.take.values.size());
     for (std::size_t t = 0; t < frame_count; ++t) {
-      // Its filter sees all 15 frames ahead, whatever the network saw.
+      // The filter uses all 15 frames ahead, even if the network used fewer.
       const std::size_t seen = newest(t, frame_count, kind.layers > 0) + 1;
       const FilterTake so_far = cut(whole, seen, 120);
       std::vector<float> outputs =
@@ -118,8 +118,8 @@ TEST(LiveFilterNetwork, GivesWhatTheNetworkSaysOfTheTakeSoFar) {
   }
 }
 
-// At the first frame nothing is carried, so that any network is that of the take so far, with all
-// that it sees; and so is a network of dense layers alone, but for the roughness of frames before.
+// At the first frame no state is carried, so any network equals that of the take so far, with all
+// inputs. The same holds for dense layers alone, except for the roughness of earlier frames.
 TEST(LiveFilterNetwork, SeesTheRoughnessOfTheFramesThatThereAre) {
   for (const std::size_t layers : {1u, 2u}) {
     const RandomNetwork kind{.layers = layers, .has_roughness = true};
@@ -163,7 +163,7 @@ TEST(LiveFilterNetwork, GivesEveryFrameOfATakeShorterThanItsDelayAndOfNone) {
     LiveFilterNetwork stream(network, 120);
     const Motion whole = motion(network.channels(), frames);
     EXPECT_EQ(live(stream, whole).size(), whole.take.values.size());
-    // Where no pass began before the end, all are made from all of the take.
+    // Where no pass starts before the end, all outputs use the whole take.
     if (frames == 0 || frames + period > delay + 1) continue;
     LiveFilterNetwork again(network, 120);
     const std::vector<float> result = live(again, whole);
@@ -203,7 +203,7 @@ TEST(LiveFilterNetwork, BridgesAGapThatEndsBeforeItsFramesComeOut) {
   const auto at = [&](std::size_t f) { return result[f * network.channels()]; };
   for (std::size_t f = 28; f < 42; ++f) EXPECT_NEAR(at(f), static_cast<float>(f), 0.01F) << f;
   for (std::size_t f = 50; f < 65; ++f) EXPECT_NEAR(at(f), 49, 0.01F) << f;
-  for (std::size_t f = 66; f < 80; ++f) {  // then the line to frame 80
+  for (std::size_t f = 66; f < 80; ++f) {  // then it nears frame 80
     EXPECT_GT(at(f), at(f - 1)) << f;
     EXPECT_LT(at(f), 80) << f;
   }

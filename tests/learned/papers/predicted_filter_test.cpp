@@ -41,7 +41,7 @@ std::vector<float> result_of(FilterHead head, const Case& c) {
   return result;
 }
 
-// The equations of the paper, in double precision.
+// The paper's equations in double precision.
 double expected(FilterHead head, const Case& c, std::ptrdiff_t t, std::size_t channel) {
   const std::size_t width = filter_output_count(head, channels);
   const float* o = c.outputs.data() + static_cast<std::size_t>(t) * width;

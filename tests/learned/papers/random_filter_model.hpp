@@ -14,15 +14,15 @@ namespace kinemend::test {
 
 /// A small network of the paper with random weights.
 struct RandomNetwork {
-  std::size_t layers = 2;  ///< recurrent; 0: dense layers alone, which see `reach` frames
+  std::size_t layers = 2;  ///< recurrent layers; 0: dense layers only, which see `reach` frames
   std::size_t reach = 0;
   bool has_roughness = false;
-  bool is_narrow = false;  ///< its filters are the narrowest there are, whatever it sees
+  bool is_narrow = false;  ///< always predicts the narrowest filter
   std::size_t units = 6;
   std::uint64_t seed = 11;
 };
 
-/// Of the body of a layout; by default of a root and four joints.
+/// Uses the body of `layout`, or a root and four joints.
 inline Model random_filter_model(const RandomNetwork& kind, const BodyLayout* layout = nullptr) {
   Random random(kind.seed);
   Model model;

@@ -1,4 +1,4 @@
-// Gaps of joints filled by a network of the paper, as `fill_gaps` and as the cleaner do it.
+// Tests of joint gaps filled by a network of the paper, with `fill_gaps` and in the cleaner.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ Take gapped(Take clip, const std::vector<std::string>& names) {
   return clip;
 }
 
-// A network that adds so many degrees to each channel in the middle of a gap.
+// A network that adds `degrees` to each channel in the middle of a gap.
 std::shared_ptr<const Model> adding(const Take& clip, double degrees,
                                     std::vector<std::string> names = {}) {
   BodyLayoutBuilder builder(std::move(names));
@@ -107,7 +107,7 @@ TEST(RecurrentFill, LeavesATakeAtAnotherRateToAuto) {
 
 TEST(RecurrentFill, RefusesAModelThatFillsNoGaps) {
   const Take clip = walk_to_fill();
-  EXPECT_THROW(make_recurrent_fill({}), Error);  // the model that ships
+  EXPECT_THROW(make_recurrent_fill({}), Error);  // the shipped model
   BodyLayoutBuilder builder;
   builder.add(clip);
   EXPECT_THROW(make_recurrent_fill({}, std::make_shared<const Model>(constant_filter_model(
@@ -115,7 +115,7 @@ TEST(RecurrentFill, RefusesAModelThatFillsNoGaps) {
                Error);
 }
 
-// The pair of the paper: EBD, then EBF.
+// The paper's pair of networks: EBD, then EBF.
 class RecurrentPair : public testing::Test {
  protected:
   std::shared_ptr<const Model> filter(double width_frames = 1) const {
@@ -147,9 +147,9 @@ TEST_F(RecurrentPair, FillsTheGapsThatTheFilterSees) {
 }
 
 TEST_F(RecurrentPair, RefusesModelsThatDoNotGoTogether) {
-  EXPECT_THROW(make_recurrent({}, filter(), filter()), Error);          // fills nothing
+  EXPECT_THROW(make_recurrent({}, filter(), filter()), Error);          // cannot fill
   EXPECT_THROW(make_recurrent({}, nullptr, adding(truth_, 0)), Error);  // another body
-  EXPECT_THROW(make_recurrent({}, adding(truth_, 0)), Error);           // filters nothing
+  EXPECT_THROW(make_recurrent({}, adding(truth_, 0)), Error);           // cannot filter
   EXPECT_THROW(make_recurrent({.live = true}, filter(), adding(truth_, 0)), Error);
   EXPECT_THROW(make_recurrent({}, filter(), adding(truth_, 0, {"Hips", "LeftUpLeg", "LeftLeg"})),
                Error);

@@ -1,4 +1,4 @@
-// What the method `recurrent` promises on takes, with the model that ships.
+// Tests of the method `recurrent` on takes, with the shipped model.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -98,7 +98,7 @@ TEST(Recurrent, IsTheSameForAnyNumberOfRuns) {
             clean_take(noisy, *make_recurrent()).take.rotations);
 }
 
-// A network of the paper whose Gaussians are all three frames wide.
+// A network of the paper whose Gaussians all are three frames wide.
 std::shared_ptr<const Model> constant_filter(const Take& clip, FilterHead head,
                                              FilterInputs inputs = {}) {
   BodyLayoutBuilder builder;
@@ -114,7 +114,8 @@ TEST(Recurrent, CleansJointsWithTheFiltersThatANetworkOfThePaperPredicts) {
   const Take cleaned = clean_take(noisy, *cleaner).take;
   const Take gaussian = clean_take(noisy, *make_cleaner("gaussian", {{"width_s", 0.025}})).take;
   EXPECT_NEAR(rms_deg(truth, cleaned) / rms_deg(truth, gaussian), 1, 0.1);
-  // Alike, but for joints that the model does not know and samples that are spikes to `auto`.
+  // The results agree except for joints unknown to the model and samples that `auto` takes for
+  // spikes.
   EXPECT_LT(rms_deg(cleaned, gaussian), 0.6 * rms_deg(truth, gaussian));
   const Take automatic = clean_take(noisy, *make_auto()).take;
   for (std::size_t f = 0; f < truth.frame_count(); ++f)

@@ -1,4 +1,4 @@
-// Tests of batch orthogonal matching pursuit, against pursuit by its definition.
+// Tests of batch orthogonal matching pursuit against a direct implementation.
 #include "learned/sparse/batch_omp.hpp"
 
 #include <gmock/gmock.h>
@@ -14,7 +14,8 @@
 namespace kinemend::sparse {
 namespace {
 
-// Pursuit by its definition: the atom nearest to what is left, then least squares on all chosen.
+// Direct pursuit: selects the atom nearest to the residual, then solves least squares on all
+// selected atoms.
 struct Pursued {
   std::vector<std::size_t> atoms;
   Eigen::VectorXd code;

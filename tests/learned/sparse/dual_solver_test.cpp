@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr DualSettings exact{.tolerance = 1e-9, .iterations = 20'000};
-// The minimum of a linear problem is a corner, which the method nears slowly.
+// The minimum of a linear problem is a vertex, which the method approaches slowly.
 constexpr DualSettings near{.tolerance = 1e-5, .iterations = 5000};
 
 struct Problems {
@@ -69,7 +69,7 @@ VectorXd code_of(const SparseSolution& solution, const Problems& problems, std::
                                     static_cast<Index>(problems.dictionary.atoms));
 }
 
-// Cyclic coordinate descent until nothing moves.
+// Cyclic coordinate descent to convergence.
 VectorXd by_coordinate_descent(const Problems& problems, std::size_t s) {
   const MatrixXd d = matrix_of(problems.dictionary);
   const VectorXd w = problems.weight(s);
@@ -90,8 +90,8 @@ VectorXd by_coordinate_descent(const Problems& problems, std::size_t s) {
   return code;
 }
 
-// The l1/l1 problem is linear: its minimum lies in a corner, where as many of the rests and of the
-// codes are zero as there are atoms. All corners are tried.
+// The l1/l1 problem is linear: its minimum is a vertex at which as many residuals and codes are
+// zero as there are atoms. All vertices are tried.
 double by_corners(const Problems& problems, std::size_t s) {
   const MatrixXd d = matrix_of(problems.dictionary);
   const Index atoms = d.cols(), planes = d.rows() + atoms;

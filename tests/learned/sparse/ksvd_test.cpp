@@ -40,7 +40,7 @@ TEST(Ksvd, FindsTheDictionaryThatSignalsWereMadeOf) {
   const Eigen::MatrixXd products =
       (matrix_of(planted).transpose() * matrix_of(learned.dictionary)).cwiseAbs();
   const auto found = (products.rowwise().maxCoeff().array() > 0.99).count();
-  EXPECT_GE(found, 25);  // of 30: the method stops in local minima; by chance it would be none
+  EXPECT_GE(found, 25);  // of 30: the method stops in local minima; random atoms would give none
 }
 
 TEST(Ksvd, NeverRaisesTheObjectiveWhichIsThatOfItsDictionary) {
@@ -59,7 +59,7 @@ TEST(Ksvd, NeverRaisesTheObjectiveWhichIsThatOfItsDictionary) {
 }
 
 TEST(Ksvd, ReplacesTwinsAndAtomsThatNothingUses) {
-  // Two clusters of signals far apart, of which one is 200 times the same.
+  // Two distant clusters of signals; one is the same signal 200 times.
   std::vector<float> signals;
   const std::vector<float> one = random_values(10, 6), others = random_values(10 * 200, 7);
   for (std::size_t s = 0; s < 200; ++s) signals.insert(signals.end(), one.begin(), one.end());

@@ -1,5 +1,5 @@
-// Tests of the prior of `sparse`: local coordinates, points, parts of the body, its file, and the
-// filter.
+// Tests of the prior of `sparse`: local coordinates, points, parts of the body, the model file, and
+// the filter.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -87,8 +87,8 @@ TEST(LocalCoordinates, AreUndoneExactlyAndSurviveDegeneratePoses) {
   Random random(1);
   PoseMatrix positions(6, 15);
   for (double& value : positions.values) value = random.normal();
-  for (std::size_t c = 0; c < 15; ++c) positions(0, c) = 0;  // all on a point
-  for (std::size_t axis = 0; axis < 3; ++axis) {             // on a line
+  for (std::size_t c = 0; c < 15; ++c) positions(0, c) = 0;  // all points coincide
+  for (std::size_t axis = 0; axis < 3; ++axis) {             // points on a line
     positions(3, 3 + axis) = 1;
     positions(3, 6 + axis) = 2;
     positions(3, 9 + axis) = 3;
@@ -130,7 +130,7 @@ TEST(SparsePoints, TurnBackIntoTheRotationsTheyCameFrom) {
   const PoseMatrix points = points_of(prior.points, model.layout, channels);
   const PoseMatrix back = channels_of(prior.points, model.layout, points, channels);
   EXPECT_LT(rms(back, channels), 1e-6);
-  // From a guide that is off, positions are reached where bones tell them.
+  // Even from an inaccurate guide, the solver reaches the positions that bones determine.
   PoseMatrix guide = channels;
   Random random(5);
   for (std::size_t f = 0; f < guide.frames; ++f) {
@@ -183,7 +183,7 @@ BodyLayout layout_of_four() {
   return layout;
 }
 
-// Four joints, and the free ends of the two arms.
+// Four joints, and the end sites of the two arms.
 SparsePoints points_of_four() {
   SparsePoints points;
   points.parents = {-1, 0, 1, 1, 2, 3};
@@ -288,7 +288,7 @@ TEST(DictionaryAtRate, IsTheSameWaveAtTwiceTheRate) {
   EXPECT_NEAR(length, 1, 1e-5);
 }
 
-// A walk of markers, like those learned from.
+// A noisy walk of markers, similar to the training takes.
 struct NoisyTake {
   SparsePrior prior;
   PoseMatrix clean, noisy;
@@ -361,7 +361,7 @@ TEST(SparseFilter, SolvesOnlyPoseletsOfWhichAPointIsWanted) {
         std::find(chosen.begin(), chosen.end(), static_cast<std::int32_t>(p)) != chosen.end();
     if (part(0, 3 * p) == take.clean(0, 3 * p)) continue;
     ++solved;
-    // A point that another poselet has, too, is its mean with that elsewhere.
+    // The whole filter averages a point over all its poselets, so only chosen points are equal.
     if (is_chosen) {
       EXPECT_NEAR(part(0, 3 * p), whole(0, 3 * p), 0.01);
     }

@@ -1,4 +1,4 @@
-// What the method `sparse` promises on takes, with models learned from synthetic walks.
+// Tests of the method `sparse` on takes, with models trained on synthetic walks.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -72,8 +72,8 @@ TEST(Sparse, TakesStrongNoiseAndOutliersOffMarkers) {
   }
 }
 
-// As Xiao et al. make outliers: the farther a marker from the root, the larger. An accurate take
-// has no other noise, and only a dictionary can tell which samples to believe.
+// Outliers as in Xiao et al.: they grow with the marker's distance from the root. An accurate take
+// has no other noise, and only a dictionary can tell the right samples.
 TEST(Sparse, FindsOutliersThatGrowWithTheDistanceFromTheRoot) {
   const Take truth = joint_markers(seeded_walk(4));
   Take noisy = truth;
@@ -98,7 +98,7 @@ TEST(Sparse, BringsNoisyRotationsNearerToTheTruth) {
   EXPECT_EQ(cleaned.skeleton.offsets, truth.skeleton.offsets);
 }
 
-// Of all joints but the root, which is left to `auto`.
+// The root is excluded, because `auto` cleans it.
 double error_below_root(const Take& truth, const Take& other) {
   double sum = 0;
   for (std::size_t f = 0; f < truth.frame_count(); ++f) {

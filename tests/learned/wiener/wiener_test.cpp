@@ -51,7 +51,7 @@ PoseMatrix random_poses(Random& random, Index frames) {
   return poses;
 }
 
-// The samples that were seen as a dense linear Gaussian model: y = H x + noise.
+// The observed samples as a dense linear Gaussian model: y = H x + noise.
 struct Dense {
   MatrixXd h;
   VectorXd y, noise;
@@ -83,7 +83,7 @@ Dense dense_model(const PoseMatrix& poses, const std::vector<std::uint8_t>& obse
   return dense;
 }
 
-// Channel 1 lacks half of its samples, channel 2 all of them.
+// Half of the samples of channel 1 are missing, and all of channel 2.
 std::vector<std::uint8_t> with_gaps() {
   std::vector<std::uint8_t> observed(window * channels, 1);
   for (std::size_t f = 0; f < window; ++f) {
@@ -298,7 +298,7 @@ TEST(WienerFilter, TakesSuspectsOut) {
 }
 
 TEST(WienerFilter, KnowsMotionAtOtherRates) {
-  // Half the frames of a take are the same motion at half the rate.
+  // Every second frame of a take is the same motion at half the rate.
   const PoseMatrix truth = oscillation(77, 300);
   PoseMatrix half(150, channels);
   for (std::size_t f = 0; f < 150; ++f) {
@@ -311,7 +311,7 @@ TEST(WienerFilter, KnowsMotionAtOtherRates) {
 }
 
 TEST(WienerGuard, LeavesMotionUnlikeAllThatWasLearnedToAGaussian) {
-  // Channels that move by themselves, far from where they were seen.
+  // Channels that move independently, far from the training data.
   PoseMatrix truth(400, channels);
   for (std::size_t f = 0; f < 400; ++f) {
     const double t = static_cast<double>(f) / 100;

@@ -28,7 +28,7 @@ TEST(WindowMoments, AreThoseOfAllWindowsByTheirWeights) {
   EXPECT_LT((moments.about(centre) - expected).norm(), 1e-12);
 }
 
-// Mean squares of what projection on the leading directions of one set leaves of another.
+// Mean squares of the second set after projection on the leading directions of the first.
 VectorXd left_by_projection(const MatrixXd& learned, const MatrixXd& held, Index rank) {
   const VectorXd mean = learned.rowwise().mean();
   const MatrixXd spread = learned.colwise() - mean;

@@ -1,4 +1,4 @@
-// Noise of brief takes at low rates, which snappy moves look like.
+// Tests of noise in short takes at low rates, where fast keyframed moves look like noise.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -12,7 +12,7 @@ namespace {
 constexpr double keyed_rate_hz = 30;
 constexpr std::size_t keyed_tracks = 10;
 
-// A keyed clip: five tracks snap from pose to pose within a frame or two, five move slowly.
+// A keyed clip: five tracks snap between poses within a frame or two; five move slowly.
 VectorTracks keyed_clip(std::size_t frames, double noise_deg) {
   Random random(7);
   VectorTracks tracks(frames, keyed_tracks);

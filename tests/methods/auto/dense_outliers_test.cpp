@@ -1,4 +1,4 @@
-// Outliers that are so dense that they hide each other.
+// Tests of outliers so dense that they hide each other.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ std::vector<Vec3> swinging_track(std::size_t frames, double phase = 0) {
   return track;
 }
 
-// Moves this share of the samples by 25 degrees about each axis, and marks them.
+// Moves a share of the samples by 25 degrees about each axis, and marks them.
 std::vector<std::uint8_t> add_outliers(std::vector<Vec3>& track, double share, Random& random) {
   std::vector<std::uint8_t> marks(track.size());
   for (std::size_t t = 0; t < track.size(); ++t) {
@@ -85,7 +85,7 @@ TEST(DenseOutliers, LeaveMissingSamplesOut) {
   for (std::size_t t = 200; t < 240; ++t) EXPECT_EQ(found[t], 0);
 }
 
-// Root mean square distance from the truth of tracks whose spikes were repaired.
+// Root mean square distance from the truth after spike repair.
 double error_left(double share, std::size_t damaged_tracks, std::uint64_t seed) {
   constexpr std::size_t frames = 600, count = 8;
   Random random(seed);
@@ -112,7 +112,7 @@ TEST(FindSpikes, RepairsDenseOutliersOfAllTracks) {
   for (const double share : {0.05, 0.1, 0.2}) EXPECT_LT(error_left(share, 8, 4), 0.8) << share;
 }
 
-// A swing there and back within a fifth of a second, on tracks of dense outliers.
+// A swing there and back within a fifth of a second, among dense outliers.
 TEST(FindSpikes, KeepsAQuickMoveAmongDenseOutliers) {
   constexpr std::size_t frames = 800, count = 8;
   Random random(6);

@@ -1,4 +1,4 @@
-// Tests of takes whose samples were held or interpolated from a lower rate.
+// Tests of takes whose samples are held or interpolated from a lower rate.
 #include "methods/auto/held_samples.hpp"
 
 #include <gtest/gtest.h>
@@ -29,11 +29,11 @@ VectorTracks noisy_curves(std::size_t frames, double rate_hz, double deviation,
   return tracks;
 }
 
-// Samples joined as a pattern has it, `frames` of them.
+// Expands samples to `frames` frames by a pattern.
 VectorTracks joined(const VectorTracks& samples, const SamplePattern& pattern, std::size_t frames) {
   VectorTracks tracks(frames, samples.tracks());
   for (std::size_t t = 0; t < frames; ++t) {
-    // The last measurement at or before the frame, counted from one before the take.
+    // The last measurement at or before the frame; index 0 lies before the take.
     const double place = (static_cast<double>(t) + pattern.step - pattern.first) / pattern.step;
     const auto i = static_cast<std::size_t>(place + 1e-9);
     const double share =
@@ -64,7 +64,7 @@ TEST(SamplePattern, IsFoundAtEachStepAndPhase) {
   }
 }
 
-// 24 Hz at 60, 50 at 120, 25 at 120, 100 at 120, 48 at 60.
+// 24 Hz at 60 Hz, 50 at 120, 25 at 120, 100 at 120, and 48 at 60.
 TEST(SamplePattern, IsFoundWhereSamplesAreHeldForABrokenNumberOfFrames) {
   for (const double step : {2.5, 2.4, 4.8, 1.2, 1.25}) {
     for (const double first : {0.0, 0.3, 0.95}) {
@@ -154,7 +154,7 @@ TEST(CleanTracks, TakeSamplesOfALowerRateForWhatTheyAre) {
         SamplePattern{SampleJoin::held, 2.4, 0}}) {
     const double low_rate_hz = 120 / pattern.step;
     VectorTracks low = noisy_curves(300, low_rate_hz, 1.5, 3);
-    // One before the take, which is not used.
+    // The sample before the take is unused.
     VectorTracks shifted(301, 4);
     for (std::size_t i = 0; i < 300; ++i) {
       for (std::size_t n = 0; n < 4; ++n) shifted.set(i + 1, n, low.at(i, n));

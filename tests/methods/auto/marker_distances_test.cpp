@@ -1,4 +1,4 @@
-// Tests of the noise that shows in distances between markers.
+// Tests of noise measured by distances between markers.
 #include "methods/auto/marker_distances.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t frames = 600;
 
-// Two segments of four markers each that swing about points that travel.
+// Two segments of four markers each that swing about moving points.
 VectorTracks two_segments() {
   VectorTracks tracks(frames, 8);
   for (std::size_t t = 0; t < frames; ++t) {

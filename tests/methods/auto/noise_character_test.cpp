@@ -8,7 +8,7 @@
 namespace kinemend {
 namespace {
 
-// The share of the power below a frequency at 120 Hz: the spectrum of such noise, added up.
+// The share of the noise power below a frequency at 120 Hz, summed over the spectrum.
 double share_below(double frequency_hz, double correlation) {
   double below = 0, all = 0;
   for (double f = 0.0005; f < 60; f += 0.001) {

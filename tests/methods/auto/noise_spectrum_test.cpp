@@ -19,7 +19,7 @@ Vec3 curve(std::size_t frame, std::size_t track) {
   return {30 * std::sin(6 * s + phase), 10 * std::cos(9 * s + phase), 5 * std::sin(2 * s)};
 }
 
-// Curves under noise of this deviation (the z axis `deep` times as much) and correlation.
+// Curves with noise of this deviation (`deep` times as much in z) and correlation.
 VectorTracks correlated_curves(std::size_t frames, double deviation, double correlation,
                                std::uint64_t seed, double deep = 1) {
   Random random(seed);
@@ -87,7 +87,7 @@ TEST(NoiseSpectrum, IsWhiteWhereTheNoiseIsWhite) {
   }
 }
 
-// White noise of some tracks, and the roughness of the motion of others.
+// Some tracks have white noise, others only rough motion.
 TEST(NoiseSpectrum, IsWhiteWhereTracksDoNotAgree) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     VectorTracks tracks = correlated_curves(720, 1.5, 0, seed);
@@ -127,7 +127,7 @@ TEST(CleanTracks, BridgeSpikesInColouredNoise) {
   EXPECT_LT(error_of(tracks), 1.1);
 }
 
-// Slow or fast, but no noise: what bodies do, on a take as clean as a good capture.
+// Slow or fast motion of bodies without noise, in takes as clean as a good capture.
 TEST(CleanTracks, KeepSlowMotionOfCleanTakes) {
   for (const TrackKind kind : {TrackKind::rotations, TrackKind::positions}) {
     for (const double measured : {0.0, 0.02, 0.04}) {

@@ -1,4 +1,4 @@
-// The steps of the method `auto`, one by one.
+// Tests of the single steps of the method `auto`.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -64,7 +64,7 @@ TEST(SmoothChart, TakesNoNoticeOfSigns) {
   }
 }
 
-// N tracks of smooth curves plus white noise of the given deviations, degrees.
+// N tracks of smooth curves with white noise of the given deviations, degrees.
 VectorTracks noisy_curves(std::size_t frames, const std::vector<double>& deviations,
                           Random& random) {
   VectorTracks tracks(frames, deviations.size());
@@ -169,7 +169,7 @@ TEST(FindSpikes, OnAQuietTakeOnlyWhatExceedsTheSpeedOfJoints) {
   EXPECT_EQ(std::count(detected.marked.marks.begin(), detected.marked.marks.end(), 1), 1);
 }
 
-// Forty spikes on quiet tracks and a fast motion of 15 degrees.
+// Returns whether a fast motion of 15 degrees is marked among forty spikes on quiet tracks.
 bool finds_fast_motion_among(const std::function<double(Random&)>& size_of_spikes) {
   Random random(8);
   const std::size_t frames = 500, count = 8;
@@ -204,7 +204,7 @@ TEST(GrossSpikes, AreReplacedByTheMeanOfTheirNeighbours) {
 }
 
 TEST(JointsNearby, AreThoseWithinThreeBones) {
-  // 0 - 1 - 2 - 3 - 4, and 5 on 0.
+  // Joints 0 - 1 - 2 - 3 - 4 form a chain, and 5 is a child of 0.
   const std::vector<std::int32_t> parents{-1, 0, 1, 2, 3, 0};
   auto nearby = joints_nearby(parents);
   for (auto& list : nearby) std::sort(list.begin(), list.end());

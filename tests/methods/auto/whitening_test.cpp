@@ -74,7 +74,7 @@ TEST(Whitening, GivesAllAxesOneNoiseAndIsUndone) {
   whiten(tracks, whitenings);
   const Vec3 levels = noise_along(fifth_differences(tracks.track(0), none.track(0)),
                                   {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}});
-  // Axes are in the order of their deviations; the first has none.
+  // The axes are sorted by deviation; the first has none.
   EXPECT_LT(levels.x, 0.1 * levels.z);
   EXPECT_NEAR(levels.y, levels.z, 0.01 * levels.z);
   EXPECT_NEAR(noise_levels(tracks, none)[0], std::sqrt(40.0 / 3), 0.3);

@@ -1,4 +1,4 @@
-// Tests of pieces: where gaps are bridged or cut, and how pieces go back into a track.
+// Tests of pieces: gaps are bridged or cut, and pieces are written back into their track.
 #include "methods/core/pieces.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace kinemend::test {
 namespace {
 
-// One marker at a steady speed, seen where `seen` says so.
+// One marker at constant speed, observed where `seen` is not zero.
 Take straight_marker(const std::vector<std::uint8_t>& seen) {
   Take clip = make_marker_take({"LASI"}, seen.size(), 100);
   clip.observed = seen;
@@ -89,7 +89,7 @@ TEST(Pieces, OfAWholeMarkerRestWhereItWasNotSeenForLong) {
   const std::vector<Vec3> whole = whole_positions(view_of(clip), 0);
   ASSERT_EQ(whole.size(), 300U);
   EXPECT_EQ(whole[250], clip.position(250, 0));
-  // Each end runs out by its velocity times 0.1 s.
+  // Each end is extended by its velocity times 0.1 s.
   EXPECT_NEAR(whole[150].x, (198 + 20 + 400 - 20) / 2.0, 3);
 }
 

@@ -1,4 +1,4 @@
-// Tests of live methods with a window, by the simplest such method.
+// Tests of live methods with a window, with the simplest such method.
 #include "methods/core/windowed.hpp"
 
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t two = 2;
 
-// The simplest method with a window: each sample becomes the one of two frames before, or the first
-// of its piece.
+// The simplest method with a window: returns the sample of two frames before, or the first one of
+// the piece.
 struct TwoBefore {
   template <class Sample>
   void operator()(Piece<Sample>& piece) const {

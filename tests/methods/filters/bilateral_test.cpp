@@ -15,14 +15,13 @@
 namespace kinemend::test {
 namespace {
 
-// Index of a mirrored signal's sample.
+// The index of a sample of a mirrored signal.
 std::size_t mirrored(int i, int frames) {
   while (i < 0 || i >= frames) i = i < 0 ? -i : 2 * (frames - 1) - i;
   return static_cast<std::size_t>(i);
 }
 
-// m_-k .. m_k of section 4.1: both distances squared, and normalised by the sum over the whole
-// mask.
+// m_-k .. m_k of section 4.1, with both distances squared, normalised over the whole mask.
 template <class Sample, class Distance>
 std::vector<double> mask_at(const std::vector<Sample>& x, const std::vector<double>& weights, int i,
                             int k, double sigma_t, double sigma_g, const Distance& distance) {
@@ -39,7 +38,7 @@ std::vector<double> mask_at(const std::vector<Sample>& x, const std::vector<doub
   return mask;
 }
 
-// Algorithm 1 with its slips mended, one pass, mirrored ends.
+// Algorithm 1 with its errors corrected: one pass, mirrored ends.
 std::vector<Quat> bilateral_pass(const std::vector<Quat>& q, const std::vector<double>& weights,
                                  int k, double sigma_t, double sigma_g) {
   const int frames = static_cast<int>(q.size());
@@ -79,7 +78,7 @@ std::vector<Vec3> bilateral_pass(const std::vector<Vec3>& x, int k, double sigma
   return result;
 }
 
-// At 100 Hz: sigma_t of 1.5 frames, k = 5 (3 sigma, rounded).
+// sigma_t of 1.5 frames at 100 Hz, k = 5 (3 sigma, rounded).
 constexpr double sigma_t_s = 0.015;
 BilateralOptions options_with(double sigma_g_deg, std::int64_t passes, std::string ends) {
   return {sigma_t_s, sigma_g_deg, passes, std::move(ends)};
@@ -119,7 +118,7 @@ TEST(Bilateral, GivesUnobservedSamplesNoWeight) {
     input.observed[f * input.joint_count() + 2] = 0;
   }
   const Take output = cleaned(input, *make_bilateral(options_with(5, 1, "mirror")));
-  // Gaps are bridged on geodesics beforehand.
+  // Gaps are bridged by geodesics first.
   std::vector<Quat> track = track_of(input, 2);
   std::vector<double> weights;
   for (std::size_t f = 0; f < 60; ++f) weights.push_back(input.is_observed(f, 2) ? 1 : 0);
@@ -148,8 +147,8 @@ TEST(Bilateral, IsTheSameInAnyCoordinateFrame) {
   }
 }
 
-// The proposition is of turns that are the same in all frames. A parent that turns is none:
-// filtered against it and against the world a joint comes out otherwise.
+// The proposition holds for turns that are constant over the frames. A turning parent is not such a
+// turn: filtering relative to it and relative to the world gives different results.
 TEST(Bilateral, IsNotTheSameInTheFrameOfAParentThatTurns) {
   const Take input = noisy_take(120);
   const auto cleaner = make_bilateral(options_with(5, 5, "reflect"));
@@ -171,7 +170,7 @@ TEST(Bilateral, IsNotTheSameInTheFrameOfAParentThatTurns) {
   EXPECT_GT(disagreement_deg(50, 40), 0.5);
 }
 
-// Proposition 2. The blocks of frames that are worked on at once are no part of the result.
+// Proposition 2. The division into blocks of frames does not change the result.
 TEST(Bilateral, IsTheSameAtAnyTime) {
   const Take input = noisy_take(700);
   const auto cleaner = make_bilateral(options_with(5, 2, "reflect"));
@@ -239,7 +238,7 @@ TEST(Bilateral, KeepsALoneSpike) {
 TEST(Bilateral, IsAGaussianWhenNoTurnIsLarge) {
   const Take input = noisy_take(60);
   const Take output = cleaned(input, *make_bilateral(options_with(1000, 1, "mirror")));
-  // Over a mask of 5 frames on either side.
+  // The mask has 5 frames on either side.
   double sum = 0;
   std::vector<double> mask;
   for (int j = -5; j <= 5; ++j) sum += std::exp(-j * j / 4.5);
@@ -265,7 +264,7 @@ TEST(Bilateral, ReflectedKeepsASteadyTurnUpToTheEndsAndMirroredBendsIt) {
   EXPECT_GT(angle_between(input.rotation(0, 0), bent.rotation(0, 0)), 0.02);
 }
 
-// Weights fall to the smallest numbers there are, and to zero.
+// Weights underflow to denormal numbers and to zero.
 TEST(Bilateral, StaysFiniteWhereNothingIsNear) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     Random random(seed);

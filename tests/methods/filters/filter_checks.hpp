@@ -1,4 +1,4 @@
-// Tracks and differences that the tests of orientation filters share.
+// Tracks and differences shared by the tests of orientation filters.
 #pragma once
 
 #include <algorithm>
@@ -22,8 +22,7 @@ inline std::vector<Quat> track_of(const Take& clip, std::size_t joint) {
   return track;
 }
 
-/// Distance of the quaternions, up to sign: it sees what an angle, which has no digits left near 0,
-/// does not.
+/// Distance of quaternions up to sign; near 0 it keeps digits that an angle loses.
 inline double difference(Quat a, Quat b) { return std::min(norm(a + -b), norm(a + b)); }
 
 inline double largest_difference(const Take& a, const Take& b) {
@@ -42,7 +41,7 @@ inline Take cleaned(Take clip, const Cleaner& cleaner) {
   return clip;
 }
 
-/// The moving take with noise.
+/// The moving take with added noise.
 inline Take noisy_take(std::size_t frames, double rate_hz = 100, double noise_deg = 2,
                        std::uint64_t seed = 1) {
   Take clip = moving_take(frames, rate_hz);
@@ -50,7 +49,7 @@ inline Take noisy_take(std::size_t frames, double rate_hz = 100, double noise_de
   return clip;
 }
 
-/// Every rotation q as a q b, with an a and b of its own for each joint.
+/// Replaces every rotation q by a q b, with separate random a and b for each joint.
 inline Take in_other_frames(Take clip, std::uint64_t seed) {
   Random random(seed);
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
@@ -76,7 +75,7 @@ inline Take reversed(const Take& clip) {
   return result;
 }
 
-/// The take with something else in frame f.
+/// Changes the take in frame f.
 inline Take changed_at(Take clip, std::size_t f) {
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {
     clip.rotation(f, j) = clip.rotation(f, j) * exp({0.3, -0.2, 0.1});
@@ -85,7 +84,7 @@ inline Take changed_at(Take clip, std::size_t f) {
   return clip;
 }
 
-/// A take of one joint, held at a rotation of its own but for white noise.
+/// A take of one joint at a constant random rotation with white noise.
 inline Take held_take(std::size_t frames, double noise_deg, std::uint64_t seed) {
   Take clip;
   clip.skeleton.add_joint("joint", -1, {0, 1, 0}, make_channels(true, parse_rotation_order("ZXY")));

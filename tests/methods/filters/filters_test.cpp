@@ -28,7 +28,7 @@ KalmanModel model_of(bool with_velocity) {
 
 using Matrix = std::vector<std::vector<double>>;
 
-// Gaussian elimination with pivots.
+// Gaussian elimination with pivoting.
 std::vector<double> solve(Matrix a, std::vector<double> b) {
   const std::size_t n = b.size();
   for (std::size_t k = 0; k < n; ++k) {
@@ -51,15 +51,15 @@ std::vector<double> solve(Matrix a, std::vector<double> b) {
   return b;
 }
 
-// Adds the squared residual of sum_i row[i] s[first + i], of unit variance.
+// Adds the squared residual of sum_i row[i] s[first + i], with unit variance.
 void add_residual(Matrix& a, std::size_t first, const std::vector<double>& row) {
   for (std::size_t r = 0; r < row.size(); ++r) {
     for (std::size_t c = 0; c < row.size(); ++c) a[first + r][first + c] += row[r] * row[c];
   }
 }
 
-// Maximum a posteriori estimate of the whole track by one dense least-squares problem: the states
-// (x, v) of all frames, the first one's prior, the process and the measurements.
+// Maximum a posteriori estimate of the whole track as one dense least-squares problem: the states
+// (x, v) of all frames, the prior of the first one, the process, and the measurements.
 std::vector<double> batch_estimate(const std::vector<double>& z,
                                    const std::vector<std::uint8_t>& seen, double noise,
                                    const KalmanModel& m) {
@@ -76,7 +76,7 @@ std::vector<double> batch_estimate(const std::vector<double>& z,
     if (i == 0) continue;
     const std::size_t first = 2 * i - 2;  // x, v before; x, v now
     if (m.with_velocity) {
-      // Cov of the step = L L^T with L = (l11 0; l21 l22), whitened by L^-1.
+      // The covariance of the step is L L^T with L = (l11 0; l21 l22), whitened by L^-1.
       const double l11 = std::sqrt(q * dt * dt * dt / 3), l21 = q * dt * dt / 2 / l11;
       const double l22 = std::sqrt(q * dt - l21 * l21);
       const std::vector<double> x{-1 / l11, -dt / l11, 1 / l11, 0};
@@ -87,7 +87,7 @@ std::vector<double> batch_estimate(const std::vector<double>& z,
     } else {
       const double w = 1 / std::sqrt(q * dt);
       add_residual(a, first, {-w, 0, w, 0});
-      a[2 * i + 1][2 * i + 1] += 1;  // no velocity in this model
+      a[2 * i + 1][2 * i + 1] += 1;  // this model has no velocity
     }
   }
   const std::vector<double> states = solve(a, b);
@@ -171,7 +171,7 @@ TEST(Kalman, RunningLiveLearnsTheNoiseOnTheWay) {
             0.8 * rms_angle_deg(slice(clip, 300, 1200), late));
 }
 
-// A small swing of joint 1 at a frequency; its amplitude after cleaning over that before.
+// The gain of a small swing of joint 1: its amplitude after cleaning over that before.
 double gain_at(const Cleaner& cleaner, double frequency_hz) {
   Take clip = empty_take(1200, 120);
   for (std::size_t f = 0; f < 1200; ++f) {

@@ -17,7 +17,7 @@
 namespace kinemend::test {
 namespace {
 
-// Angles from next to nothing to next to a half turn.
+// Angles from almost zero to almost a half turn.
 const std::vector<double> hard_angles{0,   1e-300, 1e-160, 1e-12, 1e-8, 1e-5,     1e-3,
                                       0.1, 0.7,    1.5,    2.5,   3.1,  3.141592, pi - 1e-9};
 
@@ -92,7 +92,7 @@ TEST(OrientationFilter, GivesTheSameBitsOnEveryProcessor) {
   }
 }
 
-// Courty's eq. 2 and 3, with Lee & Shin's sign, written out.
+// Courty's eq. 2 and 3 with the sign rule of Lee & Shin.
 Quat oriented(const std::vector<Quat>& q, std::size_t i, const std::vector<double>& mask) {
   const int k = static_cast<int>(mask.size() / 2);
   Vec3 sum;
@@ -220,7 +220,8 @@ TEST(Gaussian, InterpolatesGapsBetweenWhatItCleaned) {
     EXPECT_LT(difference(output.rotation(f, 2), slerp(before, behind, t)), 1e-12);
     EXPECT_EQ(trace.actions[2][f], Action::filled);
   }
-  // Far from the gap it is as if there were none, and near it the gap weighs nothing.
+  // Far from the gap the result is that without a gap; near the gap, missing samples have no
+  // weight.
   Take whole = input;
   whole.observed.clear();
   whole = cleaned(whole, *make_gaussian({0.03}));

@@ -1,4 +1,4 @@
-// Tests of the method `nonlocal`, against Dean's filter, and of its causal form.
+// Tests of the method `nonlocal` and of its causal form, against Dean's filter.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 namespace kinemend::test {
 namespace {
 
-// Dean's filter written out, frame by frame, joint by joint, with no sum kept.
+// Dean's filter directly, frame by frame and joint by joint, without cached sums.
 struct Direct {
   Take clip;  // gaps bridged
   int window = 4, patch = 2, neighbours = 0;

@@ -1,4 +1,4 @@
-// Tests of the codec of motion in pages: samples come back within half a quantum.
+// Tests of the motion codec of pages: samples are restored within half a quantum.
 #include "report/page/codec.hpp"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ std::vector<std::int64_t> wide(const std::vector<std::int32_t>& samples) {
   return {samples.begin(), samples.end()};
 }
 
-// A smooth track with noise, and one that never changes.
+// A smooth track with noise, a constant one, and the first one reversed.
 std::vector<Quantised> tracks(std::size_t frames) {
   Random random(7);
   std::vector<Quantised> all(3);
@@ -29,7 +29,7 @@ std::vector<Quantised> tracks(std::size_t frames) {
     all[0].before.push_back(static_cast<std::int32_t>(std::lround(smooth + 80 * random.normal())));
     all[1].after.push_back(-5);
     all[1].before.push_back(-5);
-    // The take before may be the smoother one.
+    // The track before cleaning may also be the smoother one.
     all[2].before.push_back(all[0].after.back());
     all[2].after.push_back(all[0].before.back());
   }
@@ -59,7 +59,7 @@ TEST(PageCodec, TellsSmallRemaindersOfSmoothTracks) {
   auto all = tracks(7200);
   all.resize(1);
   const std::string bytes = page::deflated(page::first_part(all, 1));
-  // Noise of 80 quanta has log2(80 sqrt(2 pi e)) = 8.4 bits, the smooth track about 4.
+  // Noise of 80 quanta has log2(80 sqrt(2 pi e)) = 8.4 bits; the smooth track has about 4.
   EXPECT_LT(bytes.size() * 8.0 / 7200, 8.4 + 5);
 }
 

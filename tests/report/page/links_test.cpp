@@ -15,7 +15,7 @@ namespace {
 using Links = std::vector<std::array<std::size_t, 2>>;
 
 // Two rods of three markers each, 100 apart along a rod. The second swings about the end of the
-// first: marker 3 stays 20 from marker 2.
+// first; marker 3 stays 20 from marker 2.
 Take two_rods(std::size_t frames = 200) {
   Take clip = make_marker_take({"A1", "A2", "A3", "B1", "B2", "B3"}, frames, 100);
   clip.observed.assign(frames * 6, 1);
@@ -68,7 +68,7 @@ TEST(MarkerLinks, LeaveOutWhatIsFarDriftsOrHasNoName) {
     for (std::size_t m = 3; m < 6; ++m) clip.position(f, m).z += 2.0 * static_cast<double>(f);
   }
   EXPECT_EQ(sorted(marker_links(clip, 500)), (Links{{0, 1}, {1, 2}, {3, 4}, {4, 5}}));
-  // For a body of this height a line of 100 is too long.
+  // For this body height, a line of 100 is too long.
   EXPECT_EQ(sorted(marker_links(two_rods(), 200)), (Links{{2, 3}}));
 }
 

@@ -1,4 +1,4 @@
-// Takes a page apart, independently of how it was put together.
+// Parses a page, independently of the code that writes it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ inline std::string from_base64(std::string_view text) {
   return bytes;
 }
 
-/// The bytes of an element; empty where it is not there.
+/// The content of an element, or empty if it does not exist.
 inline std::string part_of(const std::string& page, const std::string& name) {
   const std::string head = "id=\"data-" + name + "\">";
   const std::size_t begin = page.find(head);
@@ -63,7 +63,7 @@ inline PageJson json_part(const std::string& page, const std::string& name) {
   return PageJson::parse(part_of(page, name));
 }
 
-/// Channels of a page: values of each frame, in one take or in two.
+/// Channels of a page: the values of each frame, in one take or two.
 struct PageChannels {
   std::vector<std::vector<double>> before, after;
 };
@@ -125,7 +125,7 @@ inline std::vector<std::int64_t> read_samples(PageReader& first, PageReader* sec
   return samples;
 }
 
-/// Samples before and after.
+/// Reads the samples before and after cleaning.
 inline std::pair<std::vector<std::int64_t>, std::vector<std::int64_t>> read_pair(
     PageReader& first, PageReader* second, std::size_t frames, std::size_t stride) {
   if (frames == 0) return {};

@@ -1,4 +1,4 @@
-// Tests of whole pages, by the parts that they hold.
+// Tests of the parts of whole pages.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -45,7 +45,7 @@ double body_height_of(const std::string& page) {
   return json_part(page, "take")["stage"]["height"].get<double>();
 }
 
-// Channels as `channels_of` orders them, for a clip with all joints of three axes.
+// Expects channels in the order of `channels_of` for a clip whose joints all have three axes.
 void expect_motion(const Take& clip, const std::vector<std::vector<double>>& channels,
                    double position_bound) {
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -66,7 +66,7 @@ void expect_motion(const Take& clip, const std::vector<std::vector<double>>& cha
 class Page : public testing::Test {
  protected:
   void SetUp() override {
-    // A build without the page has one thing to show: that it says so.
+    // A build without the page must only say so.
     if (has_report_page()) return;
     try {
       page_of(walk(), static_cast<const Take*>(nullptr));
@@ -93,7 +93,7 @@ TEST_F(Page, OfAMinuteOfThirtyOneNoisyJointsIsBelowTwoMegabytes) {
   const Take after = walk(60, 120), before = damaged(after);
   ASSERT_EQ(after.joint_count(), 31u);
   EXPECT_LT(page_of(before, &after).size(), 1'950'000u);
-  // Whichever of the two is the noisy one.
+  // The limit holds whichever take is the noisy one.
   EXPECT_LT(page_of(after, &before).size(), 1'950'000u);
 }
 
@@ -121,7 +121,7 @@ TEST_F(Page, HoldsMarkersWithTheirGaps) {
   const double bound = take["quanta"][0].get<double>() / 2 + 1e-9;
   for (std::size_t f = 0; f < 50; ++f) {
     EXPECT_NEAR(channels[0][f], 10.0 * static_cast<double>(f), bound);
-    // What is missing repeats what was there before.
+    // Missing samples repeat the last value.
     EXPECT_NEAR(channels[3][f], f < 20 || f > 29 ? 10.0 * static_cast<double>(f) : 190, bound);
     EXPECT_NEAR(channels[6][f], 10.0 * static_cast<double>(f), bound);
   }
