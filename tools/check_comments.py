@@ -12,7 +12,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 COMMENT = re.compile(r"^\s*//[/!]?<?( ?)(.*)$|(?<=[;{},)])\s+//[/!]?<? ?(.*)$")
 BEGINS = re.compile(r"(?:^|(?<=[.:;] ))(Of|What|That|Those)\b(?! (is|are|was|were)\b.{0,40}\?)", re.M)
-PHRASES = re.compile(r"\b(is none|are none|told of|as it is there|by right|for want of|is not to be had|are not to be had)\b")
+PHRASES = re.compile(r"\b((?<!there )is none|(?<!there )are none|told of|as it is there|by right|for want of|is not to be had|are not to be had)\b")
 
 
 def comments(text):

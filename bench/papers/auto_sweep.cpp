@@ -338,13 +338,8 @@ Take at_rate(const Take& clip, double rate_hz) {
   return resample(clip, rate_hz);
 }
 
-<<<<<<< HEAD
-// A kind of damage on all takes: the error that cleaning leaves on each.
-struct SweptKind {
-=======
 // A kind of damage, with the error that cleaning leaves on each take.
-struct Kind {
->>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
+struct SweptKind {
   std::string name;
   std::vector<std::function<double(const Tuning&)>> errors;
 };
@@ -378,15 +373,9 @@ void add_markers(const std::vector<Take>& takes, std::vector<SweptKind>& kinds) 
   }
 }
 
-<<<<<<< HEAD
-// Of each kind the mean over the takes of the logarithm of the error in degrees, to which a
-// hundredth is added: smaller errors do not differ for any use.
-std::vector<double> log_errors(const std::vector<SweptKind>& kinds, const Tuning& tuning) {
-=======
 // For each kind, the mean over takes of log(error in degrees + 0.01); smaller errors do not matter
 // in practice.
-std::vector<double> log_errors(const std::vector<Kind>& kinds, const Tuning& tuning) {
->>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
+std::vector<double> log_errors(const std::vector<SweptKind>& kinds, const Tuning& tuning) {
   std::vector<double> result;
   for (const SweptKind& kind : kinds) {
     double sum = 0;

@@ -140,13 +140,8 @@ std::vector<Group> groups(const Arguments& arguments) {
   return list;
 }
 
-<<<<<<< HEAD
-// For each condition and take.
+// AblationErrors by condition and take.
 using AblationErrors = std::vector<std::vector<double>>;
-=======
-// Errors by condition and take.
-using Errors = std::vector<std::vector<double>>;
->>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
 
 AblationErrors errors_of(const std::vector<Group>& tried, const Variant& v) {
   AblationErrors errors;
@@ -166,15 +161,9 @@ AblationErrors errors_of(const std::vector<Group>& tried, const Variant& v) {
   return errors;
 }
 
-<<<<<<< HEAD
-// Mean over takes from the first to the last of the logarithm of how many times as large, as a
-// percentage.
+// Mean logarithm of the error ratio over takes `first` to `last`, as a percentage.
 double change(const AblationErrors& errors, const AblationErrors& usual, std::size_t first,
               std::size_t last) {
-=======
-// Mean logarithm of the error ratio over takes `first` to `last`, as a percentage.
-double change(const Errors& errors, const Errors& usual, std::size_t first, std::size_t last) {
->>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
   double sum = 0, count = 0;
   for (std::size_t c = 0; c < errors.size(); ++c) {
     for (std::size_t i = first; i < last; ++i) {

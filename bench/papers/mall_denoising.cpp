@@ -38,11 +38,8 @@ Take clip_of(const Arguments& arguments, const std::string& name) {
   return slice(clip, 0, std::min<std::size_t>(clip.frame_count(), 240));
 }
 
-<<<<<<< HEAD
-using DenoisingErrors = std::map<std::string, std::vector<double>>;  // of each method, by take
-=======
-using Errors = std::map<std::string, std::vector<double>>;  // errors of each method, by take
->>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
+using DenoisingErrors =
+    std::map<std::string, std::vector<double>>;  // errors of each method, by take
 
 double mean_of(const std::vector<double>& values) {
   double sum = 0;
@@ -52,16 +49,10 @@ double mean_of(const std::vector<double>& values) {
 
 const std::vector<std::string> learned_and_auto{"auto", "wiener", "learned"};
 
-<<<<<<< HEAD
-// One noise: the errors of all methods on all takes. Of the Gaussians the one that is best over
-// all takes stands for the best constant one.
-DenoisingErrors errors_of(const Arguments& arguments, const std::vector<NoisyHoldOut>& takes,
-                          double k) {
-=======
 // The errors of all methods on all takes for one noise. The Gaussian with the least error over all
 // takes is the best constant one.
-Errors errors_of(const Arguments& arguments, const std::vector<HeldOut>& takes, double k) {
->>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
+DenoisingErrors errors_of(const Arguments& arguments, const std::vector<NoisyHoldOut>& takes,
+                          double k) {
   const std::vector<double> widths{0.006, 0.009, 0.013, 0.018, 0.025, 0.035, 0.045};
   DenoisingErrors errors;
   std::map<double, std::vector<double>> gaussians;

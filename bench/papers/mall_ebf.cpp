@@ -84,15 +84,9 @@ class Comparison {
     for (const std::string& method : other_methods) add(method, cleaned(clip, method));
   }
 
-<<<<<<< HEAD
-  // Of the constant Gaussians the best stands for all.
+  // Only the best of the constant Gaussians is listed.
   static void write(Table& table, const Noise& noise, const std::string& group, EbfErrors& errors) {
     EbfSums best;
-=======
-  // Only the best of the constant Gaussians is listed.
-  static void write(Table& table, const Noise& noise, const std::string& group, Errors& errors) {
-    Sums best;
->>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
     for (const auto& [method, sums] : errors) {
       if (method.rfind("constant", 0) == 0 && (best.count == 0 || sums.moving < best.moving))
         best = sums;

@@ -99,13 +99,8 @@ void white_and_spikes(const Arguments& arguments) {
   table.close();
 }
 
-<<<<<<< HEAD
-// What is done to takes that need nothing.
-void any_noise_on_clean_takes(const Arguments& arguments) {
-=======
 // Measures the changes to clean takes.
-void clean_takes(const Arguments& arguments) {
->>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
+void any_noise_on_clean_takes(const Arguments& arguments) {
   Table table(arguments, "any_clean.csv", "method,takes,median_deg,worst_deg");
   std::vector<std::string> names;
   std::ifstream list(arguments.data / "cmu" / "recurrent-100.csv");

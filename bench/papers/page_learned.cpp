@@ -22,13 +22,8 @@ std::vector<std::string> names_below(const std::filesystem::path& folder) {
   return {names.begin(), names.end()};
 }
 
-<<<<<<< HEAD
-// Clean takes, every fourth of the library: how many come back bit for bit.
-void learned_on_clean_takes(const Arguments& arguments) {
-=======
 // Counts the clean takes that are returned bit for bit, over every fourth take of the library.
-void clean_takes(const Arguments& arguments) {
->>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
+void learned_on_clean_takes(const Arguments& arguments) {
   Table table(arguments, "page_clean.csv", "method,takes,unchanged,hardly_changed");
   std::vector<std::string> names;
   const std::vector<std::string> all = names_below(arguments.data);

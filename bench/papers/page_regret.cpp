@@ -46,13 +46,8 @@ bool counts_for_regret(const std::string& method) {
   return method != untouched && method != best_cut && !method.starts_with("learned ");
 }
 
-<<<<<<< HEAD
-// The figures of each take on which the method ran, by the number of the take.
-using RegretErrors = std::map<std::size_t, std::vector<double>>;
-=======
 // Figures of each take on which the method ran, by take number.
-using Errors = std::map<std::size_t, std::vector<double>>;
->>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
+using RegretErrors = std::map<std::size_t, std::vector<double>>;
 
 Take cleaned_case(const RegretRow& row, const RegretCase& given, const Cleaner& cleaner,
                   Source source = Source::unknown) {
@@ -98,14 +93,9 @@ struct Mean {
   double error = 0, share = 0, worst = 0;
 };
 
-<<<<<<< HEAD
-// Over the takes on which `other` ran.
+// Means over the takes on which `other` ran.
 Mean mean_of(const RegretErrors& errors, const RegretErrors& before, const RegretErrors& other,
              std::size_t figure) {
-=======
-// Means over the takes on which `other` ran.
-Mean mean_of(const Errors& errors, const Errors& before, const Errors& other, std::size_t figure) {
->>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
   Mean mean;
   const auto count = static_cast<double>(other.size());
   for (const auto& [number, unused] : other) {
@@ -117,14 +107,9 @@ Mean mean_of(const Errors& errors, const Errors& before, const Errors& other, st
   return mean;
 }
 
-<<<<<<< HEAD
-// The methods that ran on all that the default ran on, or on the first take where they are slow.
+// Methods that ran on all takes of the default, or on the first take if they are slow.
 bool is_comparable(const std::string& method, const RegretErrors& errors,
                    const RegretErrors& of_default) {
-=======
-// Methods that ran on all takes of the default, or on the first take if they are slow.
-bool is_comparable(const std::string& method, const Errors& errors, const Errors& of_default) {
->>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
   return counts_for_regret(method) && (is_slow(method) || errors.size() == of_default.size());
 }
 

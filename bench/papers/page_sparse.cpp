@@ -124,13 +124,8 @@ void gaps(const Arguments& arguments, const std::vector<Take>& truths) {
   table.close();
 }
 
-<<<<<<< HEAD
-// Every fourth of the library.
-void sparse_on_clean_takes(const Arguments& arguments) {
-=======
 // Uses every fourth take of the library.
-void clean_takes(const Arguments& arguments) {
->>>>>>> e379518ada20bd7bb1832be07b5f182231c446d2
+void sparse_on_clean_takes(const Arguments& arguments) {
   Table table(arguments, "sparse_clean.csv", "method,takes,unchanged,mean_deg,largest_deg");
   std::set<std::string> all;
   for (const char* part : {"cmu/bvh", "cmu/bvh-rotations"}) {

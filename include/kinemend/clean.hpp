@@ -107,7 +107,7 @@ struct TrackSummary {
   std::size_t peak_frames = 1;
 };
 
-/// What was done to a take of either kind.
+/// The changes made to a take of either kind.
 struct CleanReport {
   TakeKind kind = TakeKind::joints;
   std::string method;  ///< `Cleaner::name`

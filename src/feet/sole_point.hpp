@@ -19,8 +19,8 @@ struct SolePoint {
   double level = 0;  ///< its usual height in ground contact
 };
 
-/// Thresholds of low (body heights above a level) and slow (body heights a second). Those to begin
-/// a contact are tighter than those to continue it (hysteresis). Chosen by hand (docs/feet.md), not
+/// Thresholds of low (body heights above a level) and slow (body heights a second). Hysteresis:
+/// a contact begins at tighter thresholds than it continues. Chosen by hand (docs/feet.md), not
 /// swept.
 struct ContactThresholds {
   double begin_height = 0.015, keep_height = 0.03;

@@ -247,8 +247,8 @@ class VmcSession::Work {
     return clean_position(pose, frame, share, bytes) || changed;
   }
 
-  // Cleans the positions of the root and the hips. Those of other bones are the lengths of the body
-  // and stay unchanged.
+  // Cleans the positions of the root and the hips. Positions of other bones are the lengths of the
+  // body and stay unchanged.
   bool clean_position(const Pending& pose, const VmcFrame& frame, double share,
                       std::string& bytes) {
     const bool finite = is_finite(vmc_values(bytes, pose.place).position);

@@ -172,8 +172,8 @@ TEST_P(Laws, ObservedSamplesStayToTheBit) {
   });
 }
 
-// Of joints `slerp` and `pchip` meet the ends in value only: the corner that they turn there is at
-// most as large as the largest step of the motion (measured: 0.87 of it).
+// For joints, `slerp` and `pchip` meet the ends in value only: the corner that they turn there is
+// at most as large as the largest step of the motion (measured: 0.87 of it).
 TEST_P(Laws, FilledSpanMeetsItsEndsInValueAndVelocity) {
   hold([&](const auto& take) {
     const bool joints = GetParam().joints;

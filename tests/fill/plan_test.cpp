@@ -159,7 +159,7 @@ TEST(GapPlan, PreviewsEveryMethodBesideWhatFillsTheGap) {
   EXPECT_GT(seen, 4u);
 }
 
-// What the plan makes of the take once the row has that method.
+// The take as the plan fills it once the row has that method.
 Take filled_with(const Take& damaged, std::vector<PlannedGap> plan, std::size_t row,
                  const std::string& method, GapVerdict verdict) {
   plan[row].method = method;
@@ -196,7 +196,7 @@ TEST(GapPlan, ShowsTheCurvesThatTheRowsMethodsWouldMakeOfMarkers) {
       drawn += i == 41 + 4;
     }
     forced += !curve.preview.filled && curve.values[41 + 4];
-    // What may be filled is shown.
+    // The preview shows each frame that the plan may fill.
     EXPECT_TRUE(!curve.preview.filled || curve.values[41 + 4]) << method;
   }
   EXPECT_GT(drawn, 5u);

@@ -1,4 +1,4 @@
-// What the report promises of a filling, against what it becomes.
+// Compares the error that a report promises for a filled gap with the error that it has.
 #include <gtest/gtest.h>
 
 #include <numeric>

@@ -74,7 +74,7 @@ TEST(CutFile, OfBvhIsReadUpToTheLastWholeFrame) {
     EXPECT_EQ(read.diagnostics.count("file_cut"), 1u);
     EXPECT_EQ(read.diagnostics.entries().size(), 1u);
     expect_same_motion(read.take, slice(whole, 0, rows - 1), 0);
-    // What is written is whole.
+    // The written file is complete.
     const std::string written = write_take(read.take);
     const TakeResult again = read_joints(written, "take.bvh");
     EXPECT_TRUE(again.diagnostics.empty());

@@ -118,8 +118,8 @@ INSTANTIATE_TEST_SUITE_P(Kinds, AutoOnCleanTakes,
                                          "16_02", "16_33", "08_10", "49_01", "82_04", "131_05"),
                          [](const auto& clip) { return "Take" + std::string(clip.param); });
 
-// Captures in which a thumb flips by half a turn for a frame or two. Those samples are not motion,
-// and no other sample changes.
+// Captures in which a thumb flips by half a turn for a frame or two. The flipped samples are not
+// motion, and no other sample changes.
 class AutoOnTakesWithFlips : public testing::TestWithParam<const char*> {};
 
 TEST_P(AutoOnTakesWithFlips, RepairsTheFlipsAndNothingElse) {

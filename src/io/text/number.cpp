@@ -156,7 +156,7 @@ constexpr auto small_integers = [] {
 
 char* write_integer(char* out, std::uint64_t value) {
   if (value >= 1000) return std::to_chars(out, out + fixed_number_room, value).ptr;
-  const char* text = &small_integers[4 * value];
+  const char* text = &small_integers[4 * static_cast<std::size_t>(value)];
   std::memcpy(out, text, 4);
   return out + text[3];
 }

@@ -31,7 +31,7 @@ struct MotionTake {
   std::vector<float> measured;        ///< F x C, smoothed by the measured noise; empty: not known
   std::vector<std::uint8_t> missing;  ///< F x C, 1 for unmeasured samples; empty: none
   /// C: the channel of the model's body that this is, in the same axes and about the same
-  /// reference; -1 if it is none of them, or the body is not known.
+  /// reference; -1 if the model has no such channel, or the body is not known.
   std::vector<std::int32_t> slots;
   std::vector<std::uint8_t> is_position;  ///< C
   /// Whether the take comes from a system with slow errors (video, depth cameras, suits).

@@ -30,9 +30,9 @@ double quantum_for(double quantum, double largest);
 /// and nothing if there are no frames. A take is coded as a byte for the prediction, then the four
 /// bytes of the remainders in separate planes, lowest first. Remainders are whole numbers modulo
 /// 2^32, folded so that small ones of either sign are small. Predictions of the first part are 0:
-/// zero, 1: the previous sample, 2: the line through the two previous ones. Those of the second
-/// part are 0: zero, 1: the line between the frames of the first part, rounded down, and after the
-/// last of them its value.
+/// zero, 1: the previous sample, 2: the line through the two previous ones. Predictions of
+/// the second part are 0: zero, 1: the line between the frames of the first part, rounded down, and
+/// after the last of them its value.
 std::string first_part(std::span<const Quantised> channels, std::size_t stride);
 std::string second_part(std::span<const Quantised> channels, std::size_t stride);
 

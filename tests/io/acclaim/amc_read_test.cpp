@@ -17,7 +17,7 @@ struct BoneEnds {
   Vec3 begin, end;
 };
 
-// What tools/reference/acclaim_figure.py says, by frame and bone.
+// The positions that tools/reference/acclaim_figure.py computes, by frame and bone.
 std::map<std::pair<std::size_t, std::string>, BoneEnds> figure_positions() {
   std::map<std::pair<std::size_t, std::string>, BoneEnds> positions;
   std::ifstream file(acclaim_fixture("amc/figure_positions.csv"));

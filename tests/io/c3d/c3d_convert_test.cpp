@@ -31,7 +31,7 @@ TEST(C3dConversions, TurnTheAxesOfTheScreen) {
   EXPECT_EQ(screen(written(turn_axes(up_x, Axis::x, Axis::z)), "X_SCREEN"), "+X");
 }
 
-// What plates measure has the units of analog channels, what a model made of it those of its own.
+// Data of force plates has the units of analog channels; model outputs have units of their own.
 TEST(C3dConversions, ScaleLengthsOnly) {
   const Take clip = read_good_c3d("laboratory");
   const Take metres = written(scale_lengths(clip, 0.001, "m"));

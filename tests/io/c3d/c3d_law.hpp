@@ -42,7 +42,7 @@ inline Take without_layout(Take clip) {
   return clip;
 }
 
-/// Of every kind; the last two rates: one that analog rates are seldom a multiple of.
+/// Returns conversions of every kind. Analog rates are seldom a multiple of the last two rates.
 inline std::vector<C3dConversion> c3d_conversions(const Take& clip) {
   const double rate = clip.frame_rate_hz;
   const auto fps = [](double to) { return [to](const Take& take) { return resample(take, to); }; };

@@ -56,7 +56,7 @@ TEST(RealC3d, EveryFileIsValidAndComesBackToTheByte) {
   EXPECT_GE(files, 90u);
 }
 
-// What each file needs to be repaired, so that no reading changes unnoticed.
+// Lists the repairs that each file needs, so that no change of the reader stays unnoticed.
 TEST(RealC3d, OnlyTheKnownFilesAreRepaired) {
   const std::map<std::string, std::string> known{
       {"sgi_int.c3d", "damaged_parameter_pointer"},

@@ -209,7 +209,7 @@ TEST(C3dWriter, OtherFramesGetANewFileWithoutAnalogSamples) {
   EXPECT_EQ(fact_of(again, "subjects"), "Ann");
 }
 
-// What c3d.org demands of a header, read here byte by byte.
+// Checks the rules of c3d.org for headers, byte by byte.
 TEST(C3dWriter, NewFilesKeepTheRulesOfTheManual) {
   Take clip = make_marker_take({"Ann:A", "B", "\u53f3"}, 3, 120);
   clip.unit = "m";

@@ -273,7 +273,7 @@ struct FbxTestCurve {
   std::vector<std::int64_t> times{};  ///< instead of first and step
 };
 
-/// One model with curves of translation and rotation (x, y, z; an empty one is none).
+/// One model with curves of translation and rotation (x, y, z; an empty curve is left out).
 struct FbxTestModel {
   std::string name;
   std::string kind = "LimbNode";

@@ -49,7 +49,7 @@ TEST(HostileGltf, PatchedAtManyBytes) {
 
 TEST(HostileGltf, PiecesMovedAndRepeated) { expect_sane_when_pieces_move("gltf"); }
 
-// What a reader keeps of a damaged scene must still be written when a joint changes.
+// The parts of a damaged scene that a reader keeps must be written when a joint changes.
 TEST(HostileGltf, DamagedScenesThatAreReadCanBeChanged) {
   Random random(22);
   const auto all = fixture_bytes("glb");

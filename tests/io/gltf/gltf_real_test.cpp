@@ -9,7 +9,7 @@ namespace fs = std::filesystem;
 
 const fs::path gltf_scenes = fs::path(KINEMEND_DATA_FOLDER) / "fbx";
 
-// What there is to read: joints, frames, rate; none: refused, with a part of the reason.
+// The joints, frames and rate of a file; zero for a refused file, with a part of the reason.
 struct KnownScene {
   const char* path;
   std::size_t joints, frames;
