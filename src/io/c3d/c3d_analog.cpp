@@ -1,4 +1,4 @@
-// Decodes analog samples by the scales and offsets that the parameters state.
+// Decodes analog samples with the scales and offsets in the parameters.
 #include "io/c3d/c3d_analog.hpp"
 
 #include "io/text/text.hpp"
@@ -18,7 +18,7 @@ std::vector<double> per_channel(const C3dDocument& document, const char* name, d
 C3dAnalogDecoder::C3dAnalogDecoder(const C3dDocument& document)
     : document_(document),
       is_unsigned_(equal_ignoring_case(document.parameters.text("ANALOG", "FORMAT"), "UNSIGNED")),
-      // Some writers spell it with an S.
+      // Some writers call it OFFSETS.
       offsets_(per_channel(document,
                            document.parameters.find("ANALOG", "OFFSET") ? "OFFSET" : "OFFSETS", 0)),
       scales_(per_channel(document, "SCALE", 1)) {

@@ -1,4 +1,4 @@
-// The analog samples of a C3D file, such as those of force plates.
+// Decodes the analog samples of a C3D file, for example from force plates.
 #pragma once
 
 #include <cstddef>
@@ -8,16 +8,16 @@
 
 namespace kinemend {
 
-/// Reads the analog samples of a file (force plates, muscle sensors and the like): `(stored -
-/// OFFSET) * SCALE * GEN_SCALE`, where both stored integers and OFFSET are unsigned if
-/// ANALOG:FORMAT says UNSIGNED.
+/// Reads the analog samples of a file (force plates, muscle sensors and so on): `(stored - OFFSET)
+/// * SCALE * GEN_SCALE`, where both stored integers and OFFSET are unsigned if ANALOG:FORMAT says
+/// UNSIGNED.
 class C3dAnalogDecoder {
  public:
   explicit C3dAnalogDecoder(const C3dDocument& document);
 
-  /// The stored values of one frame, instant by instant, all channels of each.
+  /// Reads the stored values of one frame: instant by instant, all channels of each.
   void stored(std::size_t frame, std::vector<double>& values) const;
-  /// The value of a stored number, in the unit of its channel.
+  /// Converts a stored number to a value in the unit of its channel.
   double value(double stored, std::size_t channel) const {
     return (stored - offsets_[channel]) * scales_[channel];
   }

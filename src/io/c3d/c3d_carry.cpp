@@ -1,4 +1,4 @@
-// Compares the frames of a take with those of its source, and names what gets lost.
+// Compares the frames of a take with its source's, and lists the data that is lost.
 #include "io/c3d/c3d_carry.hpp"
 
 #include <fmt/format.h>
@@ -15,14 +15,14 @@ namespace kinemend {
 
 namespace {
 
-// Relative; chosen by hand, not swept.
+// Relative tolerance; chosen by hand, not swept.
 constexpr double rounding = 1e-6;
 
 bool has_analog(const C3dLayout& layout) {
   return layout.analog_values > 0 && layout.frame_count > 0;
 }
 
-// Values that a damaged file does not tell the channels of mean nothing.
+// Whether the channels of analog values are known; in a damaged file they may not be.
 bool knows_channels(const C3dLayout& layout) {
   return layout.analog_count * layout.analog_instants() == layout.analog_values;
 }
@@ -31,7 +31,8 @@ double analog_rate_hz(const C3dDocument& source) {
   return source.frame_rate_hz * static_cast<double>(source.layout.analog_instants());
 }
 
-// Instants of a frame of the clip at the source's analog rate; 0 where they are no whole number.
+// Returns the analog instants per frame of the clip at the source's analog rate; 0 if that is not a
+// whole number.
 std::size_t instants_at(double frame_rate_hz, const C3dDocument& source) {
   const double ratio = analog_rate_hz(source) / frame_rate_hz, whole = std::round(ratio);
   const bool fits = whole >= 1 && std::fabs(ratio - whole) <= rounding * whole &&
@@ -39,7 +40,7 @@ std::size_t instants_at(double frame_rate_hz, const C3dDocument& source) {
   return fits ? static_cast<std::size_t>(whole) : 0;
 }
 
-// Behind the frames and what fills up their last block.
+// Returns how many bytes follow the frames and the padding of their last block.
 std::size_t bytes_behind(const C3dDocument& source) {
   const std::string_view bytes = source.bytes;
   const std::size_t end = std::min(source.layout.data_end(), bytes.size());
@@ -89,7 +90,8 @@ void add_analog_losses(const Take& clip, const C3dOrigin& origin, Diagnostics& l
   }
 }
 
-// Few that do not are written in place all the same: those that did not change.
+// Whether all samples fit into the source's integers. If not, a trial rewrite decides, because
+// unchanged samples need not fit.
 bool samples_fit(const Take& clip, const C3dLayout& layout) {
   if (layout.is_float) return true;
   constexpr double most_steps = 32767;
@@ -110,7 +112,7 @@ std::size_t C3dCarried::source_frame(std::size_t frame, std::size_t source_count
 }
 
 std::size_t c3d_frame_count(const Take& clip, const C3dOrigin& origin) {
-  // A file of analog samples alone has frames, a clip without markers has none.
+  // A file with only analog samples has frames, but a clip without markers does not.
   const bool no_points =
       origin.document != nullptr && clip.marker_count() + origin.document->layout.point_count == 0;
   return no_points ? origin.document->layout.frame_count : clip.frame_count();

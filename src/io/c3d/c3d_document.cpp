@@ -1,4 +1,4 @@
-// Carries the document of a C3D file through conversions, and finds it again.
+// Keeps the document of a C3D file through conversions, and retrieves it.
 #include "io/c3d/c3d_document.hpp"
 
 namespace kinemend {

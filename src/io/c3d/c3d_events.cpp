@@ -8,7 +8,7 @@ namespace kinemend {
 
 namespace {
 
-// Times are pairs: minutes, seconds.
+// Reads events of a group, whose times are pairs: minutes, seconds.
 std::vector<MarkerEvent> group_events(const C3dSource& source, const C3dParameters& parameters,
                                       std::string_view group) {
   const std::vector<double> times = parameters.numbers(group, "TIMES");
@@ -51,7 +51,7 @@ std::vector<MarkerEvent> header_events(const C3dSource& source, const C3dHeader&
   return events;
 }
 
-// The length of the UTF-8 sequence at `p`; 0 where there is none.
+// Returns the length of the UTF-8 sequence at `p`; 0 if it is not valid.
 std::size_t sequence_length(std::string_view p) {
   const auto lead = static_cast<unsigned char>(p[0]);
   const std::size_t length = lead < 0x80                     ? 1

@@ -1,4 +1,4 @@
-// What a C3D file holds beside its points: facts for people, and events.
+// Reads the contents of a C3D file besides its points: facts for people, and events.
 #pragma once
 
 #include <string>
@@ -11,28 +11,28 @@
 
 namespace kinemend {
 
-/// "DEC integers in steps of 0.1", "Intel reals".
+/// Returns the encoding: "DEC integers in steps of 0.1", "Intel reals".
 std::string c3d_encoding(const C3dDocument& document);
 
-/// The content of a C3D file beside its points, in words.
+/// Returns the contents of a C3D file besides its points, as text.
 std::vector<SourceFact> c3d_facts(const C3dDocument& document, const C3dPointCounts& counts);
 
-/// Words of the header that hold its events, from 1.
+/// Header words with its events, numbered from 1.
 constexpr std::size_t c3d_event_key_word = 150, c3d_event_count_word = 151,
                       c3d_event_times_word = 153, c3d_event_flags_word = 189,
                       c3d_event_labels_word = 199;
 constexpr std::size_t c3d_event_key = 12345, c3d_most_header_events = 18;
 
-/// The events of the group EVENT (or EVENTS, as some write), else those of the header, in the order
+/// Returns the events of the group EVENT (some writers use EVENTS), else the header's, in the order
 /// of the file.
 std::vector<MarkerEvent> read_c3d_events(const C3dSource& source, const C3dHeader& header,
                                          const C3dParameters& parameters);
 
-/// Whether every event time in the file, also of the header, is a finite number.
+/// Whether every event time in the file, including the header's, is a finite number.
 bool c3d_event_times_are_finite(const C3dSource& source, const C3dHeader& header,
                                 const C3dParameters& parameters);
 
-/// `text` if it is UTF-8, else the UTF-8 of the text read as Latin 1.
+/// Returns `text` if it is UTF-8, else the UTF-8 of the text read as Latin 1.
 std::string as_utf8(const std::string& text);
 
 }  // namespace kinemend

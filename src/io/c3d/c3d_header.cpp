@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint8_t key = 0x50;
 
-// Of word `number`, from 1.
+// Returns the offset of word `number`, from 1.
 std::size_t word_offset(const C3dHeader& header, std::size_t number) {
   return header.begin + 2 * (number - 1);
 }
@@ -45,7 +45,7 @@ std::size_t find_parameters(const C3dSource& source, std::size_t header_begin) {
   const std::size_t block = source.byte(header_begin);
   if (block >= 2 && source.holds(block_begin(block), 4)) {
     const std::size_t begin = block_begin(block);
-    // Some writers leave the mark out; the processor then tells.
+    // Some writers leave the mark out; the processor type then identifies the section.
     const std::uint8_t processor = source.byte(begin + 3);
     if (is_parameter_section(source, begin) || (processor >= 84 && processor <= 86)) return begin;
   }
@@ -95,8 +95,8 @@ C3dHeader read_c3d_header(C3dSource& source) {
 }
 
 C3dParameters read_c3d_parameters(const C3dSource& source, const C3dHeader& header) {
-  // The section's own count of blocks is one byte, and wrong where there are more; but it cannot
-  // go on into the data.
+  // The section's block count is one byte, and wrong for larger sections, so the section ends where
+  // the data begins.
   const std::size_t data = header.begin + (header.data_block - 1) * c3d_block_bytes;
   const bool data_follows = header.data_block > 1 && data > header.parameters_begin;
   const std::size_t end = std::min(data_follows ? data : source.bytes.size(), source.bytes.size());

@@ -1,4 +1,4 @@
-// Finds the layout by what the header, the parameters and the file's size agree on.
+// Finds the layout on which the header, the parameters and the file's size agree.
 #include "io/c3d/c3d_layout.hpp"
 
 #include <fmt/format.h>
@@ -18,13 +18,13 @@ namespace {
 
 constexpr std::size_t up_to_the_end = std::numeric_limits<std::size_t>::max();
 
-// How many frames there are according to one place of the file.
+// The number of frames according to one place in the file.
 struct FrameClaim {
   std::size_t count = 0;
   std::int64_t first = 1;
 };
 
-// Adds what is not yet there: the order is the order of trust.
+// Adds a claim if it is new. Claims are in the order of trust.
 template <class T>
 void add_claim(std::vector<T>& claims, std::optional<T> claim) {
   if (claim && std::find(claims.begin(), claims.end(), *claim) == claims.end())
@@ -39,7 +39,7 @@ void add_frames(std::vector<FrameClaim>& claims, std::int64_t first, double coun
 std::size_t claimed(std::size_t count) { return count; }
 std::size_t claimed(const FrameClaim& claim) { return claim.count; }
 
-// The claim that most others agree with comes first; else their order stays.
+// Puts the claim that most others agree with first, and otherwise keeps the order.
 template <class Claim>
 void sort_by_agreement(std::vector<Claim>& claims) {
   std::vector<Claim> sorted = claims;
@@ -150,7 +150,7 @@ class LayoutFinder {
   }
 
   // The numbers of the first and the last frame, each as low word, high word. Some writers multiply
-  // the high one by 65,535, as a misprint in the format's manual says.
+  // the high word by 65,535, because of a misprint in the format's manual.
   void collect_trial_claims() {
     const auto begin = parameters_.numbers("TRIAL", "ACTUAL_START_FIELD");
     const auto end = parameters_.numbers("TRIAL", "ACTUAL_END_FIELD");
@@ -191,7 +191,7 @@ class LayoutFinder {
     frames_.push_back({up_to_the_end, first});
   }
 
-  // Rank of a reading of the file: 2 where the data ends with it, 1 where the data fits in.
+  // Ranks a reading of the file: 2 if the data ends with the file, 1 if the data fits in it.
   int rank(const C3dLayout& layout) const {
     const std::size_t bytes = layout.frame_bytes();
     if (bytes > 0 && layout.frame_count > whole_frames(layout)) return 0;
@@ -200,7 +200,7 @@ class LayoutFinder {
                : 1;
   }
 
-  // The most trusted reading comes first.
+  // Returns all readings, the most trusted first.
   std::vector<C3dLayout> readings() const {
     std::vector<C3dLayout> all;
     for (const std::size_t begin : begins_)
@@ -228,7 +228,7 @@ class LayoutFinder {
     if (rank(layout_) == 0) cut_to_file();
   }
 
-  // As many as there is room for.
+  // Returns the number of whole frames that the file can hold.
   std::size_t whole_frames(const C3dLayout& layout) const {
     const std::size_t room = source_.bytes.size() - layout.data_begin;
     return layout.frame_bytes() == 0 ? 0 : room / layout.frame_bytes();

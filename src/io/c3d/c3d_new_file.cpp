@@ -21,12 +21,13 @@ namespace {
 
 using Words = C3dWords<C3dProcessor::intel>;
 
-// Integers made of the file shall not use all of their range. Chosen by hand.
+// Programs that convert the file to integers need a margin of their range. Chosen by hand.
 constexpr double scale_steps = 32000;
 constexpr double scale_when_still = 0.01;
-// That an integer can tell, and a little for rounding. By definition of the format.
+// The largest value of an integer, with a small tolerance for rounding. By definition of the
+// format.
 constexpr double most_steps = 32768.01;
-// Of the header: the longest gap that was interpolated.
+// Header word with the longest gap that was interpolated.
 constexpr std::size_t interpolated_gap_word = 6;
 
 class NewFile {
@@ -48,7 +49,7 @@ class NewFile {
 
   std::string write() {
     C3dParameters parameters = new_c3d_parameters(clip_, origin_, file_);
-    // Its length does not depend on the number that it holds.
+    // The section's length does not depend on the value of DATA_START.
     data_block_ = 2 + c3d_parameter_section(parameters).size() / c3d_block_bytes;
     set_parameter(parameters, "POINT", c3d_integer("DATA_START", static_cast<double>(data_block_)));
     out_ = header() + c3d_parameter_section(parameters);
@@ -62,7 +63,7 @@ class NewFile {
   std::size_t frames() const { return file_.frame_count; }
 
   double scale() const {
-    double largest = 0, farthest = 0;  // of all values, and of positions
+    double largest = 0, farthest = 0;  // largest of all values, and of positions
     for (std::size_t i = 0; i < clip_.positions.size(); ++i) {
       if (clip_.observed[i] == 0) continue;
       const Vec3 p = clip_.positions[i];
@@ -72,8 +73,8 @@ class NewFile {
     }
     if (largest > static_cast<double>(std::numeric_limits<float>::max()))
       throw Error(ErrorKind::usage, fmt::format("{:g} is too large for a C3D file", largest));
-    // A source's own scale keeps its residuals exact. In a file of reals it need not be one that
-    // integers could do with.
+    // The source's scale keeps its residuals exact. In a file of reals the scale need not suit
+    // integers.
     double chosen = largest / scale_steps;
     if (source_ != nullptr) {
       const double given = source_->layout.scale * origin_.change.length_factor;
@@ -107,7 +108,7 @@ class NewFile {
     return block;
   }
 
-  // Of the source's header.
+  // Returns the place of a word in the source's header.
   const char* source_place(std::size_t number) const {
     return source_->bytes.data() + source_->layout.header_begin + 2 * (number - 1);
   }
@@ -116,7 +117,7 @@ class NewFile {
                       [&](auto words) -> std::size_t { return words.word(source_place(number)); });
   }
 
-  // As many as there is room for; the parameters have them all.
+  // Writes as many events as the header can hold; the parameters hold all of them.
   void put_events(std::string& block) const {
     const auto place = [&](std::size_t word) { return block.data() + 2 * (word - 1); };
     const std::size_t count = std::min(clip_.events.size(), c3d_most_header_events);
@@ -150,7 +151,7 @@ class NewFile {
     }
   }
 
-  // The fourth word that a sample had in the source; frames are asked for in order.
+  // Returns the fourth word of a sample in the source. Frames must be requested in order.
   std::int32_t word_before(std::size_t frame, std::size_t marker) {
     if (!words_) return missing_point_word;
     const std::size_t from = carried_.source_frame(frame, source_->layout.frame_count);
@@ -175,8 +176,8 @@ class NewFile {
     Words::put_real(place + 12, static_cast<float>(word));
   }
 
-  // Values as they were stored; offset and scale stay with the parameters. They go on evenly from
-  // frame to frame, however many the source has in one of its own.
+  // Writes values as stored; offset and scale stay in the parameters. The values continue evenly
+  // across frames, even if the source has a different number per frame.
   void write_analog(char* place, std::size_t frame) {
     const std::size_t instants = source_->layout.analog_instants();
     const std::size_t last = source_->layout.frame_count * instants - 1;
@@ -201,7 +202,7 @@ class NewFile {
   std::optional<C3dSourceFrames> words_;
   std::optional<C3dAnalogDecoder> analog_;
   std::vector<double> analog_row_;
-  std::size_t analog_frame_ = std::numeric_limits<std::size_t>::max();  // that the row is of
+  std::size_t analog_frame_ = std::numeric_limits<std::size_t>::max();  // the frame of the row
   C3dNewFile file_;
   std::string out_;
 };

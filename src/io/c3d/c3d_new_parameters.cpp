@@ -1,4 +1,4 @@
-// Fills the parameter groups from the take and from the file that it comes from.
+// Fills the parameter groups from the take and from its source file.
 #include "io/c3d/c3d_writing.hpp"
 
 #include <algorithm>
@@ -13,18 +13,18 @@ namespace kinemend {
 
 namespace {
 
-// By definition of the format; frames that are looked at are so many for speed, not swept.
+// By definition of the format; the number of sampled frames is for speed, not swept.
 constexpr double most_counted_frames = 65535;
 constexpr std::size_t most_frames_looked_at = 200;
 
-// The low and the high word of a frame's number.
+// Makes a parameter of the low and the high word of a frame's number.
 C3dParameter frame_field(const char* name, std::int64_t frame) {
   const auto number = static_cast<std::uint64_t>(std::clamp<std::int64_t>(frame, 0, 0xFFFFFFFF));
   return c3d_integers(name,
                       {static_cast<double>(number & 0xFFFF), static_cast<double>(number >> 16)});
 }
 
-// How far the markers of a frame lie apart along y and z, summed over some frames.
+// Returns the extents of the markers along y and z, summed over some frames.
 std::array<double, 2> extents(const Take& clip) {
   std::array<double, 2> sums{};
   const std::size_t stride = clip.frame_count() / most_frames_looked_at + 1;
@@ -59,14 +59,15 @@ class ParameterMaker {
     describe_analog();
     describe_plates();
     describe_events();
-    // Their data is not carried over.
+    // The data of these groups is not kept.
     remove_group(all_, "ROTATION");
     remove_group(all_, "DATA_BLOCKS");
     return std::move(all_);
   }
 
  private:
-  // In damaged files two groups have one number, and what is written into one stands in both.
+  // Removes groups whose number is taken: in damaged files two groups share a number, and a value
+  // written to one would appear in both.
   void part_groups() {
     std::set<std::int32_t> numbers;
     std::erase_if(all_.groups,
@@ -93,7 +94,7 @@ class ParameterMaker {
     set_texts(all_, "POINT", "DESCRIPTIONS", std::vector<std::string>(clip_.marker_count()));
   }
 
-  // A source's lists (ANGLES, FORCES, ...) hold as long as the names are the same.
+  // The source's lists (ANGLES, FORCES, ...) are valid as long as the names are the same.
   void describe_kinds() {
     if (has_source_names()) return;
     for (const char* const list :
@@ -107,8 +108,8 @@ class ParameterMaker {
     if (!others.empty()) set_texts(all_, "POINT", "SCALARS", others);
   }
 
-  // "+X": an axis with its sign, "X" where it is positive; the nearest one after a turn by any
-  // angle.
+  // "+X": Returns an axis with its sign, which "X" implies if it is positive: the axis nearest to
+  // the rotated one.
   std::string turned_axis(std::string_view axis) const {
     const bool negative = axis.substr(0, 1) == "-";
     const bool has_sign = negative || axis.substr(0, 1) == "+";
@@ -123,7 +124,8 @@ class ParameterMaker {
     return turned;
   }
 
-  // Which way is up on a screen. Only a source knows; a person is higher than wide.
+  // Sets the up direction of the screen. Only a source states it; otherwise it is the direction in
+  // which the person is tallest.
   void describe_screen() {
     if (all_.find("POINT", "X_SCREEN") != nullptr || all_.find("POINT", "Y_SCREEN") != nullptr) {
       for (const char* const name : {"X_SCREEN", "Y_SCREEN"}) {
@@ -143,8 +145,7 @@ class ParameterMaker {
     const auto frames = static_cast<std::int64_t>(file_.frame_count);
     set("TRIAL", frame_field("ACTUAL_START_FIELD", first));
     set("TRIAL", frame_field("ACTUAL_END_FIELD", first + frames - 1));
-    // The cameras' own rate stays what it was, unless it is but another word for that of the
-    // points.
+    // The cameras' own rate is kept, unless it only repeats the rate of the points.
     const auto cameras = all_.number("TRIAL", "CAMERA_RATE");
     if (source_ == nullptr || (cameras && *cameras == source_->layout.rate_hz &&
                                clip_.frame_rate_hz != source_->frame_rate_hz)) {
@@ -186,8 +187,9 @@ class ParameterMaker {
     }
   }
 
-  // Corners lie in the room; ORIGIN is measured along the plate's own axes. Both are in the unit of
-  // the points. What the plates measure, moments too, has the units of the analog channels.
+  // Corners are in the laboratory's frame; ORIGIN is along the plate's own axes. Both are in the
+  // unit of the points. The plates' measurements, including moments, have the units of the analog
+  // channels.
   void describe_plates() {
     const double factor = change_.length_factor;
     if (change_.moves()) {
@@ -206,7 +208,7 @@ class ParameterMaker {
       });
     }
     if (!change_.resampled) return;
-    // Frames in which the plates carry nothing, from 1.
+    // Frames in which the plates are unloaded, from 1.
     const double frames = clip_.frame_rate_hz / source_->frame_rate_hz;
     change_numbers("FORCE_PLATFORM", "ZERO", std::nullopt, [&](std::vector<double>& values) {
       for (double& value : values) value = value > 0 ? std::round(1 + (value - 1) * frames) : value;
@@ -233,7 +235,7 @@ class ParameterMaker {
     set_times();
   }
 
-  // The same events, at other times.
+  // Whether the events are the source's, at other times.
   bool has_only_other_times() const {
     if (source_ == nullptr || clip_.events.empty() ||
         clip_.events.size() != source_->events.size() ||

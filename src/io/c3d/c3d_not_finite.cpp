@@ -28,14 +28,14 @@ bool is_in_group(const C3dParameters& parameters, const C3dParameter& entry,
   });
 }
 
-// SCALE, SCALE2, GEN_SCALE.
+// Whether the parameter is SCALE, SCALE2, ... or GEN_SCALE.
 bool is_scale(const std::string& name) {
   return equal_ignoring_case(std::string_view(name).substr(0, 5), "SCALE") ||
          equal_ignoring_case(name, "GEN_SCALE");
 }
 
-// Whether a row of stored reals has one that is not finite: its exponent has all bits set. No
-// branch in the loop, so that the usual file costs little.
+// Whether a row of stored reals has one that is not finite, which has all bits of the exponent set.
+// The loop has no branch so that it is fast for the usual file.
 template <C3dProcessor processor>
 bool has_not_finite(const char* row, std::size_t count) {
   constexpr std::uint32_t exponent = 0x7F800000u;

@@ -15,7 +15,7 @@ namespace {
 
 using Words = C3dWords<C3dProcessor::intel>;
 
-// An entry's length is 16 bits, which some readers take to be signed.
+// An entry's length is 16 bits, which some readers treat as signed.
 constexpr std::size_t most_entry_bytes = 32000;
 constexpr std::size_t most_in_a_byte = 255;
 

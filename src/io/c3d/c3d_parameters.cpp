@@ -27,8 +27,8 @@ std::size_t value_bytes(C3dType type) {
 }
 
 // An entry is: length of the name (negative when locked), number of the group (negative for the
-// group itself), the name, the distance to the next entry counted from here on, then for a
-// parameter its type, its dimensions and its values, and last a description with its length.
+// group itself), the name, the distance from this field to the next entry, then for a parameter its
+// type, its dimensions and its values, and last a description with its length.
 class EntryReader {
  public:
   EntryReader(const C3dSource& source, std::size_t begin, std::size_t end)
@@ -47,7 +47,7 @@ class EntryReader {
     return value < 128 ? value : value - 256;
   }
 
-  // False at the end of the list.
+  // Reads an entry; returns false at the end of the list.
   bool read_entry() {
     entry_ = position_;
     if (!has(2)) return false;
@@ -86,7 +86,7 @@ class EntryReader {
     for (std::size_t i = 0; i < dimensions; ++i)
       parameter.dimensions.push_back(source_.byte(position_ + i));
     position_ += dimensions;
-    // Seven dimensions of 255 fit into 64 bits; more are no C3D file.
+    // Seven dimensions of 255 fit into 64 bits; more are not valid in C3D.
     const std::size_t count = dimensions > 7 ? end_ : value_count(parameter);
     if (count > (end_ - position_) / value_bytes(parameter.type)) return damaged("its values");
     read_values(parameter, count);
@@ -118,7 +118,7 @@ class EntryReader {
     return source_.real(position_ + 4 * index);
   }
 
-  // Some writers leave it out, so that the next entry stands where it would be.
+  // Some writers leave the description out, so that the next entry is in its place.
   std::string read_description() {
     if (!has(1)) return {};
     const std::size_t length = source_.byte(position_);
@@ -128,7 +128,7 @@ class EntryReader {
     return text;
   }
 
-  // Entries may have room between them, but none stands within the one before.
+  // Entries may have space between them, but they must not overlap.
   bool move_to(std::size_t next) {
     if (next >= position_ && next < end_) {
       position_ = next;
@@ -168,7 +168,7 @@ std::vector<std::string> texts_of(const C3dParameter& parameter) {
   const std::size_t length = parameter.dimensions.empty() ? 1 : parameter.dimensions[0];
   std::vector<std::string> texts;
   if (length == 0) {
-    // As many empty texts as the other dimensions say.
+    // The other dimensions give the number of empty texts.
     std::size_t count = parameter.dimensions.size() > 1 ? 1 : 0;
     for (std::size_t i = 1; i < parameter.dimensions.size(); ++i)
       count = std::min<std::size_t>(count * parameter.dimensions[i], 255);
@@ -213,7 +213,7 @@ std::optional<std::size_t> C3dParameters::count(std::string_view group,
 
 namespace {
 
-// Calls `action` with NAME, NAME2, NAME3, ... as far as they go.
+// Calls `action` with NAME, NAME2, NAME3, ... as long as they exist.
 template <class Action>
 void for_each_part(const C3dParameters& parameters, std::string_view group, std::string_view name,
                    Action&& action) {

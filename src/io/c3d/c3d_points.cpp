@@ -19,7 +19,7 @@ struct RealSamples {
   static constexpr std::size_t bytes = 16;
   static Sample load(const char* p) {
     const float word = Words::real(p + 12);
-    // Beyond 16 bits it is no such word, and NaN compares false.
+    // A value beyond 16 bits is not a valid word, and NaN compares false.
     const bool usable = word >= 0.0f && word < 32768.0f;
     return {Words::real(p), Words::real(p + 4), Words::real(p + 8), word,
             usable ? static_cast<std::int32_t>(word) : missing_point_word};
@@ -37,7 +37,7 @@ struct IntegerSamples {
   }
 };
 
-// Finite numbers only: zero times infinity is NaN.
+// Whether all numbers are finite: zero times infinity is NaN.
 bool is_finite(const Sample& s) {
   return (s.x * 0.0f + s.y * 0.0f + s.z * 0.0f + s.fourth * 0.0f) == 0.0f;
 }

@@ -1,4 +1,4 @@
-// Reads C3D files as takes of markers, with repairs of what is damaged.
+// Reads C3D files as takes of markers, and repairs damage.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -77,15 +77,15 @@ class C3dReader {
       clip_.names.push_back(fmt::format("*{}", clip_.names.size() + 1));
   }
 
-  // POINT:ANGLES and similar lists, and those that POINT:TYPE_GROUPS names, hold the points that
-  // are not positions.
+  // POINT:ANGLES and similar lists, and the lists that POINT:TYPE_GROUPS names, contain the points
+  // that are not positions.
   void read_kinds() {
     clip_.is_position.assign(clip_.marker_count(), 1);
     std::set<std::string, std::less<>> lists{"ANGLES", "FORCES",  "MOMENTS",
                                              "POWERS", "SCALARS", "REACTIONS"};
     const std::vector<std::string> groups = parameters().texts("POINT", "TYPE_GROUPS");
     for (std::size_t i = 0; i < groups.size(); i += 2) {
-      // These are joint centres and the like: positions.
+      // These lists contain positions, such as joint centres.
       if (groups[i] != "MODELED_MARKERS" && groups[i] != "LABELS") lists.insert(groups[i]);
     }
     std::set<std::string, std::less<>> names;
@@ -109,7 +109,7 @@ class C3dReader {
         fmt::format("the file has no frame rate: {:g} Hz is assumed", clip_.frame_rate_hz));
   }
 
-  // Blocks that stay in the cache, so that the clip's memory is written once and never read.
+  // Reads blocks that stay in the cache, so that the clip's memory is written once and never read.
   void read_points() {
     const std::size_t points = layout().point_count, frames = layout().frame_count;
     if (frames > 0) mend_analog();
@@ -144,7 +144,8 @@ class C3dReader {
                  "an analog sample is not finite: held from the sample before", mended);
   }
 
-  // Samples whose fourth word has a residual or a camera: what was not seen has neither.
+  // Marks samples whose fourth word has a residual or a camera; a sample that was not seen has
+  // neither.
   std::vector<std::uint8_t> samples_with_a_measure() const {
     std::vector<std::uint8_t> measured(clip_.positions.size());
     const std::size_t bytes = layout().value_bytes();
@@ -164,7 +165,7 @@ class C3dReader {
                    "a position is not finite and not marked as missing: taken as missing",
                    counts.not_finite);
     }
-    // Some programs mark missing points in this way as well, so a strict reader accepts it.
+    // Some programs mark missing points in this way too, so a strict reader accepts it.
     for (std::size_t i = 0; i < counts.missing_not_finite; ++i) {
       source_.diagnostics.add("missing_not_finite",
                               "a missing point holds a number that is not finite: zeros are "

@@ -1,4 +1,4 @@
-// Replaces the samples that changed, and the rate, and leaves every other byte.
+// Replaces the changed samples and the rate, and keeps every other byte.
 #include "io/c3d/c3d_writing.hpp"
 
 #include <algorithm>
@@ -73,7 +73,8 @@ class C3dRewriter {
     write_value<Words>(place, 3, missing_point_word);
   }
 
-  // What was seen to be missing by the samples around it must not depend on them any more.
+  // Zeros that were recognised as gaps by the samples around them are marked as missing, because
+  // these samples may change.
   template <class Words>
   void mark_zero_gaps() {
     for (const ZeroGap& gap : document_.zero_gaps) {
@@ -100,7 +101,7 @@ class C3dRewriter {
     write_value<Words>(place, 3, c3d_point_word(residual, layout().scale, source_.word(f, p)));
   }
 
-  // In steps of the scale where the file holds integers.
+  // Writes a value, in steps of the scale if the file holds integers.
   template <class Words>
   void write_value(char* sample, std::size_t index, double value) {
     changed_ = true;
@@ -121,7 +122,7 @@ class C3dRewriter {
     });
   }
 
-  // Everywhere it stands; analog samples stay as many a frame as they are.
+  // Replaces the rate in all places; the number of analog samples per frame is kept.
   void replace_rate() {
     const double before = document_.frame_rate_hz, now = clip_.frame_rate_hz;
     put_real(layout().header_begin + 20, now);
@@ -130,7 +131,7 @@ class C3dRewriter {
       if (parameter == nullptr || parameter->type != C3dType::real || parameter->numbers.empty())
         return;
       const double old = parameter->numbers[0];
-      // A rate that the reader had to assume stands nowhere, or is none.
+      // If the reader assumed the rate, the file states no usable rate.
       const bool follows =
           layout().rate_hz > 0 && old > 0 && (group == "ANALOG" || is_usable_frame_rate(old));
       put_real(parameter->data_begin, follows ? old / before * now : per_frame * now);

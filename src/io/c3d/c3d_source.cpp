@@ -1,4 +1,4 @@
-// Notes a repair of a C3D file with its place.
+// Records a repair of a C3D file with its place.
 #include "io/c3d/c3d_source.hpp"
 
 namespace kinemend {

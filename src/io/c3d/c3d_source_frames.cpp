@@ -1,4 +1,4 @@
-// Decodes the document's frames in blocks, and hides the zeros that stand for gaps.
+// Decodes the document's frames in blocks, and hides the zeros that mean gaps.
 #include "io/c3d/c3d_source_frames.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Walks over the frames of a C3D document once more, for a rewrite.
+// Reads the frames of a C3D document again, for a rewrite.
 #pragma once
 
 #include <cstddef>
@@ -21,9 +21,9 @@ class C3dSourceFrames {
   std::size_t first() const { return first_; }  ///< frame of the take
   std::size_t count() const { return count_; }
   const C3dPoints& points() const { return points_; }
-  /// Where a frame of the block starts in the document's bytes.
+  /// Returns the offset of a frame of the block in the document's bytes.
   std::size_t frame_begin(std::size_t block_frame) const;
-  /// The fourth word of a sample; `missing_point_word` where it is missing.
+  /// Returns the fourth word of a sample; `missing_point_word` if it is missing.
   std::int32_t word(std::size_t block_frame, std::size_t point) const;
 
  private:
@@ -34,7 +34,7 @@ class C3dSourceFrames {
   C3dPoints points_;
   std::size_t first_ = 0;
   std::size_t count_ = 0;
-  std::vector<std::uint8_t> hidden_;  // F x M, 1 in a zero gap; empty where there is none
+  std::vector<std::uint8_t> hidden_;  // F x M, 1 in a zero gap; empty without zero gaps
 };
 
 }  // namespace kinemend

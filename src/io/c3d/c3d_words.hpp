@@ -9,23 +9,25 @@
 
 namespace kinemend {
 
-/// Whose number formats a C3D file uses; the values are those of byte 4 of its parameter section.
+/// The processor type whose number formats a C3D file uses; the values are the codes in byte 4 of
+/// its parameter section.
 enum class C3dProcessor : std::uint8_t { intel = 84, dec = 85, mips = 86 };
 
 // By definition of the format.
 inline constexpr std::size_t most_in_a_word = 65535;
 
-/// No processor's reals are larger than this one's, VAX.
+/// The largest real of VAX, whose reals have the smallest range.
 constexpr double largest_c3d_real = 1.7014117e38;
 
-/// A VAX F float, halves in numerical order, as an IEEE one. Exponent 0 is zero.
+/// Converts a VAX F float, halves in numerical order, to an IEEE float. Exponent 0 is zero.
 inline float from_vax(std::uint32_t bits) {
   const std::uint32_t exponent = (bits >> 23) & 255;
   const float small = bits_as<float>(bits & (exponent > 2 ? 0u : ~0u)) * 0.25f;
   return exponent > 2 ? bits_as<float>(bits - (2u << 23)) : exponent == 0 ? 0.0f : small;
 }
 
-/// The nearest VAX F float. A value that is too large becomes the largest; NaN becomes zero.
+/// Returns the nearest VAX F float. A value that is too large becomes the largest float; NaN
+/// becomes zero.
 inline std::uint32_t to_vax(float value) {
   const std::uint32_t bits = bits_as<std::uint32_t>(value);
   const std::uint32_t sign = bits & 0x80000000u, exponent = (bits >> 23) & 255;

@@ -1,4 +1,4 @@
-// Writes C3D: into the bytes of its source where they can hold the take, else as a new file.
+// Writes C3D into the bytes of its source if they can hold the take, else as a new file.
 #include <optional>
 #include <utility>
 

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t version_place = 23, first_record_place = 27;
 constexpr std::size_t array_head_bytes = 12;
 
-// Bytes of one number by its type code, of properties and of arrays; 0 for another code.
+// Returns the bytes of one number by its type code, for properties and arrays; 0 for another code.
 std::size_t fbx_number_bytes(char type) {
   switch (type) {
     case 'B':
@@ -75,7 +75,7 @@ class BinaryFbxReader {
 
   std::size_t header_bytes() const { return tree_.has_wide_headers() ? 25 : 13; }
 
-  // Where the bytes of the open record end.
+  // Returns the end of the open record.
   std::size_t limit() { return builder_.depth() == 0 ? tree_.bytes.size() : builder_.top().end; }
 
   Header header_at(std::size_t place) const {
@@ -100,7 +100,7 @@ class BinaryFbxReader {
     }
   }
 
-  // False for the record of zeros that ends a list.
+  // Reads a record; returns false for the record of zeros that ends a list.
   bool read_record() {
     if (limit() - place_ < header_bytes())
       throw tree_.error_at(place_, "the file ends in the head of a record");
@@ -137,7 +137,7 @@ class BinaryFbxReader {
   }
 
   void read_properties(FbxRecord& record, std::uint64_t count) {
-    // Each takes two bytes at least.
+    // Each property takes at least two bytes.
     if (count > (record.properties_end - place_) / 2 ||
         tree_.properties.size() + count > std::numeric_limits<std::uint32_t>::max()) {
       throw tree_.error_at(record.begin, fmt::format("a record claims {} properties", count));
@@ -159,7 +159,7 @@ class BinaryFbxReader {
     place_ += size;
   }
 
-  // With the head of a string or an array.
+  // Returns the size of a property, including the head of a string or array.
   std::size_t property_bytes(char type, std::size_t room) const {
     const char* const bytes = tree_.bytes.data() + place_;
     const bool big = tree_.is_big_endian;

@@ -1,4 +1,4 @@
-// Encodes records, packs long arrays, and ends the file as readers expect it.
+// Encodes records, packs long arrays, and ends the file as readers expect.
 #include "io/fbx/fbx_builder.hpp"
 
 #include "base/bits.hpp"
@@ -13,7 +13,7 @@ constexpr std::size_t built_header_bytes = 25;
 constexpr std::uint32_t built_version = 7500;
 // Shorter arrays are not packed, as in the files of Autodesk's programs.
 constexpr std::size_t least_packed_bytes = 128;
-// Follows the records; goes with the FileId and the CreationTime of `write_head` in fbx_new_file.
+// Follows the records and must match the FileId and CreationTime of `write_head` in fbx_new_file.
 constexpr std::string_view footer_id{
     "\xFA\xBC\xAB\x09\xD0\xC8\xD4\x66\xB1\x76\xFB\x83\x1C\xF7\x26\x7E", 16};
 constexpr std::string_view last_bytes{
@@ -67,7 +67,7 @@ FbxBuilder& FbxBuilder::open(std::string_view name) {
 void FbxBuilder::close() {
   end_properties();
   const Level level = open_.back();
-  // A record without properties ends as one with children does.
+  // A record without properties ends like a record with children.
   if (level.has_children || level.properties == 0) bytes_.append(built_header_bytes, '\0');
   put_fbx_word(bytes_.data() + level.begin, std::uint64_t{bytes_.size()}, false);
   open_.pop_back();
@@ -170,7 +170,7 @@ void FbxBuilder::set_vector(std::string_view name, std::string_view type, std::s
 std::string FbxBuilder::finish() && {
   bytes_.append(built_header_bytes, '\0');
   bytes_ += footer_id;
-  // One to sixteen zeros, so that what follows is aligned.
+  // One to sixteen zeros align the following bytes.
   bytes_.append(16 - bytes_.size() % 16, '\0');
   bytes_.append(4, '\0');
   append(built_version);

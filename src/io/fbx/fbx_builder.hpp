@@ -30,11 +30,11 @@ class FbxBuilder {
   FbxBuilder& array(std::span<const std::int32_t> values);
   FbxBuilder& array(std::span<const float> values);
 
-  /// Records that hold one value.
+  /// Adds a record with one value.
   void add(std::string_view name, std::int32_t value);
   void add(std::string_view name, std::string_view value);
 
-  /// One line of Properties70: name, type, label and flags, then values.
+  /// Adds a line of Properties70: name, type, label and flags, then values.
   FbxBuilder& property(std::string_view name, std::string_view type, std::string_view label,
                        std::string_view flags);
   void set_integer(std::string_view name, std::string_view type, std::int32_t value);
@@ -44,7 +44,7 @@ class FbxBuilder {
   void set_vector(std::string_view name, std::string_view type, std::string_view label,
                   std::string_view flags, Vec3 value);
 
-  /// The file's bytes.
+  /// Returns the file's bytes.
   std::string finish() &&;
 
  private:

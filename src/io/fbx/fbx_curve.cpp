@@ -10,8 +10,8 @@ namespace {
 
 constexpr double third = 1.0 / 3;
 
-// The share of the step at which a weighted tangent's curve reaches the share `x` of time: the
-// root of a cubic whose control points are 0, first, second and 1.
+// Returns the curve parameter (0 to 1) at which a weighted tangent's curve reaches the share `x` of
+// time: the root of a cubic with control points 0, first, second and 1.
 double fbx_bezier_share(double x, double first, double second) {
   double low = 0, high = 1, share = x;
   for (int i = 0; i < 60 && high - low > 1e-14; ++i) {
@@ -25,8 +25,8 @@ double fbx_bezier_share(double x, double first, double second) {
 }
 
 struct FbxSlopes {
-  double right = 0;      // of the key
-  double next_left = 0;  // of the next key
+  double right = 0;      // slope at the key
+  double next_left = 0;  // slope at the next key
 };
 
 class CurveSegment {
@@ -86,7 +86,7 @@ class CurveSegment {
            3 * rest * share * share * before + share * share * share * to;
   }
 
-  // The slope through the neighbours of a key; level at either end.
+  // Returns the slope through the neighbours of a key; zero at either end.
   double auto_slope(std::size_t key) const {
     if (key == 0 || key + 1 >= curve_.key_count()) return 0;
     const FbxKeyShape& shape = curve_.shape(key);
@@ -132,7 +132,7 @@ double fbx_value_between(const FbxCurve& curve, std::int64_t time, double ticks,
   return CurveSegment(curve, cursor, ticks).at(time);
 }
 
-// Beyond an end, `distance` ticks (positive) from it, for a curve of at least two keys.
+// Returns the value `distance` ticks (positive) beyond an end, for a curve of at least two keys.
 double fbx_value_beyond(const FbxCurve& curve, bool is_after, double distance, double ticks) {
   const FbxExtrapolation& way = is_after ? curve.after : curve.before;
   const std::vector<std::int64_t>& times = *curve.times;

@@ -16,10 +16,10 @@ namespace kinemend {
 
 namespace {
 
-// Linear, with automatic tangents if a program makes the keys smooth again: what Autodesk's
-// programs and Blender write for baked curves.
+// Linear, with automatic tangents if a program makes the keys smooth again, as Autodesk's programs
+// and Blender write baked curves.
 constexpr std::uint32_t baked_flags = 24836;
-// Weights of a third on either side, as 3333 / 9999 twice.
+// Weights of a third on either side, 3333 / 9999 twice.
 constexpr std::uint32_t default_weights = 0x0D050D05;
 
 bool is_same_float(double a, double b) {
@@ -107,7 +107,7 @@ class FbxCurvePatcher {
     patch(array.begin, array.begin + array.size, fbx_packed(tree_, array, raw));
   }
 
-  // The values in a list of version 6, where they are.
+  // Replaces the values in a list of version 6 in place.
   void set_listed(const FbxRecord& keys, const std::vector<double>& values) {
     const std::vector<std::uint32_t> places = fbx_value_places(tree_, keys);
     for (std::size_t k = 0; k < values.size(); ++k) {
@@ -126,7 +126,7 @@ class FbxCurvePatcher {
     }
   }
 
-  // A whole number that becomes a fraction.
+  // Changes the type of a whole number that becomes a fraction.
   void patch_type(const FbxProperty& property, double value) {
     std::string bytes = "D";
     append_fbx_float(bytes, value, 'd', tree_.is_big_endian);
@@ -158,7 +158,7 @@ class FbxCurvePatcher {
       patches_.push_back(fbx_integer_patch(tree_, *count, static_cast<std::int64_t>(times.size())));
   }
 
-  // One shape for all keys.
+  // Gives all keys one shape.
   void straighten(std::size_t keys) {
     replace("KeyAttrFlags", 1, [](std::size_t) { return std::int64_t{baked_flags}; });
     const std::uint32_t data[4] = {0, 0, default_weights, 0};
@@ -174,12 +174,12 @@ class FbxCurvePatcher {
     replace("KeyAttrRefCount", 1, [&](std::size_t) { return static_cast<std::int64_t>(keys); });
   }
 
-  // Text of version 7.1, where later versions spell the bits.
+  // Version 7.1 writes floats as text, later versions write their bits.
   bool holds_floats_as_text(const FbxProperty& array) const {
     return tree_.is_text && tree_.text_of(array).find('.') != std::string_view::npos;
   }
 
-  // Bits of a word each: 8 bytes for l, else 4.
+  // `value_at` gives the bits of a word: 8 bytes for l, else 4.
   template <class ValueAt>
   void replace(std::string_view name, std::size_t count, ValueAt&& value_at) {
     const std::uint32_t record = tree_.child(curve_.record, name);

@@ -20,12 +20,12 @@ struct FbxMendedKey {
   std::size_t key = 0;
 };
 
-/// An FBX file as it was read: its records, and what they mean.
+/// An FBX file as it was read: its records and the decoded scene.
 struct FbxDocument : SourceDocument {
   FbxTree tree;
   FbxScene scene;
   FbxStack stack;
-  FbxMotion motion;  ///< of `stack`; empty where the file has no animation
+  FbxMotion motion;  ///< motion of `stack`; empty if the file has no animation
   FbxRig rig;
   FbxFrames frames;
   std::vector<FbxMendedKey> mended;
@@ -33,13 +33,13 @@ struct FbxDocument : SourceDocument {
   std::vector<double> channel_values() const override;
 };
 
-/// The take that the document holds, without its source. The same document gives the same bits.
-/// Markers where no model turns or has a child: see `holds_fbx_markers`.
+/// Returns the document's take, without its source. The same document gives the same bits. The take
+/// has markers if no model turns or has a child: see `holds_fbx_markers`.
 Take take_of_fbx(const FbxDocument& document);
-/// The joints of the document as a take without frames.
+/// Returns the joints of the document as a take without frames.
 Take skeleton_of_fbx(const FbxDocument& document);
 
-/// The curves that move the joints, each once, ascending.
+/// Returns the curves that move the joints, each once, ascending.
 std::vector<std::size_t> fbx_joint_curves(const FbxMotion& motion, const FbxRig& rig);
 
 /// Whether some curve of the joints is not constant.
@@ -49,7 +49,7 @@ bool moves_joints(const FbxMotion& motion, const FbxRig& rig);
 /// alone, none of them below another.
 bool holds_fbx_markers(const FbxScene& scene, const FbxMotion& motion, const FbxRig& rig);
 
-/// Names the first model whose position overflows. Errors: `unreadable_input`.
+/// Throws `unreadable_input` naming the first model whose position overflows.
 void check_fbx_take(const FbxDocument& document, const Take& take);
 
 }  // namespace kinemend

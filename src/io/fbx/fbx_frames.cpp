@@ -1,4 +1,4 @@
-// Tells baked takes, which have a key a frame, from takes that are keyed by hand.
+// Distinguishes baked takes, with a key per frame, from takes that are keyed by hand.
 #include "io/fbx/fbx_frames.hpp"
 
 #include <fmt/format.h>
@@ -68,7 +68,7 @@ class FbxFrameFinder {
   }
 
  private:
-  // The keys that most curves have.
+  // Returns the keys that most curves have.
   const std::vector<std::int64_t>& common_times() const {
     using Kind = std::array<std::int64_t, 3>;
     std::map<Kind, std::pair<std::size_t, const FbxCurve*>> kinds;
@@ -88,7 +88,7 @@ class FbxFrameFinder {
     return *best->times;
   }
 
-  // The keys that most curves have, where they are a grid of the whole span.
+  // Uses the keys that most curves have if they form a grid over the whole span.
   bool take_keys(FbxSpan span, FbxFrames& frames) const {
     const std::vector<std::int64_t>& times = common_times();
     const double step =

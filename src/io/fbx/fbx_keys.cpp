@@ -1,4 +1,4 @@
-// Decodes key times, values and tangents, of arrays (version 7) and of lists with letters (6).
+// Decodes key times, values and tangents from arrays (version 7) and from lists with letters (6).
 #include "io/fbx/fbx_keys.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace kinemend {
 
 namespace {
 
-// Bits of KeyAttrFlags, as text files of version 7 spell them beside the number.
+// Bits of KeyAttrFlags, as text files of version 7 list them beside the number.
 constexpr std::uint32_t flag_constant = 0x2, flag_linear = 0x4, flag_cubic = 0x8;
 constexpr std::uint32_t flag_auto = 0x100, flag_tcb = 0x200, flag_user = 0x400;
 constexpr std::uint32_t flag_clamp = 0x1000, flag_time_independent = 0x2000,
@@ -53,7 +53,7 @@ FbxKeyShape shape_of(std::uint32_t flags, const float* data) {
   return shape;
 }
 
-// Slopes and weights; most text files spell the bits of the floats as integers.
+// Reads slopes and weights; most text files write the bits of the floats as integers.
 std::vector<float> shape_data(const FbxTree& tree, const FbxRecord& record) {
   const std::vector<double> numbers = fbx_numbers(tree, record);
   const auto may_be_bits = [](double number) {
@@ -81,7 +81,8 @@ FbxExtrapolation extrapolation_of(const FbxTree& tree, std::uint32_t curve, std:
   return way;
 }
 
-// Walks over the properties of a `Key` of version 6: time, value, a letter, and what it calls for.
+// Walks over the properties of a `Key` of version 6: time, value, a letter, and the values that the
+// letter requires.
 class KeyLetters {
  public:
   KeyLetters(const FbxTree& tree, const FbxRecord& record) : tree_(tree), record_(record) {}
@@ -200,7 +201,7 @@ void FbxKeyReader::begin_arrays(std::uint32_t record, FbxCurve& curve) {
 }
 
 void FbxKeyReader::finish(FbxCurve& curve) const {
-  // Keys with letters are whole.
+  // Keys with letters are already complete.
   if (curve.times == nullptr || !curve.values.empty()) return;
   const std::uint32_t values = tree_.child(curve.record, "KeyValueFloat");
   if (values == no_fbx_record) return;

@@ -11,7 +11,8 @@
 
 namespace kinemend {
 
-/// The places of the values among the properties of a `Key` of version 6. Errors: as in reading.
+/// Returns the places of the values among the properties of a `Key` of version 6. Errors: as in
+/// reading.
 std::vector<std::uint32_t> fbx_value_places(const FbxTree& tree, const FbxRecord& keys);
 
 /// Reads curves of one file. Curves with the same packed key times share them.
@@ -19,12 +20,12 @@ class FbxKeyReader {
  public:
   explicit FbxKeyReader(const FbxTree& tree) : tree_(tree) {}
 
-  /// The curve of an `AnimationCurve` (version 7), or of a `Channel` with keys (version 6). A curve
-  /// without keys has no values. Errors: `unreadable_input` for key times that do not ascend,
-  /// counts that disagree, an unknown letter, or more keys than the file's bytes can mean.
+  /// Reads the curve of an `AnimationCurve` (version 7), or of a `Channel` with keys (version 6). A
+  /// curve without keys has no values. Errors: `unreadable_input` for key times that do not ascend,
+  /// counts that disagree, an unknown letter, or more keys than the file's bytes can hold.
   FbxCurve read(std::uint32_t record);
-  /// The same in two steps. The first one reads the key times, which say whether the curve has
-  /// keys; the second one, which may run for several curves at a time, fills in values and shapes.
+  /// Reads a curve in two steps. `begin` reads the key times, which show whether the curve has
+  /// keys. `finish`, which may run for several curves in parallel, fills in values and shapes.
   FbxCurve begin(std::uint32_t record);
   void finish(FbxCurve& curve) const;
 

@@ -26,7 +26,7 @@ int index_in(const std::array<std::string_view, N>& names, std::string_view name
   return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
-// What an added layer holds where it adds nothing.
+// Returns the value of an added layer that adds nothing.
 Vec3 neutral(int vector) { return vector == fbx_scaling ? Vec3{1, 1, 1} : Vec3{}; }
 
 bool is_neutral(const FbxAnimatedVector& animated, int vector) {
@@ -80,7 +80,7 @@ class FbxMotionReader {
     }
   }
 
-  // In the order of the connections, so that the same file gives the same take.
+  // Finds targets in the order of the connections, so that the same file gives the same take.
   void find_targets() {
     for (const FbxConnection& link : scene_.connections) {
       const int vector = index_in(vector_names, link.property);
@@ -97,7 +97,7 @@ class FbxMotionReader {
     }
   }
 
-  // What a node says of a vector; NaN where it leaves an axis to the model.
+  // Returns a node's values of a vector; NaN for an axis that it leaves to the model.
   const FbxAnimatedVector& vector_of(std::int64_t node) {
     const auto known = vector_of_node_.find(node);
     if (known != vector_of_node_.end()) return known->second;
@@ -126,7 +126,8 @@ class FbxMotionReader {
     return animated;
   }
 
-  // -1 for a curve without keys. A curve may animate several vectors.
+  // Returns the index of a curve, or -1 for a curve without keys. A curve may animate several
+  // vectors.
   std::int32_t curve_of(std::int64_t id) {
     const auto known = curve_of_id_.find(id);
     if (known != curve_of_id_.end()) return known->second;

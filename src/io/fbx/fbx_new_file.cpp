@@ -23,13 +23,13 @@ namespace {
 constexpr double new_file_ticks = 46186158000.0;
 constexpr double new_file_degrees = 180 / std::numbers::pi;
 constexpr std::string_view animation_name = "Take 001";
-// The three go together with the footer; they say nothing of the time of writing, so that the same
-// take gives the same bytes.
+// These three values must match the footer. They do not contain the time of writing, so that the
+// same take gives the same bytes.
 constexpr std::string_view creation_time = "1970-01-01 10:00:00:000";
 constexpr std::string_view file_id{
     "\x28\xB3\x2A\xEB\xB6\x24\xCC\xC2\xBF\xC8\xB0\x2A\xA9\x2B\xFC\xF1", 16};
 
-// A model with its animated vectors, F values each, or none.
+// A model with its animated vectors: F values each, or empty.
 struct NewFbxModel {
   std::string name;
   std::int32_t parent = -1;
@@ -47,7 +47,7 @@ struct NewFbxScene {
   bool z_up = false;
 };
 
-// Names are UTF-8 without the bytes that end a name.
+// Returns a name in UTF-8 without the bytes that end a name.
 std::string fbx_name(const std::string& name, const std::string& otherwise) {
   std::string clean;
   for (const char c : name) {
@@ -56,7 +56,7 @@ std::string fbx_name(const std::string& name, const std::string& otherwise) {
   return clean.empty() ? otherwise : clean;
 }
 
-// The order of FBX that has these turns in this order; none for an axis that comes twice.
+// Returns the FBX order with these axes in this order; empty if an axis is repeated.
 std::optional<std::int32_t> order_with(RotationOrder turns) {
   for (std::int32_t order = 0; order < 6; ++order) {
     const RotationOrder factors = fbx_factors(order);
@@ -137,7 +137,8 @@ void add_joints(const Take& take, NewFbxScene& scene) {
   scene.unit_cm = unit_cm_of(take);
 }
 
-// Missing samples stay where the marker was last, or will be first.
+// Returns positions in which missing samples have the last known position of the marker, or the
+// first.
 std::vector<Vec3> held_points(const Take& take, std::size_t marker) {
   std::vector<Vec3> track(take.frame_count());
   std::size_t known = 0;
@@ -152,7 +153,7 @@ std::vector<Vec3> held_points(const Take& take, std::size_t marker) {
 }
 
 void add_markers(const Take& take, NewFbxScene& scene) {
-  // A millimetre, as other formats take it. Chosen by hand.
+  // A millimetre, as in other formats. Chosen by hand.
   constexpr double cm_of_unknown_unit = 0.1;
   for (std::size_t m = 0; m < take.marker_count(); ++m) {
     if (!take.holds_positions(m)) continue;
@@ -164,7 +165,7 @@ void add_markers(const Take& take, NewFbxScene& scene) {
     scene.models.push_back(std::move(model));
   }
   const double metres = metres_per_unit(take.unit);
-  // Files in millimetres say exactly a tenth of a centimetre.
+  // Files in millimetres state exactly a tenth of a centimetre.
   scene.unit_cm = metres > 0 ? std::round(1e9 * metres) / 1e7 : cm_of_unknown_unit;
 }
 
@@ -182,7 +183,7 @@ NewFbxScene scene_of(const Take& take) {
   return scene;
 }
 
-// FBX SDK, FbxTime::EMode, of the rates that have one; 14 is a custom rate.
+// FBX SDK, FbxTime::EMode, of the standard rates; 14 is a custom rate.
 std::int32_t mode_of_rate(double rate_hz) {
   constexpr std::array<std::pair<double, std::int32_t>, 11> modes{{{120, 1},
                                                                    {100, 2},
@@ -230,7 +231,7 @@ class NewFbxWriter {
   struct Link {
     std::int64_t from = 0;
     std::int64_t to = 0;
-    std::string_view property;  // empty: of objects
+    std::string_view property;  // empty: a connection of objects
   };
 
   std::int64_t stop() const { return scene_.times.empty() ? 0 : scene_.times.back(); }
@@ -365,7 +366,7 @@ class NewFbxWriter {
     file_.close();
     file_.close();
     file_.open("AnimationLayer").id(layer).string(object_name("BaseLayer", "AnimLayer"));
-    // Readers expect something within a layer.
+    // Readers expect a record within a layer.
     file_.string("").open("Properties70");
     file_.set_number("Weight", "Number", "", "A", 100);
     file_.close();
@@ -395,7 +396,7 @@ class NewFbxWriter {
   }
 
   std::int64_t write_curve(const std::vector<Vec3>& track, std::size_t axis) {
-    // Straight from key to key, with weights of a third (3333 / 9999 twice).
+    // Linear interpolation, with weights of a third (3333 / 9999 twice).
     constexpr std::int32_t linear_flags = 24836;
     constexpr float third_weights = bits_as<float>(std::uint32_t{0x0D050D05});
     std::vector<float> values;
@@ -439,7 +440,7 @@ class NewFbxWriter {
   const NewFbxScene& scene_;
   FbxBuilder file_;
   std::vector<Link> links_;
-  std::vector<std::int64_t> ids_;  // of models
+  std::vector<std::int64_t> ids_;  // ids of models
   std::int64_t last_id_ = 1000000;
   std::size_t limbs_ = 0, tracks_ = 0;
 };

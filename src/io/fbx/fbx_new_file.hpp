@@ -7,8 +7,8 @@
 
 namespace kinemend {
 
-/// A binary file of version 7.5: limbs or nulls, one animation of one layer, a key a frame. Errors:
-/// `usage` for an invalid take.
+/// Returns a binary file of version 7.5: limbs or nulls, one animation of one layer, a key per
+/// frame. Errors: `usage` for an invalid take.
 std::string new_fbx_file(const Take& take);
 
 }  // namespace kinemend

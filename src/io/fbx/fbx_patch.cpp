@@ -1,4 +1,4 @@
-// Moves what stands behind a patch, and mends the places that count its bytes.
+// Moves the bytes after a patch, and updates the fields that count bytes.
 #include "io/fbx/fbx_patch.hpp"
 
 #include <algorithm>
@@ -51,7 +51,7 @@ class FbxPatcher {
   }
 
  private:
-  // Where a byte that is not within a patch stands in the new file.
+  // Returns the new offset of a byte that is not within a patch.
   std::size_t moved(std::size_t place) const {
     const auto after =
         std::upper_bound(patches_.begin(), patches_.end(), place,
@@ -98,7 +98,7 @@ class FbxPatcher {
     out.replace(begin, version_place - zeros_begin, aligned + phase - begin, '\0');
   }
 
-  // Of the file as it was read; 0 where its footer has another form.
+  // Returns the offset of the version in the source file; 0 if its footer has another form.
   std::size_t place_of_version(std::size_t zeros_begin) const {
     constexpr std::size_t most_zeros = footer_alignment + zeros_after_padding;
     const std::string& bytes = tree_.bytes;
@@ -115,7 +115,7 @@ class FbxPatcher {
   const FbxTree& tree_;
   std::vector<FbxPatch> patches_;
   std::vector<std::ptrdiff_t> shifts_;
-  std::unordered_map<std::size_t, std::int64_t> grown_;  // by the start of a list of properties
+  std::unordered_map<std::size_t, std::int64_t> grown_;  // by the offset of a list of properties
 };
 
 }  // namespace

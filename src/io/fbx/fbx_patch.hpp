@@ -1,4 +1,4 @@
-// Writes an FBX file with some of its bytes replaced, and the lengths that follow from that.
+// Writes an FBX file with some of its bytes replaced, and updates the lengths that depend on them.
 #pragma once
 
 #include <cstddef>
@@ -15,13 +15,13 @@ struct FbxPatch {
   std::size_t begin = 0;
   std::size_t end = 0;
   std::string bytes;
-  /// Binary, of a patch that begins with the list of properties of a record: by how many it grows.
+  /// Binary files: how many properties are added by a patch that begins with the property list of a
+  /// record.
   std::int64_t more_properties = 0;
 };
 
-/// The file with the patches, which do not overlap. Ends of records and lengths of lists of
-/// properties are written anew where they move, and so is the padding of the footer; every other
-/// byte is kept.
+/// Returns the file with the patches, which must not overlap. Ends of records, lengths of property
+/// lists and the padding of the footer are updated where they move; every other byte is kept.
 std::string write_patched_fbx(const FbxTree& tree, std::vector<FbxPatch> patches);
 
 }  // namespace kinemend

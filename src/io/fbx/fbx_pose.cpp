@@ -41,7 +41,7 @@ Vec3 mix_scales(Vec3 below, Vec3 value, double weight) {
           below.z * portable::pow(std::fabs(value.z), weight)};
 }
 
-// What a layer makes of the value of the layers below.
+// Returns the value of the layers below mixed with a layer.
 Vec3 mix_layer(Vec3 below, Vec3 value, const FbxLayer& layer, FbxVector vector,
                RotationOrder order) {
   if (vector == fbx_rotation && !layer.adds_rotations_by_channel)
@@ -163,7 +163,7 @@ Vec3 FbxPoser::layer_value(const FbxAnimatedVector& animated, std::int64_t time)
 
 void FbxPoser::evaluate(std::size_t n, FbxVector vector, std::int64_t time) {
   if (!is_animated_[3 * n + vector]) return;
-  // The first layer replaces the value at rest; the others are mixed with what is below.
+  // The first layer replaces the value at rest; the other layers are mixed with the layers below.
   Vec3 value = scene_.models[rig_.nodes[n].model].local[vector];
   for (std::size_t l = 0; l < motion_.layers.size(); ++l) {
     const FbxAnimatedVector* const animated = animated_[n][vector][l];

@@ -1,4 +1,4 @@
-// Computes where the joints of an FBX file are at a time.
+// Computes the poses of the joints of an FBX file.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace kinemend {
 
-/// Frames that one thread evaluates at least: enough that its own poser costs next to nothing.
+/// The least number of frames for a thread, so that the cost of its own poser is negligible.
 inline constexpr std::size_t fbx_frames_a_range = 512;
 
 /// A 3 x 3 matrix by rows.
@@ -20,14 +20,14 @@ struct FbxMatrix {
   std::array<Vec3, 3> rows{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
 };
 
-/// A node at a time.
+/// The pose of a node at one time.
 struct FbxNodePose {
   std::array<Vec3, 3> local;  ///< by `FbxVector`
-  Quat turn;                  ///< of the model in the world, without scales
-  Quat joint_turn;            ///< of the joint's frame in the world
-  FbxMatrix linear;           ///< of the model in the world, with scales
-  FbxMatrix unscaled;         ///< without the model's own scale
-  Vec3 centre;                ///< of rotation, in the world: the joint's position
+  Quat turn;                  ///< global rotation of the model, without scales
+  Quat joint_turn;            ///< global rotation of the joint's frame
+  FbxMatrix linear;           ///< global transform of the model, with scales
+  FbxMatrix unscaled;         ///< `linear` without the model's own scale
+  Vec3 centre;                ///< global centre of rotation: the joint's position
 };
 
 /// Evaluates the nodes of a rig at successive times.
@@ -37,7 +37,8 @@ class FbxPoser {
 
   /// The pose of every node, valid until the next call.
   const std::vector<FbxNodePose>& at(std::int64_t time);
-  /// One vector of one node at each of `times`, which ascend. Far quicker than whole poses.
+  /// Evaluates one vector of one node at each of `times`, which must ascend. Much faster than whole
+  /// poses.
   void locals_over(std::size_t node, FbxVector vector, std::span<const std::int64_t> times,
                    std::span<Vec3> out);
 
@@ -55,14 +56,15 @@ class FbxPoser {
   std::vector<FbxNodePose> poses_;
 };
 
-/// Takes a step of a node's translation to one of its position, in the frame of the joint above.
+/// Returns the matrix that converts a step of a node's translation to a step of its position, in
+/// the frame of the joint above.
 FbxMatrix fbx_step_matrix(const FbxRig& rig, const std::vector<FbxNodePose>& poses,
                           const FbxRigNode& node);
 
 FbxMatrix operator*(const FbxMatrix& a, const FbxMatrix& b);
 Vec3 operator*(const FbxMatrix& a, Vec3 v);
 FbxMatrix fbx_matrix(Quat rotation);
-/// False where the matrix has no usable inverse.
+/// Returns false if the matrix has no usable inverse.
 bool invert_fbx_matrix(const FbxMatrix& matrix, FbxMatrix& inverse);
 
 }  // namespace kinemend

@@ -11,7 +11,7 @@
 
 namespace kinemend {
 
-/// One line of Properties70 (`P`) or Properties60 (`Property`): a name, words, then values.
+/// One line of Properties70 (`P`) or Properties60 (`Property`): a name, keywords, then values.
 struct FbxNamedProperty {
   const FbxTree& tree;
   const FbxRecord& record;
@@ -33,7 +33,7 @@ struct FbxNamedProperty {
     const FbxProperty* const found = value(0);
     return found == nullptr ? std::string_view{} : fbx_text(tree, *found);
   }
-  /// Three numbers; `otherwise` where they are not finite.
+  /// Returns three numbers; `otherwise` if they are not finite.
   Vec3 vector(Vec3 otherwise) const;
 };
 

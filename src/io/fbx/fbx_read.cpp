@@ -1,4 +1,4 @@
-// Reads FBX files as takes of joints, or of markers where they hold points alone.
+// Reads FBX files as takes of joints, or as takes of markers if they hold only points.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -19,7 +19,7 @@ namespace kinemend {
 
 namespace {
 
-// How many takes are tried to find one that moves something. Chosen by hand.
+// How many takes are tried to find one with motion. Chosen by hand.
 constexpr std::size_t tried_stacks = 64;
 
 class FbxReader {
@@ -85,11 +85,11 @@ class FbxReader {
       if (moves.value_or(false)) return;
       if (whole == nullptr && moves) whole = &stacks[i];
     }
-    // None moves: the one that the file names, else the first that can be read.
+    // No take has motion: use the take that the file names, else the first that can be read.
     if (!stacks.empty()) take_stack(whole != nullptr ? *whole : stacks.front());
   }
 
-  // `take_stack` for a take that nobody asked for: nothing for a damaged one.
+  // `take_stack` for a take that the user did not request; returns empty for a damaged take.
   std::optional<bool> try_stack(const FbxStack& stack) {
     try {
       return take_stack(stack);
@@ -98,7 +98,7 @@ class FbxReader {
     }
   }
 
-  // True when the take moves a joint.
+  // Returns whether the take moves a joint.
   bool take_stack(const FbxStack& stack) {
     document_.stack = stack;
     document_.motion = read_fbx_motion(tree(), document_.scene, stack);
@@ -154,8 +154,8 @@ class FbxReader {
          "scales that change, or differ by axis, move a joint in the frame of its parent", scaled);
   }
 
-  // The program that wrote the file. What it says of an earlier one does not count: the motion may
-  // have been edited since.
+  // Returns the program that wrote the file. Names of earlier programs are ignored, because the
+  // motion may have been edited since.
   std::string software() const {
     const std::uint32_t header = tree().child(no_fbx_record, "FBXHeaderExtension");
     if (header == no_fbx_record) return {};

@@ -1,4 +1,4 @@
-// Finds the curves that a changed take changes, and the values of their keys.
+// Finds the curves that a take changes, and the new values of their keys.
 #include "io/fbx/fbx_rewrite.hpp"
 
 #include <fmt/format.h>
@@ -85,7 +85,8 @@ class FbxRewriter {
     }
   }
 
-  // Angles, translations and the frames that these are in, at each frame of the source.
+  // Computes angles and translations, and the reference frames of translations, at each frame of
+  // the source.
   void sample_source() {
     const std::size_t joints = document_.rig.joints.size();
     const std::size_t count = same_frames_ ? frames() : 1;
@@ -113,7 +114,8 @@ class FbxRewriter {
     }
   }
 
-  // Takes a step of a joint's position, in the frame of the joint above, to one of its translation.
+  // Returns the matrix that converts a step of a joint's position, in the frame of the joint above,
+  // to a step of its translation.
   FbxMatrix base_of(const std::vector<FbxNodePose>& poses, std::size_t joint) const {
     FbxMatrix inverse;
     const FbxMatrix step = fbx_step_matrix(document_.rig, poses, node(joint));
@@ -128,8 +130,8 @@ class FbxRewriter {
     return translations_[(same_frames_ ? frame : 0) * document_.rig.joints.size() + joint];
   }
 
-  // The curves of a vector of a joint; null where it has none. Only those of the first layer, with
-  // nothing mixed in, hold the value itself.
+  // Returns the curves of a vector of a joint, or null. Only curves of the first layer, without
+  // other layers, hold the value itself.
   const FbxAnimatedVector* curves_of(std::size_t joint, FbxVector vector) const {
     const FbxAnimatedVector* found = nullptr;
     std::size_t layers = 0;
@@ -200,7 +202,7 @@ class FbxRewriter {
     return false;
   }
 
-  // Which point of the takes is the position of a joint; -1 where it has none.
+  // Returns which point of the takes is the position of a joint, or -1.
   std::int32_t point_of(std::size_t joint) const {
     if (!take_.has_joints() || joint == 0) return static_cast<std::int32_t>(joint);
     const auto& translated = take_.translated_joints;
@@ -212,7 +214,7 @@ class FbxRewriter {
 
   Vec3 position(const Take& take, std::size_t frame, std::size_t point) const {
     if (take.has_joints() || take.is_observed(frame, point)) return take.position(frame, point);
-    // A missing sample is where its marker was last, or will be first.
+    // A missing sample has the last known position of its marker, or the first.
     for (std::size_t f = frame; f-- > 0;) {
       if (take.is_observed(f, point)) return take.position(f, point);
     }
@@ -233,7 +235,7 @@ class FbxRewriter {
       const Vec3 step = position(take_, f, point) - original_.position(from, point);
       const Vec3 source = source_translation(f, joint);
       const Vec3 moved = source + bases_[joint] * step;
-      // Below a model of nearly no size, no translation reaches the place.
+      // Below a model with a scale near zero, no translation reaches the position.
       const bool is_usable = norm(moved) <= largest_fbx_value;
       for (std::size_t axis = 0; axis < 3; ++axis)
         set(*vector, axis, joint, f, component(is_usable ? moved : source, axis));
@@ -269,7 +271,7 @@ class FbxRewriter {
     }
   }
 
-  // The curve before its values were mended, so that these are written.
+  // Returns the curve with its values before repair, so that repaired values are written.
   FbxCurve as_in_file(const FbxCurve& curve, std::size_t index) const {
     FbxCurve copy = curve;
     for (const FbxMendedKey& key : document_.mended) {
@@ -278,7 +280,7 @@ class FbxRewriter {
     return copy;
   }
 
-  // Whether a curve gives these values already, to the precision of the file.
+  // Whether a curve already has these values, to the precision of the file.
   bool stays(const FbxCurve& curve, const std::vector<double>& values) const {
     if (!same_frames_ && !curve.is_constant()) return false;
     std::size_t cursor = 0;
@@ -289,7 +291,7 @@ class FbxRewriter {
     return true;
   }
 
-  // The end of the animation, as the file states it, moves with the last frame.
+  // Moves the stated end of the animation to the last frame.
   void patch_range() {
     const FbxTree& tree = document_.tree;
     if (document_.scene.stacks.empty() || document_.motion.curves.empty()) return;
@@ -316,11 +318,11 @@ class FbxRewriter {
   const FbxDocument& document_;
   const Take& original_;
   bool same_frames_;
-  std::vector<std::size_t> uses_;             // by curve: how many axes it moves
+  std::vector<std::size_t> uses_;             // by curve: the number of axes it moves
   std::vector<std::vector<double>> changed_;  // by curve: its value in each frame
-  std::vector<std::size_t> mended_;           // curves
+  std::vector<std::size_t> mended_;           // repaired curves
   std::vector<std::int64_t> times_;
-  std::vector<Vec3> angles_, translations_;  // of joints, by frame
+  std::vector<Vec3> angles_, translations_;  // of all joints, by frame
   std::vector<FbxMatrix> bases_;
   std::vector<FbxPatch> patches_;
 };

@@ -16,7 +16,7 @@ bool is_limb(const FbxModel& model) {
   return model.kind == "LimbNode" || model.kind == "Limb" || model.kind == "Root";
 }
 
-// Cameras and lights are no bodies.
+// Cameras and lights are never joints.
 bool is_onlooker(const FbxModel& model) {
   return model.kind == "Camera" || model.kind == "CameraSwitcher" || model.kind == "Light";
 }
@@ -40,7 +40,8 @@ class FbxRigBuilder {
   std::size_t count() const { return scene_.models.size(); }
   std::int32_t parent_of(std::size_t model) const { return scene_.models[model].parent; }
 
-  // Depth first, in the order of the file. Models that are their own ancestors are left out.
+  // Orders models depth first, in the order of the file. Models that are their own ancestors are
+  // left out.
   void order_models() {
     std::vector<std::vector<std::size_t>> children(count());
     std::vector<std::pair<std::size_t, std::size_t>> open;  // model, depth
@@ -142,7 +143,7 @@ class FbxRigBuilder {
     return node;
   }
 
-  // Which of the model's turns have curves, and the constant turns behind these.
+  // Finds which of the model's rotations have curves, and the constant rotations behind them.
   void find_turns(FbxRigNode& node) const {
     std::array<bool, 3> has_curve{};
     Vec3 constant = scene_.models[node.model].local[fbx_rotation];
@@ -164,7 +165,7 @@ class FbxRigBuilder {
       return has_curve[static_cast<std::size_t>(node.order.axes[i])];
     };
     const bool any = has_curve[0] || has_curve[1] || has_curve[2];
-    // Layers that are mixed give angles that no single axis explains.
+    // The result of several layers is not a rotation about single axes.
     const bool is_first = !motion_.layers.empty() && !motion_.layers.front().is_muted &&
                           motion_.layers.front().vectors.contains(3 * node.model + fbx_rotation);
     if (any && !(layers == 1 && is_first)) {
@@ -193,8 +194,8 @@ class FbxRigBuilder {
   std::size_t max_depth_;
   FbxRig rig_;
   std::vector<std::size_t> order_;
-  std::vector<bool> animated_;  // has curves
-  std::vector<bool> moving_;    // has curves that are not constant
+  std::vector<bool> animated_;  // 1 if the model has curves
+  std::vector<bool> moving_;    // 1 if it has curves that are not constant
   std::vector<bool> joint_, above_, below_;
   bool has_limbs_ = false;
 };
@@ -208,7 +209,7 @@ FbxRig choose_fbx_rig(const FbxTree& tree, const FbxScene& scene, const FbxMotio
 
 RotationOrder fbx_factors(std::int64_t rotation_order) {
   constexpr Axis x = Axis::x, y = Axis::y, z = Axis::z;
-  // The name of an order is the order in which the turns act; the product reads backwards.
+  // An order is named by the order in which the rotations act, so the product is reversed.
   constexpr std::array<std::array<Axis, 3>, 6> factors{
       {{z, y, x}, {y, z, x}, {x, z, y}, {z, x, y}, {y, x, z}, {x, y, z}}};
   const bool is_known = rotation_order >= 0 && rotation_order < 6;

@@ -14,7 +14,7 @@ namespace kinemend {
 namespace {
 
 constexpr std::uint32_t least_version = 6000;
-// FBX SDK 2020, FbxTime: ticks of files whose header says so (TCDefinition, header 1004 on).
+// FBX SDK 2020, FbxTime: ticks of files whose header defines them (TCDefinition, header 1004 on).
 constexpr double new_ticks_per_second = 141120000;
 constexpr std::int64_t old_ticks_definition = 127, least_header_with_definition = 1004;
 
@@ -91,7 +91,7 @@ class FbxSceneReader {
     return tree_.name_of(tree_.records[record]);
   }
 
-  // Values of models that do not state their own: Definitions of version 7.
+  // Reads the default values of models, in Definitions of version 7.
   void read_template() {
     const std::uint32_t definitions = tree_.child(no_fbx_record, "Definitions");
     for_each_child(definitions, [&](std::uint32_t type) {
@@ -120,7 +120,7 @@ class FbxSceneReader {
     });
   }
 
-  // The id of an object: its number, or in version 6 its name.
+  // Returns the id of an object: its number, or in version 6 the hash of its name.
   std::int64_t id_of(const FbxProperty& property) const {
     const std::string_view name = fbx_text(tree_, property);
     if (!name.empty() || property.type == 'S') return fbx_id_of_name(name);
@@ -216,7 +216,7 @@ class FbxSceneReader {
     read_ticks();
   }
 
-  // `FrameRate: "24"` of Version5, as the mode of that rate.
+  // Returns the mode of `FrameRate: "24"` in Version5.
   std::int64_t mode_of_version_6() const {
     const std::uint32_t version5 = tree_.child(no_fbx_record, "Version5");
     if (version5 == no_fbx_record) return 0;

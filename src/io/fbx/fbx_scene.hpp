@@ -28,11 +28,11 @@ struct FbxModel {
   Vec3 pre_rotation, post_rotation;
   Vec3 rotation_offset, rotation_pivot, scaling_offset, scaling_pivot;
   std::int64_t rotation_order = 0;  ///< 0 XYZ, 1 XZY, 2 YZX, 3 YXZ, 4 ZXY, 5 ZYX, 6 spheric
-  bool rotation_active = false;     ///< without it, order and pre- and post-rotation do not count
+  bool rotation_active = false;     ///< if false, order and pre- and post-rotation are ignored
   std::int64_t inherit_type = 0;    ///< 0 RrSs, 1 RSrs, 2 Rrs
 };
 
-/// How one layer animates a vector of a model: a curve an axis (index in `FbxMotion::curves`, or
+/// How one layer animates a vector of a model: a curve per axis (index in `FbxMotion::curves`, or
 /// -1), else a constant.
 struct FbxAnimatedVector {
   std::array<std::int32_t, 3> curves{-1, -1, -1};
@@ -41,10 +41,10 @@ struct FbxAnimatedVector {
 
 struct FbxLayer {
   double weight = 1;                       ///< 0 to 1
-  bool is_override = false;                ///< else added to the layers before
-  bool adds_rotations_by_channel = false;  ///< else as rotations
+  bool is_override = false;                ///< if false, it is added to the layers before
+  bool adds_rotations_by_channel = false;  ///< if false, rotations are composed
   bool is_muted = false;
-  /// By model and `FbxVector`: 3 * model + vector.
+  /// The key is 3 * model + `FbxVector`.
   std::unordered_map<std::size_t, FbxAnimatedVector> vectors;
 };
 
@@ -68,8 +68,8 @@ struct FbxObject {
 };
 
 struct FbxConnection {
-  std::int64_t from = 0;  ///< child, or what is animated by
-  std::int64_t to = 0;    ///< parent, or what is animated
+  std::int64_t from = 0;  ///< child, or the source of the animation
+  std::int64_t to = 0;    ///< parent, or the animated object
   std::string_view property;
 };
 
@@ -77,7 +77,7 @@ struct FbxScene {
   std::vector<FbxModel> models;
   std::unordered_map<std::int64_t, std::int32_t> model_of_id;
   std::vector<FbxStack> stacks;
-  std::string active_stack;  ///< its name; may be empty or unknown
+  std::string active_stack;  ///< name of the active stack; may be empty or unknown
   std::vector<FbxConnection> connections;
   std::unordered_map<std::int64_t, std::uint32_t> record_of_id;
   double ticks_per_second = 46186158000.0;  ///< FBX SDK, FbxTime
@@ -90,10 +90,10 @@ struct FbxScene {
 /// versions before 6, and for files without objects.
 FbxScene read_fbx_scene(const FbxTree& tree);
 
-/// The curves of one take that animate translation, rotation or scaling of a model.
+/// Returns the curves of one take that animate translation, rotation or scaling of a model.
 FbxMotion read_fbx_motion(const FbxTree& tree, const FbxScene& scene, const FbxStack& stack);
 
-/// Ids of objects in files of version 6, which have names only.
+/// Returns the id of an object in a file of version 6, which has only names.
 std::int64_t fbx_id_of_name(std::string_view name);
 
 }  // namespace kinemend

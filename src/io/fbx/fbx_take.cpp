@@ -16,10 +16,10 @@ namespace kinemend {
 
 namespace {
 
-// Relative, of rounding; chosen by hand, not swept.
+// Relative tolerance for rounding; chosen by hand, not swept.
 constexpr double same_scale = 1e-6;
-// A bone whose length or direction changes by less is rigid: rounding of baked curves. Chosen by
-// hand, not swept.
+// A bone whose length or direction changes by less is rigid, because baked curves are rounded.
+// Chosen by hand, not swept.
 constexpr double rigid = 1e-5;
 
 Channel fbx_rotation_channel(Axis axis) {
@@ -44,7 +44,7 @@ class FbxTakeBuilder {
   explicit FbxTakeBuilder(const FbxDocument& document)
       : document_(document), rig_(document.rig), poser_(document.scene, document.motion, rig_) {}
 
-  // Without frames.
+  // Builds a take without frames.
   Take build_skeleton() {
     start();
     return std::move(take_);
@@ -72,7 +72,7 @@ class FbxTakeBuilder {
 
   const FbxRigNode& node(std::size_t joint) const { return rig_.nodes[rig_.joints[joint]]; }
 
-  // The position of a joint in the frame of the joint above.
+  // Returns the position of a joint in the frame of the joint above.
   Vec3 offset_of(const std::vector<FbxNodePose>& poses, std::size_t joint) const {
     const Vec3 centre = poses[rig_.joints[joint]].centre;
     const std::int32_t parent = node(joint).parent_joint;
@@ -81,7 +81,7 @@ class FbxTakeBuilder {
     return rotate(conjugate(above.joint_turn), centre - above.centre);
   }
 
-  // Joints with curves of translation, and those that scales move.
+  // Finds joints with translation curves, and joints that are moved by scales.
   void find_moving() {
     moving_.assign(rig_.joints.size(), false);
     for (std::size_t j = 0; j < moving_.size(); ++j) moving_[j] = is_translated(node(j));
@@ -158,7 +158,7 @@ class FbxTakeBuilder {
     }
   }
 
-  // What lies between the frame of the joint above and the turns that have curves.
+  // Returns the rotation between the frame of the joint above and the rotations with curves.
   static Quat rest_of_turns(const FbxRigNode& each, Vec3 rotation) {
     Vec3 before;
     for (std::size_t i = 0; i < each.first_turn; ++i) {
@@ -179,14 +179,14 @@ class FbxTakeBuilder {
     return normalized(rest);
   }
 
-  // One vector of a joint in the frames of a range, and its angles, three a frame.
+  // One vector of a joint in the frames of a range, and its angles, three per frame.
   struct JointRange {
     std::size_t first = 0, last = 0;
     std::vector<Vec3> local;
     std::vector<double> degrees, sines, cosines;
   };
 
-  // Ranges of frames are independent.
+  // Sets a range of frames; ranges are independent.
   void set_frames(std::size_t first, std::size_t last) {
     FbxPoser poser(document_.scene, document_.motion, rig_);
     JointRange range{first, last, std::vector<Vec3>(last - first), {}, {}, {}};
@@ -207,7 +207,7 @@ class FbxTakeBuilder {
                       times.subspan(range.first, range.last - range.first), range.local);
   }
 
-  // Where scales are the same in all frames and directions, positions follow translations.
+  // If scales are the same in all frames and directions, positions follow from translations.
   void set_positions(std::size_t joint, std::size_t point, const JointRange& range) {
     const FirstFrame& first = firsts_[joint];
     for (std::size_t i = 0; i < range.local.size(); ++i) {
@@ -226,7 +226,7 @@ class FbxTakeBuilder {
     }
   }
 
-  // All frames at once: sines and cosines are dear.
+  // Handles all frames at once, because sines and cosines are expensive.
   void set_rotations(std::size_t joint, JointRange& range) {
     const FbxRigNode& each = node(joint);
     const std::size_t frames = range.local.size();

@@ -40,7 +40,7 @@ class TextFbxReader {
   }
 
  private:
-  // The first comment of these files: `; FBX 7.4.0 project file`.
+  // Reads the version from the first comment: `; FBX 7.4.0 project file`.
   void read_version() {
     const std::size_t found = bytes_.substr(0, 1024).find("FBX ");
     if (found == bytes_.npos) return;
@@ -59,7 +59,7 @@ class TextFbxReader {
     tree_.version = 1000 * parts[0] + 100 * parts[1] + 10 * parts[2];
   }
 
-  // Moves to the next byte that counts; false at the end.
+  // Moves past blanks and comments; returns false at the end.
   bool skip_blanks() {
     while (place_ < bytes_.size()) {
       if (bytes_[place_] == ';') {
@@ -153,7 +153,7 @@ class TextFbxReader {
     builder_.close();
   }
 
-  // Whether a word with a colon stands here: the next record.
+  // Whether a word with a colon begins here, which is the next record.
   bool is_name(std::size_t place) const {
     const std::size_t end = word_end(place);
     return end > place && end < bytes_.size() && bytes_[end] == ':';

@@ -1,4 +1,4 @@
-// Finds out the form of an FBX file, and walks over its records.
+// Detects the form of an FBX file, and walks over its records.
 #include "io/fbx/fbx_tree.hpp"
 
 #include <utility>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view binary_magic{"Kaydara FBX Binary  \0", 21};
 
-// Of a text whose first line does not say it.
+// Returns the version of a text whose first line does not state it.
 std::uint32_t stated_version(const FbxTree& tree) {
   const std::uint32_t header = tree.child(no_fbx_record, "FBXHeaderExtension");
   if (header == no_fbx_record) return 0;

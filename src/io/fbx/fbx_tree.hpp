@@ -1,4 +1,4 @@
-// The records of an FBX file with the place of each in the bytes, binary or text.
+// The records of an FBX file, binary or text, with their offsets in the bytes.
 #pragma once
 
 #include <cstddef>
@@ -25,9 +25,9 @@ struct FbxProperty {
 
 /// A named record with properties and children. Places are bytes of the file.
 struct FbxRecord {
-  std::size_t begin = 0;             ///< of its header or name
+  std::size_t begin = 0;             ///< offset of its header or name
   std::size_t end = 0;               ///< after its last byte
-  std::size_t properties_begin = 0;  ///< of the list of properties
+  std::size_t properties_begin = 0;  ///< offset of the list of properties
   std::size_t properties_end = 0;
   std::uint32_t first_property = 0;  ///< in `FbxTree::properties`
   std::uint32_t property_count = 0;
@@ -38,7 +38,7 @@ struct FbxRecord {
   std::uint32_t name_size = 0;
 };
 
-/// An FBX file as it was read: its bytes, and where its records are. Parents precede children.
+/// An FBX file as it was read: its bytes, and the places of its records. Parents precede children.
 struct FbxTree {
   std::string name;  ///< for messages
   std::string bytes;
@@ -66,7 +66,7 @@ struct FbxTree {
   std::uint32_t first_child_of(std::uint32_t parent) const {
     return parent == no_fbx_record ? first_root : records[parent].first_child;
   }
-  /// An error with the byte, or with the line of a text.
+  /// Returns an error with the byte, or with the line of a text.
   Error error_at(std::size_t place, std::string_view message) const;
 };
 
@@ -77,7 +77,7 @@ FbxTree read_fbx_tree(std::string bytes, std::string_view name, std::size_t max_
 /// Whether the bytes begin as a binary FBX file.
 bool is_binary_fbx(std::string_view bytes);
 
-/// The two forms, called by `read_fbx_tree`.
+/// Read the two forms; called by `read_fbx_tree`.
 void read_binary_fbx_records(FbxTree& tree, std::size_t max_depth);
 void read_text_fbx_records(FbxTree& tree, std::size_t max_depth);
 

@@ -1,4 +1,4 @@
-// Decodes the values of FBX records, packed arrays among them.
+// Decodes the values of FBX records, including packed arrays.
 #include "io/fbx/fbx_values.hpp"
 
 #include <fmt/format.h>
@@ -75,7 +75,7 @@ std::int64_t integer_element(const char* bytes, char type, bool big) {
   return std::fabs(value) < 9e18 ? static_cast<std::int64_t>(value) : 0;
 }
 
-// Refuses counts for which there are too few bytes, before memory is taken.
+// Rejects counts that are too large for the file before allocating memory.
 void check_array_size(const FbxTree& tree, const FbxProperty& array, std::size_t raw_bytes) {
   if (raw_bytes <= memory_limit(tree.bytes.size())) return;
   throw tree.error_at(array.begin, fmt::format("an array of {} bytes: too much for a file of {}",
@@ -216,7 +216,7 @@ std::string fbx_unpacked(const FbxTree& tree, const FbxProperty& array) {
 }
 
 std::string fbx_zlib(std::string_view raw) {
-  // A faster level than zlib's own: the digits of measured motion hardly shrink at any level.
+  // Faster than zlib's default level: the digits of measured motion hardly shrink at any level.
   constexpr int level = 1;
   uLongf size = compressBound(static_cast<uLong>(raw.size()));
   std::string packed(size, '\0');

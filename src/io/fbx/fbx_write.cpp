@@ -1,4 +1,4 @@
-// Writes FBX: into the file that the take was read from, or as a new one.
+// Writes FBX into the source file of the take, or as a new file.
 #include "io/fbx/fbx.hpp"
 
 #include <string>

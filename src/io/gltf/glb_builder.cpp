@@ -18,7 +18,7 @@ constexpr int component_float = 5126, component_uint16 = 5123;
 constexpr int target_array_buffer = 34962;
 constexpr std::uint32_t magic = 0x46546C67, chunk_json = 0x4E4F534A, chunk_binary = 0x004E4942;
 
-// What is finite as a double need not be as a float.
+// A number that is finite as a double may overflow as a float.
 void check_finite(std::span<const float> values) {
   if (std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); }))
     return;

@@ -22,16 +22,16 @@ class GlbBuilder {
 
   Json& document() { return document_; }
 
-  /// Appends a node and returns its index; likewise below.
+  /// Appends a node and returns its index, like the functions below.
   std::size_t add_node(Json node);
-  /// `components` floats an element: 1, 3, 4 or 16. `with_range`: with the least and largest of
-  /// each component, as times and vertex positions must have.
+  /// Appends elements of `components` floats: 1, 3, 4 or 16. `with_range` adds the least and
+  /// largest value of each component, which times and vertex positions must have.
   std::size_t add_floats(const std::vector<float>& values, std::size_t components, bool with_range,
                          bool of_vertices);
-  /// Four joint indices a vertex.
+  /// Appends four joint indices per vertex.
   std::size_t add_vertex_joints(const std::vector<std::uint16_t>& values);
 
-  /// The file's bytes. Names that are not UTF-8 lose the bytes that are not.
+  /// Returns the file's bytes. Bytes of names that are not UTF-8 are removed.
   std::string finish() &&;
 
  private:
@@ -46,13 +46,13 @@ class GlbBuilder {
 /// One animation of nodes with the same times.
 class GlbAnimation {
  public:
-  /// Frame f at f / rate. At least one frame.
+  /// Frame f has the time f / rate. At least one frame.
   GlbAnimation(GlbBuilder& file, std::size_t frames, double frame_rate_hz);
 
   void add_translation(std::size_t node, const std::vector<float>& xyz);
-  /// Signs are chosen so that interpolation takes the short way.
+  /// Adds rotations with signs chosen so that interpolation takes the shortest path.
   void add_rotation(std::size_t node, std::vector<Quat> rotations);
-  /// The node is there (1) or not (0), without anything between.
+  /// Adds steps in which the node is visible (1) or not (0).
   void add_presence(std::size_t node, const std::vector<std::uint8_t>& present);
   void finish();
 
@@ -66,10 +66,10 @@ class GlbAnimation {
   Json channels_ = Json::array();
 };
 
-/// Triangles with a normal each.
+/// Triangles with one normal each.
 struct GlbMesh {
-  std::vector<float> positions, normals;  ///< three a vertex, three vertices a triangle
-  std::vector<std::uint16_t> joints;      ///< of each vertex; empty without skin
+  std::vector<float> positions, normals;  ///< three per vertex, three vertices per triangle
+  std::vector<std::uint16_t> joints;      ///< joint of each vertex; empty without skin
 
   void add_triangle(const std::array<Vec3, 3>& corners, Vec3 inside, std::uint16_t joint);
   std::size_t vertices() const { return positions.size() / 3; }
@@ -78,7 +78,8 @@ struct GlbMesh {
 /// Adds mesh and material; returns the mesh's index.
 std::size_t add_mesh(GlbBuilder& file, const GlbMesh& mesh, const char* name);
 
-/// Errors: `usage` for a number that is not finite as a float, which glTF cannot hold.
+/// Converts to floats. Errors: `usage` for a number that overflows as a float, which glTF cannot
+/// hold.
 std::array<float, 3> to_floats(Vec3 v);
 
 }  // namespace kinemend

@@ -11,32 +11,32 @@
 
 namespace kinemend {
 
-/// 100 for a binary glTF file; likely for the text of one.
+/// Returns how likely the head of a file is glTF, 0 to 100; 100 for a binary file.
 int sniff_glb(std::string_view head);
 int sniff_gltf(std::string_view head);
 
-/// Reads the animation `ReadOptions::animation` of a scene: its skins' joints, or what it moves
-/// where there is no skin, or markers that `write_glb_markers` has written. Metres, Y up. Errors:
-/// `unreadable_input` with the byte; `usage` for an animation that is not there.
+/// Reads the animation `ReadOptions::animation` of a scene: its skins' joints, or without a skin
+/// the nodes that it moves, or markers from `write_glb_markers`. Metres, Y up. Errors:
+/// `unreadable_input` with the byte; `usage` for an animation that does not exist.
 TakeResult read_glb(std::string bytes, std::string_view name, const ReadOptions& options);
 TakeResult read_gltf(std::string bytes, std::string_view name, const ReadOptions& options);
 
-/// A take that was read from glTF comes back in its source, in which only the keys of changed
-/// joints differ. Any other becomes an animated skeleton with a skinned mesh of its bones, in
-/// metres (`metres_per_unit`, a guess by the skeleton's height, or 1), axes as they are. Errors:
-/// `usage` for an invalid clip.
+/// Writes a take. A take that was read from glTF is written as its source, in which only the keys
+/// of changed joints differ. Any other take becomes an animated skeleton with a skinned mesh of its
+/// bones, in metres (`metres_per_unit`, a guess by the skeleton's height, or 1), with unchanged
+/// axes. Errors: `usage` for an invalid clip.
 std::string write_glb(const Take& clip);
 std::string write_gltf(const Take& clip);
-/// The same for markers: a new file has small spheres that move, in metres (millimetres where the
-/// clip names no known unit); a missing one shrinks to nothing.
+/// Writes markers: a new file has small moving spheres, in metres (the unit is a millimetre if the
+/// clip names no known unit); a missing marker has scale 0.
 std::string write_glb_markers(const Take& clip);
 std::string write_gltf_markers(const Take& clip);
 
-/// `files_of_take` of a take in glTF. `output`: where it will stand.
+/// Returns `files_of_take` of a take in glTF. `output`: the path of the result.
 TakeFiles gltf_files_of_take(const Take& take, bool as_binary, const std::filesystem::path& output);
 
-/// What the source of a take holds beside its motion, where a new file takes its place; empty where
-/// the take is written in place, or comes from another format.
+/// Lists the data besides the motion that is lost if the take needs a new file; empty if its source
+/// is rewritten or is of another format.
 std::vector<std::string> lost_beside_gltf(const Take& take);
 
 }  // namespace kinemend

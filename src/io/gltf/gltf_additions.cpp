@@ -1,4 +1,4 @@
-// Writes new entries as JSON and their floats behind what a buffer holds.
+// Writes new entries as JSON, and appends their floats to a buffer.
 #include "io/gltf/gltf_additions.hpp"
 
 #include <fmt/format.h>

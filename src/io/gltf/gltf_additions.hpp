@@ -12,20 +12,20 @@
 
 namespace kinemend {
 
-/// Collects what is added; `finish` turns it into changes. Floats go to the end of the buffer that
+/// Collects additions; `finish` turns them into changes. Floats are appended to the buffer that
 /// holds the animation.
 class GltfAdditions {
  public:
   GltfAdditions(const GltfDocument& document, GltfChanges& changes);
 
-  /// Appends elements of `width` floats and returns the number of their accessor. Times state their
-  /// range, as they must. Errors: `usage` for a value that no float can hold.
+  /// Appends elements of `width` floats and returns the number of their accessor. Times get their
+  /// range, which glTF requires. Errors: `usage` for a value that overflows a float.
   std::size_t add_floats(const std::vector<double>& values, std::size_t width, bool are_times);
   /// Appends a sampler and returns its number.
   std::size_t add_sampler(std::size_t input, std::size_t output, bool in_steps);
   void set_sampler(std::size_t channel, std::size_t sampler);
-  /// A node that is placed by a matrix is placed by its parts from now on, as animated nodes must
-  /// be.
+  /// Appends a channel. A node with a matrix gets translation, rotation and scale instead, as
+  /// animated nodes must.
   void add_channel(std::size_t node, GltfPath path, std::size_t sampler);
   void finish();
 
@@ -45,13 +45,13 @@ class GltfAdditions {
 
   const GltfDocument& document_;
   GltfChanges& changes_;
-  std::size_t home_ = 0;  // the buffer that grows
+  std::size_t home_ = 0;  // the buffer that is extended
   Additions views_, accessors_, samplers_, channels_;
   std::vector<std::pair<std::size_t, std::size_t>> set_samplers_;
   std::set<std::size_t> split_;
 };
 
-/// A number as JSON that reads back as the same float.
+/// Returns a number as JSON that reads back as the same float.
 std::string json_of_float(float value);
 
 }  // namespace kinemend

@@ -39,7 +39,7 @@ void append_glb_chunk(std::string& out, std::string_view type, std::string_view 
   out.append(padding, filler);
 }
 
-// The content of the chunk at `at`.
+// Returns the content of the chunk at `at`.
 ByteSpan glb_chunk(const GltfFile& file, std::size_t at, std::size_t end) {
   if (end - at < glb_chunk_header_bytes)
     throw Error::at_byte(file.name, at, "the file ends in the header of a chunk");

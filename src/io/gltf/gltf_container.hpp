@@ -1,4 +1,4 @@
-// Takes a glTF file apart into its JSON text and its binary chunk, and puts it together again.
+// Splits a glTF file into its JSON text and its binary chunk, and joins them again.
 #pragma once
 
 #include <cstddef>
@@ -25,25 +25,25 @@ struct GltfFile {
   }
 };
 
-/// Finds the parts. Repair: `bytes_after_end`, for bytes after the end that the header states.
-/// Errors: `unreadable_input` with the byte for a container that is cut, of another version than 2,
-/// or without JSON.
+/// Finds the parts. Repair: `bytes_after_end`, for bytes after the end stated by the header.
+/// Errors: `unreadable_input` with the byte for a container that is cut, has a version other than
+/// 2, or has no JSON.
 GltfFile open_gltf(std::string bytes, std::string_view name, bool strict, Diagnostics& diagnostics);
 
 /// Notes a repair; throws `ErrorKind::quality_limit` when the reading is strict.
 void note_gltf_repair(std::string_view file, bool strict, Diagnostics& diagnostics,
                       std::string_view kind, std::string_view message);
 
-/// The error about an element of an array of the root: `accessors`, 3. Its byte is that of the
-/// element.
+/// Returns an error about an element of an array of the root (for example `accessors`, 3), with the
+/// byte of the element.
 Error gltf_error(const GltfFile& file, const char* section, std::size_t index,
                  std::string_view message);
 
-/// The file with another JSON text and another binary chunk (none: the one that it has). Other
-/// chunks keep their bytes. Errors: `usage` for a file beyond 4 GiB.
+/// Returns the file with a new JSON text and a new binary chunk (null: the existing chunk). Other
+/// chunks keep their bytes. Errors: `usage` for a file above 4 GiB.
 std::string reassembled_gltf(const GltfFile& file, std::string json,
                              const std::string* binary = nullptr);
-/// A new binary file of JSON and one binary chunk, which is left out where empty.
+/// Returns a new binary file of JSON and one binary chunk, which is left out if empty.
 std::string new_glb(std::string_view json, std::string_view binary);
 
 }  // namespace kinemend

@@ -13,7 +13,7 @@ namespace kinemend {
 
 namespace {
 
-// Beyond this a number is taken as missing, as in every format.
+// A larger number is treated as missing, as in every format.
 constexpr double most_gltf_value = 1e100;
 
 bool is_usable(const double* values, std::size_t count) {
@@ -38,7 +38,7 @@ std::vector<double> gltf_times(const GltfFile& file, const GltfModel& model, Glt
   return times;
 }
 
-// Gives each key that is not finite the value of the key before, else of the next one.
+// Replaces each key that is not finite by the key before, else by the next key.
 void hold_missing_keys(GltfCurve& curve) {
   const std::size_t parts = curve.parts();
   const auto key_at = [&](std::size_t key) { return curve.values.data() + key * parts; };
@@ -58,8 +58,8 @@ void hold_missing_keys(GltfCurve& curve) {
   if (good == curve.keys()) std::fill(curve.values.begin(), curve.values.end(), 0.0);
 }
 
-// Visits the segment of each time in turn: the last key that is not later, and the share of the way
-// to the next one (0 at a key).
+// Visits the segment of each time in turn: the last key that is not later, and the share of the
+// step to the next key (0 at a key).
 template <class Visit>
 void walk_curve(const GltfCurve& curve, const GltfTimes& times, Visit&& visit) {
   const std::size_t last = curve.keys() - 1;
@@ -73,7 +73,7 @@ void walk_curve(const GltfCurve& curve, const GltfTimes& times, Visit&& visit) {
   }
 }
 
-// A component of a spline: specification, appendix C.5.
+// Evaluates a component of a spline: specification, appendix C.5.
 double spline_value(const GltfCurve& curve, std::size_t key, std::size_t c, double s,
                     double length) {
   const std::size_t w = curve.width;
@@ -117,7 +117,7 @@ bool is_constant(const GltfCurve& curve) {
     if (!std::equal(curve.value(k), curve.value(k) + curve.width, curve.value(0))) return false;
   }
   if (curve.parts() == curve.width || curve.keys() == 1) return true;
-  // A spline without tangents between equal values.
+  // A spline is constant only if its tangents are zero too.
   const auto is_zero = [](double value) { return value == 0; };
   for (std::size_t k = 0; k < curve.keys(); ++k) {
     const double* const v = curve.value(k);

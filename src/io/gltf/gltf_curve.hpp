@@ -16,17 +16,18 @@ namespace kinemend {
 struct GltfCurve {
   GltfInterpolation interpolation = GltfInterpolation::linear;
   std::size_t width = 0;                             ///< 3, or 4 for a rotation (x, y, z, w)
-  std::shared_ptr<const std::vector<double>> clock;  ///< of the keys; curves may share one
-  std::vector<double> values;  ///< keys x width; of splines keys x 3 x width, as the file has it
-  std::vector<std::uint8_t> held;  ///< 1 for a key whose value was not finite; empty: none was
+  std::shared_ptr<const std::vector<double>> clock;  ///< times of the keys; curves may share them
+  std::vector<double> values;  ///< keys x width; for splines keys x 3 x width, as in the file
+  /// 1 for a key whose value was not finite; empty: all were finite.
+  std::vector<std::uint8_t> held;
 
   std::size_t keys() const { return clock == nullptr ? 0 : clock->size(); }
-  /// Seconds, ascending. There are keys.
+  /// Seconds, ascending; at least one key.
   const std::vector<double>& times() const { return *clock; }
   std::size_t parts() const {
     return interpolation == GltfInterpolation::cubic_spline ? 3 * width : width;
   }
-  /// The value of a key, past its in-tangent.
+  /// Returns the value of a key, after its in-tangent.
   const double* value(std::size_t key) const {
     return values.data() + key * parts() + (parts() == width ? 0 : width);
   }
@@ -37,16 +38,16 @@ struct GltfCurve {
 /// Times of keys that were read, by accessor.
 using GltfClocks = std::map<std::size_t, std::shared_ptr<const std::vector<double>>>;
 
-/// Errors: `unreadable_input` for times that are not finite or descend, and for another number of
-/// values than of keys.
+/// Reads a curve. Errors: `unreadable_input` for times that are not finite or descend, and if the
+/// numbers of values and keys differ.
 GltfCurve read_gltf_curve(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
                           const GltfSampler& sampler, GltfPath path, GltfClocks& clocks);
 
-/// Whether all keys have one value, bit by bit.
+/// Whether all keys have the same value, bit by bit.
 bool is_constant(const GltfCurve& curve);
 
-/// The values at `count` times t0 + i / rate. Times within `tolerance_s` of a key have the key's
-/// value. Before the first key and after the last the curve is constant.
+/// The times `start_s` + i / rate of `count` values. Times within `tolerance_s` of a key have the
+/// key's value. Before the first key and after the last the curve is constant.
 struct GltfTimes {
   double start_s = 0, rate_hz = 30;
   std::size_t count = 0;

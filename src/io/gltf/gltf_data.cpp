@@ -45,7 +45,8 @@ std::string gltf_file_beside(const GltfFile& file, const GltfModel& model, std::
   return read_file(path);
 }
 
-// The text of a JSON string. No parser has looked at inline data, so it may be damaged.
+// Returns the text of a JSON string; empty if it is damaged, because no parser has checked inline
+// data.
 std::optional<std::string> unescaped(std::string_view quoted) {
   if (quoted.find('\\') == quoted.npos) return std::string(quoted.substr(1, quoted.size() - 2));
   const GltfJson parsed = GltfJson::parse(quoted, nullptr, false);
@@ -66,7 +67,7 @@ std::string gltf_data_in_text(const GltfFile& file, std::size_t buffer) {
   throw gltf_error(file, "buffers", buffer, "its data are not base64");
 }
 
-// Bytes from the first to past the last of `count` elements.
+// Returns the bytes from the first to the end of the last of `count` elements.
 std::optional<std::size_t> extent_of(std::size_t count, std::size_t size, std::size_t stride) {
   if (count == 0) return 0;
   constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
@@ -99,7 +100,7 @@ bool store_whole(double value, bool normalized, char* bytes) {
   return true;
 }
 
-// Bytes of a buffer that something stands in, in steps.
+// Used bytes of a buffer: elements of `size` bytes every `stride` bytes.
 struct GltfRange {
   std::size_t buffer = 0, begin = 0, end = 0, stride = 0, size = 0;
 };
@@ -108,7 +109,7 @@ bool overlap(const GltfRange& a, const GltfRange& b) {
   if (a.buffer != b.buffer || a.begin >= b.end || b.begin >= a.end) return false;
   const bool same_steps = a.stride == b.stride && a.stride > a.size && a.size + b.size <= a.stride;
   if (!same_steps) return true;
-  // Interleaved: the parts of one step may lie beside each other.
+  // Interleaved ranges do not overlap if their elements are side by side in each step.
   const std::size_t s = a.stride, ahead = (b.begin % s + s - a.begin % s) % s;
   return ahead < a.size || s - ahead < b.size;
 }
@@ -124,7 +125,7 @@ std::optional<GltfRange> range_in_view(const GltfModel& model, std::size_t view,
   return GltfRange{v.buffer, begin, begin + *extent, stride, size};
 }
 
-// Of the values, then of what a sparse accessor adds.
+// Returns the ranges of the values, then of the data of a sparse accessor.
 std::vector<GltfRange> ranges_of(const GltfModel& model, const GltfAccessor& accessor) {
   std::vector<GltfRange> ranges;
   const auto add = [&](const std::optional<GltfRange>& range) {
@@ -206,7 +207,7 @@ GltfNumbers::GltfNumbers(const GltfFile& file, const GltfModel& model, GltfBuffe
     throw error("expected floats or normalized integers of 8 or 16 bits");
   if (a.view) check_view(*a.view, a.offset, a.count, element_size(), stride());
   if (a.sparse) check_sparse();
-  // Without a view the count has no bytes that vouch for it. Chosen by hand.
+  // Without a view no bytes confirm the count. Chosen by hand.
   constexpr std::size_t most_zeros = std::size_t{1} << 16;
   if (!a.view && a.count > most_zeros) throw error(fmt::format("{} zeros are too many", a.count));
 }

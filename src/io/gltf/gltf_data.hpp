@@ -13,27 +13,27 @@
 
 namespace kinemend {
 
-/// The contents of those buffers that motion needs.
+/// The contents of the buffers that motion needs.
 class GltfBuffers {
  public:
-  /// Loads a buffer where that has not been done. Errors: `unreadable_input` for one that is
+  /// Loads a buffer if it is not loaded yet. Errors: `unreadable_input` for a buffer that is
   /// refused, cannot be read, or is shorter than stated.
   void load(const GltfFile& file, const GltfModel& model, std::size_t buffer);
   bool is_loaded(std::size_t buffer) const;
-  /// At least `GltfBuffer::size` bytes. The buffer is loaded.
+  /// Returns at least `GltfBuffer::size` bytes. The buffer must be loaded.
   std::string_view bytes(const GltfFile& file, std::size_t buffer) const;
-  /// Bytes of the buffers that are not part of the file's own.
+  /// Returns the size of the buffers outside the file itself.
   std::size_t size_beside() const;
 
  private:
   struct Loaded {
     bool is_there = false, in_file = false;
-    std::shared_ptr<const std::string> bytes;  // none where it is part of the file
+    std::shared_ptr<const std::string> bytes;  // null if it is part of the file
   };
   std::vector<Loaded> loaded_;
 };
 
-/// The content of one buffer. Errors: as `GltfBuffers::load`.
+/// Returns the content of one buffer. Errors: as `GltfBuffers::load`.
 std::string load_gltf_buffer(const GltfFile& file, const GltfModel& model, std::size_t buffer);
 
 /// Where an element of an accessor is stored.
@@ -44,15 +44,15 @@ struct GltfPlace {
 /// An accessor whose bytes are loaded and lie within their buffers.
 class GltfNumbers {
  public:
-  /// Errors: `unreadable_input`, naming the accessor: out of bounds, coded by an extension, of a
-  /// type that is not `width` numbers.
+  /// Errors: `unreadable_input`, naming the accessor, if it is out of bounds, coded by an
+  /// extension, or of a type that is not `width` numbers.
   GltfNumbers(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
               std::size_t accessor, std::size_t width);
 
   std::size_t count() const { return accessor().count; }
-  /// All elements, `width` values each; normalised integers as -1 to 1 or 0 to 1.
+  /// Returns all elements, `width` values each; normalised integers as -1 to 1 or 0 to 1.
   std::vector<double> values() const;
-  /// Where each element is stored; none for a zero that no byte stands for.
+  /// Returns the place of each element; empty for a zero that is not stored.
   std::vector<std::optional<GltfPlace>> places() const;
   const GltfAccessor& accessor() const { return model_.accessors[index_]; }
 
@@ -72,10 +72,10 @@ class GltfNumbers {
 };
 
 std::size_t size_of_component(int component);
-/// One component as a number.
+/// Reads one component as a number.
 double read_component(const char* bytes, int component, bool normalized);
-/// Stores the nearest number that the component can hold, in the bytes of one component; false for
-/// a value out of its range by more than half a step.
+/// Stores the nearest number that the component can hold, in the bytes of one component; returns
+/// false for a value out of its range by more than half a step.
 bool store_component(double value, int component, bool normalized, char* bytes);
 
 /// Whether no other accessor, image or index of sparse values shares a byte with this one.

@@ -9,16 +9,16 @@
 
 namespace kinemend {
 
-/// A glTF file as it was read, and the animation that the take is.
+/// A glTF file as it was read, and the animation of the take.
 struct GltfDocument : SourceDocument {
   GltfFile file;
   GltfModel model;
   GltfBuffers buffers;
   std::size_t animation = GltfTrack::none;
   bool has_markers = false;
-  double rate_hz = 0;  ///< asked for, for keys that lie on no frames
+  double rate_hz = 0;  ///< requested rate for keys that are not on a grid of frames
 
-  /// Decodes the motion once more: the same numbers.
+  /// Decodes the motion again, with the same numbers.
   GltfMotion motion() const {
     GltfBuffers loaded = buffers;
     return has_markers ? decode_gltf_markers(file, model, loaded, animation, rate_hz)

@@ -9,7 +9,7 @@ namespace kinemend {
 
 namespace {
 
-// Some writers give whole numbers as 5126.0.
+// Reads a whole number, which some writers write as 5126.0.
 std::optional<std::size_t> gltf_whole_value(const GltfJson& value) {
   constexpr double most = 9007199254740992.0;  // 2^53: whole numbers up to it are exact
   if (value.is_number_unsigned()) return value.get<std::size_t>();

@@ -10,12 +10,13 @@
 
 namespace kinemend {
 
-/// What is wrong with a field; becomes an `Error` with a place where the element is known.
+/// An error in a field; it becomes an `Error` with a place once the element is known.
 struct GltfFault {
   std::string message;
 };
 
-// Each throws `GltfFault` for a value of another type, and for a missing one without default.
+// Each function throws `GltfFault` for a value of another type, and for a missing value without
+// default.
 using GltfJson = nlohmann::json;
 
 const GltfJson* gltf_field(const GltfJson& object, const char* key);
@@ -24,10 +25,10 @@ std::size_t gltf_whole(const GltfJson& object, const char* key, std::size_t othe
 std::size_t gltf_needed_whole(const GltfJson& object, const char* key);
 std::string gltf_text(const GltfJson& object, const char* key);
 bool gltf_flag(const GltfJson& object, const char* key);
-/// An array of exactly `count` finite numbers; none where the field is missing.
+/// Returns an array of exactly `count` finite numbers; empty if the field is missing.
 std::optional<std::vector<double>> gltf_numbers(const GltfJson& object, const char* key,
                                                 std::size_t count);
-/// An array of indices below `limit`.
+/// Returns an array of indices below `limit`.
 std::vector<std::size_t> gltf_indices(const GltfJson& object, const char* key, std::size_t limit);
 
 }  // namespace kinemend

@@ -13,7 +13,7 @@ namespace kinemend {
 
 namespace {
 
-// Each node after its parent, children in the order of the file.
+// Returns the nodes with each node after its parent, children in the order of the file.
 std::vector<std::size_t> gltf_tree_order(const GltfModel& model) {
   std::vector<std::size_t> order, open(model.roots.rbegin(), model.roots.rend());
   order.reserve(model.nodes.size());
@@ -27,7 +27,7 @@ std::vector<std::size_t> gltf_tree_order(const GltfModel& model) {
   return order;
 }
 
-// 1 for nodes that the animation places.
+// Marks the nodes that the animation moves.
 std::vector<std::uint8_t> animated_nodes(const GltfModel& model, std::size_t animation,
                                          bool with_scale) {
   std::vector<std::uint8_t> animated(model.nodes.size());
@@ -60,7 +60,7 @@ std::vector<std::uint8_t> with_descendants(const GltfModel& model, std::vector<s
   return marked;
 }
 
-// Nodes that have to be joints, before those between them.
+// Marks the nodes that must be joints, without the nodes between them.
 std::vector<std::uint8_t> chosen_nodes(const GltfModel& model, std::size_t animation,
                                        const std::vector<std::size_t>& order) {
   if (model.skins.empty()) return animated_nodes(model, animation, false);
@@ -94,23 +94,22 @@ std::vector<std::size_t> gltf_joints(const GltfModel& model, std::size_t animati
 
 namespace {
 
-// The frame that a node gives its children: a rotation, an origin, and a scale for each frame or
-// for all.
+// The frame of a node's children: a rotation, an origin, and a scale for each frame or for all.
 struct GltfFrameOfNode {
   Quat rotation;
   Vec3 origin;
   std::vector<Vec3> scale = std::vector<Vec3>(1, Vec3{1, 1, 1});
 };
 
-// The positions of a joint in its parent, and where they come from.
+// The positions of a joint in its parent, and their source.
 struct GltfPlaces {
   GltfTrack track;
-  std::vector<Vec3> positions;  // none for a joint that never moves
+  std::vector<Vec3> positions;  // empty for a joint that never moves
 };
 
 bool is_uniform_scale(Vec3 s) {
   // Chosen by hand, not swept.
-  constexpr double tolerance = 1e-4;  // far above what single precision adds
+  constexpr double tolerance = 1e-4;  // far above the error of single precision
   const double largest = std::max({std::fabs(s.x), std::fabs(s.y), std::fabs(s.z)});
   return std::fabs(s.x - s.y) <= tolerance * largest && std::fabs(s.y - s.z) <= tolerance * largest;
 }
@@ -194,7 +193,7 @@ class GltfJointDecoder {
     scales_.push_back(scale_below(node, outer.scale));
   }
 
-  // Of a node that is not animated, and neither are those above.
+  // Returns the frame of a node that is not animated, like all nodes above it.
   const GltfFrameOfNode& static_frame(std::size_t node) {
     std::vector<std::size_t> chain;
     std::int64_t above = static_cast<std::int64_t>(node);
@@ -214,8 +213,8 @@ class GltfJointDecoder {
     return static_frames_[node];
   }
 
-  // The scale that a node's children live in. A turn under different scales of the axes shears,
-  // which no joint can: the mean of the axes takes their place.
+  // Returns the scale of a node's children. A rotation under different scales of the axes shears,
+  // which a joint cannot express, so the mean of the axes replaces them.
   std::vector<Vec3> scale_below(std::size_t node, const std::vector<Vec3>& above) {
     const std::vector<Vec3> own = own_scale(node);
     std::vector<Vec3> below(std::max(above.size(), own.size()));
@@ -295,10 +294,10 @@ class GltfJointDecoder {
     places_.push_back({std::move(track), std::move(positions)});
   }
 
-  // Decides which joints move in their parents: exporters write the lengths of bones in each frame,
-  // with the noise of single precision at the size of the whole body.
+  // Decides which joints move in their parents. Exporters write bone lengths in each frame, with
+  // single precision errors at the size of the whole body.
   void place_joints() {
-    // Of the longest offset. Chosen by hand, not swept.
+    // Share of the longest offset. Chosen by hand, not swept.
     constexpr double noise = 5e-6;
     Skeleton& skeleton = motion_.take.skeleton;
     double longest = 0;
@@ -322,7 +321,7 @@ class GltfJointDecoder {
     }
   }
 
-  // From the first.
+  // Returns the largest distance from the first position.
   static double farthest(const std::vector<Vec3>& positions) {
     double distance = 0;
     for (const Vec3& p : positions) distance = std::max(distance, norm(p - positions[0]));
@@ -345,8 +344,8 @@ class GltfJointDecoder {
     }
   }
 
-  // The ends of chains: nodes below a joint that carry nothing. An end has one place in its joint:
-  // not below a scale that changes.
+  // Adds the ends of chains: nodes below a joint without children or content. An end has a fixed
+  // position in its joint, so joints whose scale changes are skipped.
   void add_end_sites() {
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       if (scales_[j].size() > 1) continue;
@@ -359,7 +358,7 @@ class GltfJointDecoder {
     }
   }
 
-  // Numbers of the JSON text may be as large as they like.
+  // Numbers in the JSON text may be large enough to overflow.
   void check_finite() const {
     const auto is_finite = [](Vec3 v) { return std::isfinite(v.x + v.y + v.z); };
     const Skeleton& skeleton = motion_.take.skeleton;
@@ -381,9 +380,9 @@ class GltfJointDecoder {
   GltfCurves curves_;
   GltfMotion motion_;
   std::unordered_map<std::size_t, GltfFrameOfNode> static_frames_;
-  std::vector<std::vector<Vec3>> scales_;  // by joint, of its children
+  std::vector<std::vector<Vec3>> scales_;  // by joint: the scale of its children
   std::vector<GltfPlaces> places_;         // by joint
-  std::vector<std::size_t> points_;        // joints that have positions
+  std::vector<std::size_t> points_;        // joints with positions
   std::vector<std::uint8_t> held_rotations_;
 };
 

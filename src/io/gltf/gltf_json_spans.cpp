@@ -15,9 +15,9 @@ std::size_t after_json_blanks(std::string_view text, std::size_t at) {
   return at;
 }
 
-// Past the quote that ends the string that begins at `at`.
+// Returns the place after the closing quote of the string that begins at `at`.
 std::size_t after_json_string(std::string_view text, std::size_t at) {
-  // Strings of inline data are megabytes long: a search for the quote is fast.
+  // Strings of inline data are megabytes long, so this searches for the quote.
   for (std::size_t quote = text.find('"', at + 1); quote != text.npos;
        quote = text.find('"', quote + 1)) {
     std::size_t slashes = 0;

@@ -1,4 +1,4 @@
-// Finds where the values of a JSON text stand, so that they can be replaced without touching the
+// Finds the places of values in a JSON text, so that they can be replaced without changing the
 // rest.
 #pragma once
 
@@ -12,41 +12,41 @@
 
 namespace kinemend {
 
-// All functions take a text that a parser has accepted; of any other text they return nonsense
-// within its bounds.
+// All functions take a text that a parser has accepted; for any other text they return meaningless
+// places within its bounds.
 
-/// The whole value of a text, without white space around it.
+/// Returns the whole value of a text, without surrounding white space.
 ByteSpan json_root(std::string_view text);
 /// A member of an object: its name with the quotes, and its value.
 struct JsonMember {
   ByteSpan key, value;
 
-  /// From the name to the end of the value.
+  /// Returns the span from the name to the end of the value.
   ByteSpan whole() const { return {key.begin, value.begin + value.size - key.begin}; }
 };
-/// The member of that name of the object at `object`; of members of one name the last, as parsers
-/// take it. None where there is no such member, or no object.
+/// Returns the member of that name in the object at `object`; the last if the name is repeated, as
+/// in parsers. Empty if there is no such member or object.
 std::optional<JsonMember> json_named_member(std::string_view text, ByteSpan object,
                                             std::string_view key);
-/// Its value.
+/// Returns the value of that member.
 std::optional<ByteSpan> json_member(std::string_view text, ByteSpan object, std::string_view key);
-/// The same from the root, along several keys.
+/// Returns the value at several nested keys, from the root.
 std::optional<ByteSpan> json_member(std::string_view text, std::initializer_list<const char*> keys);
-/// The elements of the array at `array`. Empty if the value there is not an array.
+/// Returns the elements of the array at `array`; empty if the value is not an array.
 std::vector<ByteSpan> json_elements(std::string_view text, ByteSpan array);
-/// The element `index` of the array `key` of the root.
+/// Returns element `index` of the array `key` of the root.
 std::optional<ByteSpan> json_element(std::string_view text, const char* key, std::size_t index);
 
-/// The text with inline data (strings that begin with `data:`) cut to that word: megabytes that no
-/// parser has to look at.
+/// Returns the text with inline data (strings that begin with `data:`) cut to that word, so that no
+/// parser reads the megabytes.
 std::string without_inline_data(std::string_view text);
 
-/// A piece of a text that is replaced; of size 0: inserted.
+/// A replacement of a piece of text; size 0 inserts.
 struct JsonEdit {
   ByteSpan place;
   std::string text;
 };
-/// The text with all edits, which do not overlap. Edits at one place keep their order.
+/// Returns the text with all edits, which must not overlap. Edits at one place keep their order.
 std::string edited_json(std::string_view text, std::vector<JsonEdit> edits);
 
 }  // namespace kinemend

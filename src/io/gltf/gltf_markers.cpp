@@ -1,4 +1,4 @@
-// Reads files of markers back, as the writer of this project makes them.
+// Reads files of markers made by this project's writer.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -89,7 +89,7 @@ class GltfMarkerDecoder {
     motion_.tracks.push_back(std::move(track));
   }
 
-  // A marker that shrinks to nothing is missing.
+  // A marker with scale 0 is missing.
   void add_presence(std::size_t m) {
     GltfTrack track = track_of(m, GltfPath::scale);
     Take& take = motion_.take;

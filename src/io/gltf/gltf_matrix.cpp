@@ -9,7 +9,8 @@ namespace kinemend {
 
 namespace {
 
-// Of three orthonormal columns: Shepperd's method, the largest of the four parts first.
+// Returns the rotation of three orthonormal columns by Shepperd's method, which starts from the
+// largest of the four parts.
 Quat rotation_of_axes(const std::array<Vec3, 3>& c) {
   const double xx = c[0].x, yy = c[1].y, zz = c[2].z;
   const std::array<double, 4> parts{xx + yy + zz, xx, yy, zz};
@@ -28,7 +29,7 @@ Quat rotation_of_axes(const std::array<Vec3, 3>& c) {
   }
 }
 
-// Of Gram and Schmidt; an axis without length gets a direction of its own.
+// Orthonormalises by Gram-Schmidt; an axis of length 0 gets a substitute direction.
 std::array<Vec3, 3> orthonormal(const std::array<Vec3, 3>& columns) {
   const auto unit = [](Vec3 v, Vec3 otherwise) {
     const double length = norm(v);
@@ -50,7 +51,7 @@ Quat unit_rotation_of_any(Quat q) {
 
 GltfPlacement placement_of_matrix(std::span<const double> m) {
   // Chosen by hand, not swept.
-  constexpr double least_shear = 1e-4;  // of the lengths of the axes
+  constexpr double least_shear = 1e-4;  // share of the lengths of the axes
   const std::array<Vec3, 3> columns{{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}}};
   const bool mirrors = dot(cross(columns[0], columns[1]), columns[2]) < 0;
   const double sign = mirrors ? -1 : 1;

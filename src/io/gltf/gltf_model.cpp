@@ -19,10 +19,10 @@ namespace kinemend {
 
 namespace {
 
-// Far beyond what scenes have; keeps the memory of hostile files within bounds. Chosen by hand.
+// Far above real scenes; limits the memory of hostile files. Chosen by hand.
 constexpr std::size_t most_gltf_nodes = 65536, most_gltf_elements = 131072;
 
-// Walks over an array of the root; faults get the place of their element.
+// Walks over an array of the root, and adds the element's place to faults.
 class GltfSections {
  public:
   GltfSections(const GltfFile& file, const GltfJson& root) : file_(file), root_(root) {}
@@ -130,7 +130,7 @@ GltfAccessor accessor_of(const GltfJson& json) {
   return accessor;
 }
 
-// Beyond this a number means nothing, and products of it overflow.
+// Rejects numbers that are so large that their products overflow.
 void check_node_range(const GltfNode& node) {
   // Chosen by hand, as in `read_sample`.
   constexpr double most = 1e100;
@@ -216,7 +216,8 @@ GltfAnimation animation_of(const GltfJson& json, const GltfModel& model) {
   return animation;
 }
 
-// Indices wherever a mesh names an accessor. What is odd there is none of our business.
+// Collects the indices of all accessors that a mesh names. Faults in meshes are ignored, because
+// they do not affect motion.
 void add_mesh_accessors(const GltfJson& json, std::vector<std::size_t>& used) {
   const auto add = [&](const GltfJson& attributes) {
     if (!attributes.is_object()) return;
@@ -319,7 +320,7 @@ void read_sections(const GltfFile& file, const GltfJson& root, GltfModel& model)
 GltfJson parsed_root(const GltfFile& file) {
   GltfJson root = parse_json<GltfJson>(without_inline_data(file.json_text()), false);
   if (root.is_object()) return root;
-  // Once more, for the place of the fault.
+  // Parses the original text again, for the place of the fault.
   try {
     root = parse_json<GltfJson>(file.json_text());
   } catch (const GltfJson::exception& error) {

@@ -16,14 +16,14 @@ struct GltfBuffer {
   enum class Place : std::uint8_t { binary_chunk, in_text, beside, unknown };
   std::size_t size = 0;
   Place place = Place::unknown;
-  std::string uri;   ///< of a file beside it, as the text spells it
-  std::string path;  ///< the same, decoded and relative; empty where it is refused
+  std::string uri;   ///< address of a separate file, as the text spells it
+  std::string path;  ///< decoded relative path of `uri`; empty if it is refused
 };
 
 struct GltfView {
   std::size_t buffer = 0, offset = 0, size = 0;
   std::size_t stride = 0;  ///< 0: elements follow each other
-  std::string coded;       ///< the extension that compresses it; mostly empty
+  std::string coded;       ///< the extension that compresses it; usually empty
 };
 
 /// Numbers of a sparse accessor that replace those of its view.
@@ -37,7 +37,7 @@ struct GltfSparse {
 struct GltfAccessor {
   std::optional<std::size_t> view;
   std::size_t offset = 0, count = 0;
-  int component = 0;      ///< 5120 to 5126, as OpenGL numbers the types
+  int component = 0;      ///< 5120 to 5126, as in OpenGL
   std::size_t width = 0;  ///< components of an element; 0: of an unknown type
   bool normalized = false;
   bool has_range = false;  ///< min or max is stated
@@ -52,7 +52,7 @@ struct GltfNode {
   Quat rotation;
   Vec3 scale{1, 1, 1};
   bool has_matrix = false;
-  bool is_sheared = false;  ///< its matrix is no product of translation, rotation and scale
+  bool is_sheared = false;  ///< its matrix is not a product of translation, rotation and scale
   bool holds_more = false;  ///< a mesh, a camera or a light
 };
 
@@ -81,24 +81,24 @@ struct GltfModel {
   std::vector<GltfView> views;
   std::vector<GltfAccessor> accessors;
   std::vector<GltfNode> nodes;
-  std::vector<std::size_t> roots;  ///< nodes without a parent; those of the scene first
-  std::vector<std::vector<std::size_t>> skins;  ///< the joints of each
+  std::vector<std::size_t> roots;  ///< nodes without a parent; nodes of the scene first
+  std::vector<std::vector<std::size_t>> skins;  ///< the joints of each skin
   std::vector<GltfAnimation> animations;
   std::vector<std::size_t> used_elsewhere;  ///< accessors of meshes and skins
   std::vector<std::size_t> image_views;
-  std::vector<std::string> image_paths;  ///< of images beside the file, relative
+  std::vector<std::string> image_paths;  ///< relative paths of separate image files
   std::size_t meshes = 0;
   std::string generator;
 };
 
-/// Parses the JSON and checks what motion relies on: types, indices, one parent a node and no
-/// cycles. Offsets and sizes are checked where data is read. Errors: `unreadable_input` with the
+/// Parses the JSON and checks the fields that motion needs: types, indices, one parent per node and
+/// no cycles. Offsets and sizes are checked where data is read. Errors: `unreadable_input` with the
 /// byte.
 GltfModel parse_gltf(const GltfFile& file);
 
-/// A name for messages and joints: its own, else `node_3`.
+/// Returns a name for messages and joints: the node's own, else `node_3`.
 std::string name_of_node(const GltfModel& model, std::size_t node);
-/// Likewise; `#2` for the second animation where it has no name.
+/// Returns the name of an animation; `#2` for the second one if it has no name.
 std::string name_of_animation(const GltfModel& model, std::size_t animation);
 
 }  // namespace kinemend

@@ -1,4 +1,5 @@
-// What the nodes and the animation of a glTF file mean as a take, and where each value comes from.
+// Decodes the nodes and the animation of a glTF file as a take, and records the source of each
+// value.
 #pragma once
 
 #include <algorithm>
@@ -13,26 +14,27 @@
 
 namespace kinemend {
 
-/// The rotation or the position of a take's joint or marker, as a node of the file has it.
+/// The rotation or the position of a take's joint or marker, and its node in the file.
 struct GltfTrack {
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   std::size_t owner = 0;  ///< a rotation: the joint; a position: the point of the take
   std::size_t node = 0;
   GltfPath path = GltfPath::rotation;
-  std::size_t channel = none;  ///< in the animation; none: the node has no such channel
+  std::size_t channel = none;  ///< index in the animation; `none`: the node has no such channel
   bool has_key_each_frame = false;
-  /// A rotation of the file is rest times that of the take.
+  /// A rotation of the file is `rest` times the take's rotation.
   Quat rest;
-  /// A position of the take is origin + outer (scale x translation); `scale` is of each frame, or
-  /// one for all.
+  /// A position of the take is origin + outer (scale x translation); `scale` has one value per
+  /// frame, or one for all.
   Quat outer;
   Vec3 origin;
   std::vector<Vec3> scale = std::vector<Vec3>(1, Vec3{1, 1, 1});
 
   Vec3 scale_at(std::size_t frame) const { return scale[std::min(frame, scale.size() - 1)]; }
   Vec3 to_take(Vec3 translation, std::size_t frame) const;
-  /// Errors: `usage` where the scale is 0, so that nothing moves the joint.
+  /// Converts a position to the file. Errors: `usage` if the scale is 0, so that no value moves the
+  /// joint.
   Vec3 to_file(Vec3 position, std::size_t frame, const std::string& name) const;
 };
 
@@ -40,27 +42,28 @@ struct GltfTrack {
 struct GltfMotion {
   Take take;
   GltfGrid grid;
-  std::size_t animation = GltfTrack::none;  ///< none: the file has no motion
+  std::size_t animation = GltfTrack::none;  ///< `none`: the file has no motion
   std::vector<GltfTrack> tracks;
-  std::vector<std::string> odd_scales;  ///< nodes whose scale no take can hold
-  std::vector<std::string> sheared;     ///< nodes whose matrix was not a placement
+  std::vector<std::string> odd_scales;  ///< nodes whose scale a take cannot express
+  std::vector<std::string> sheared;     ///< nodes whose matrix was sheared
   std::vector<std::string> repeated;    ///< nodes with two channels of one kind
   std::size_t interpolated = 0;         ///< moving channels without a key in each frame
   std::size_t held_keys = 0;            ///< keys that are not finite
 };
 
-/// The nodes that are joints, in tree order: those of the skins, and what is animated above or
-/// below them; where there is no skin, what the animation moves. Static nodes above a root are
-/// not joints. Nodes between joints are.
+/// Returns the nodes that are joints, in tree order: the joints of the skins, and animated nodes
+/// above or below them; without a skin, the nodes that the animation moves. Static nodes above a
+/// root are not joints. Nodes between joints are.
 std::vector<std::size_t> gltf_joints(const GltfModel& model, std::size_t animation);
 
-/// Decodes the animation `animation` (none: a take without frames). `rate_hz`: for keys that lie on
-/// no frames. The same file gives the same numbers at any time. Errors: `unreadable_input`.
+/// Decodes the animation `animation` (`none`: a take without frames). `rate_hz`: for keys that are
+/// not on a grid of frames. The same file always gives the same numbers. Errors:
+/// `unreadable_input`.
 GltfMotion decode_gltf_joints(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
                               std::size_t animation, double rate_hz);
 
-/// The nodes of a file of markers, as `write_glb_markers` makes one: children of a node called
-/// "markers", moved but not turned; none for any other file.
+/// Returns the nodes of a file of markers from `write_glb_markers`: children of a node called
+/// "markers", moved but not rotated; empty for any other file.
 std::vector<std::size_t> gltf_markers(const GltfModel& model, std::size_t animation);
 GltfMotion decode_gltf_markers(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
                                std::size_t animation, double rate_hz);
@@ -68,29 +71,30 @@ GltfMotion decode_gltf_markers(const GltfFile& file, const GltfModel& model, Glt
 /// The curves of an animation for the nodes of a take, and their common frames.
 class GltfCurves {
  public:
-  /// Reads translation, rotation and scale of those nodes where `wanted` is not 0.
+  /// Reads translation, rotation and scale of the nodes for which `wanted` is not 0.
   GltfCurves(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
              std::size_t animation, const std::vector<std::uint8_t>& wanted);
 
-  /// The number of a node's channel; `GltfTrack::none` where there is none.
+  /// Returns the number of a node's channel, or `GltfTrack::none`.
   std::size_t channel(std::size_t node, GltfPath path) const;
-  /// The curve of a channel that was read.
+  /// Returns the curve of a channel that was read.
   const GltfCurve* curve(std::size_t channel) const;
   std::vector<const GltfCurve*> moving_curves() const;
-  /// Names a node once for each channel that repeats another.
+  /// Returns a node once for each of its channels that repeats another.
   const std::vector<std::size_t>& repeated() const { return repeated_; }
 
  private:
-  std::vector<std::size_t> channels_;  // three a node
+  std::vector<std::size_t> channels_;  // three per node
   std::vector<GltfCurve> curves_;      // by channel
   std::vector<GltfPath> paths_;
   std::vector<std::size_t> repeated_;
 };
 
-/// Whether the curve of the track has a key in each frame, and what the motion counts of its keys.
+/// Stores in the track whether its curve has a key in each frame, and updates the motion's counts
+/// of keys.
 void note_gltf_keys(const GltfCurve& curve, GltfTrack& track, GltfMotion& motion);
 
-/// Errors: `unreadable_input` where the frames need far more memory than the file has bytes.
+/// Throws `unreadable_input` if the frames need far more memory than the file has bytes.
 void check_gltf_memory(const GltfFile& file, const GltfBuffers& buffers, std::size_t frames,
                        std::size_t bytes_per_frame);
 

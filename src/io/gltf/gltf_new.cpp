@@ -27,7 +27,7 @@ void append(std::vector<float>& values, Vec3 v) {
   values.insert(values.end(), floats.begin(), floats.end());
 }
 
-// A bone as a double pyramid, thickest at a tenth of its length.
+// Adds a bone as a double pyramid, thickest at a tenth of its length.
 void add_bone(GlbMesh& mesh, Vec3 from, Vec3 to, std::uint16_t joint) {
   const Vec3 along = to - from;
   const Vec3 other = std::fabs(along.x) < 0.5 * norm(along) ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
@@ -42,7 +42,7 @@ void add_bone(GlbMesh& mesh, Vec3 from, Vec3 to, std::uint16_t joint) {
   }
 }
 
-// An octahedron with each face cut in four so often, pushed out to the sphere.
+// Adds an octahedron whose faces are divided by four `cuts` times and projected on the sphere.
 void add_sphere(GlbMesh& mesh, double radius, int cuts) {
   const auto out = [&](Vec3 v) { return (radius / norm(v)) * v; };
   const auto cut = [&](auto&& self, std::array<Vec3, 3> c, int left) -> void {
@@ -74,7 +74,7 @@ class SkeletonWriter {
   }
 
  private:
-  // Joint j is node j, end sites follow, then the node that holds them all.
+  // Joint j is node j; end sites follow, then the parent node of all.
   void add_nodes() {
     std::vector<Json> nodes;
     for (std::size_t j = 0; j < clip_.joint_count(); ++j) {
@@ -158,7 +158,7 @@ class SkeletonWriter {
 
   GlbMesh bones() const {
     GlbMesh mesh;
-    // Bones too short to see would have no normals in single precision.
+    // Bones that are too short would have no normals in single precision.
     const double least = 1e-3 * scale_ * body_height(skeleton_);
     const auto add = [&](std::int32_t joint, Vec3 to) {
       if (joint < 0) return;
@@ -182,7 +182,8 @@ class SkeletonWriter {
   std::vector<Vec3> positions_;
 };
 
-// Missing samples stay where the marker was last, or will be first.
+// Returns positions in which missing samples have the last known position of the marker, or the
+// first.
 std::vector<Vec3> held_track(const Take& clip, std::size_t marker) {
   std::vector<Vec3> track(clip.frame_count());
   std::size_t known = 0;
@@ -200,7 +201,8 @@ std::vector<Vec3> held_track(const Take& clip, std::size_t marker) {
 std::string new_glb_of_joints(const Take& clip) { return SkeletonWriter(clip).write(); }
 
 std::string new_glb_of_markers(const Take& clip) {
-  // Of the spheres that show markers, and a millimetre, as other formats take it. Chosen by hand.
+  // Radius of the marker spheres, and a millimetre for an unknown unit, as in other formats. Chosen
+  // by hand.
   constexpr double radius_m = 0.008, metres_of_unknown_unit = 0.001;
   const double unit_m = metres_per_unit(clip.unit);
   const double scale = unit_m > 0 ? unit_m : metres_of_unknown_unit;

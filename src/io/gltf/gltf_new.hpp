@@ -1,4 +1,4 @@
-// Makes binary glTF files of takes that were not read from glTF.
+// Makes binary glTF files from takes that were not read from glTF.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace kinemend {
 
-/// As `write_glb` describes a new file. The clip is valid.
+/// Returns a new file as described at `write_glb`. The clip must be valid.
 std::string new_glb_of_joints(const Take& clip);
-/// As `write_glb_markers` does.
+/// Returns a new file as described at `write_glb_markers`.
 std::string new_glb_of_markers(const Take& clip);
 
 }  // namespace kinemend

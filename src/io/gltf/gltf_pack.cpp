@@ -1,4 +1,4 @@
-// Writes containers, inline data and the files beside a glTF file.
+// Writes containers, inline data and the separate files of a glTF file.
 #include "io/gltf/gltf_pack.hpp"
 
 #include <fmt/format.h>
@@ -66,7 +66,7 @@ class GltfPacker {
     return found == changes_.buffers.end() ? nullptr : &found->second;
   }
 
-  // The chunk's spaces belong to the container.
+  // Removes the chunk's trailing spaces, which belong to the container.
   static std::string without_padding(std::string json) {
     while (json.ends_with(' ')) json.pop_back();
     return json;
@@ -112,7 +112,8 @@ class GltfPacker {
     beside_.push_back({output_.parent_path() / name, *changed(buffer)});
   }
 
-  // Called after the output; never a file that the source needs, unless the output replaces it.
+  // Returns a file name based on the output's; never a file that the source needs, unless the
+  // output replaces the source.
   std::string free_name() const {
     const std::string stem = output_.stem().string();
     const bool replaces = is_same_place(output_, file_.name);
@@ -137,7 +138,7 @@ class GltfPacker {
            std::any_of(images.begin(), images.end(), is_it);
   }
 
-  // What the output names and the source has beside it.
+  // Copies the separate files of the source that the output names.
   void copy_beside() {
     if (output_.empty() || is_same_place(folder_of(output_), folder_of(file_.name))) return;
     std::vector<std::string> paths = document_.model.image_paths;
@@ -172,7 +173,7 @@ class GltfPacker {
     }
   }
 
-  // Takes the member out with its comma.
+  // Removes the member with its comma.
   bool remove_uri(std::size_t buffer) {
     const std::string_view text = file_.json_text();
     const auto object = buffer_object(buffer);
@@ -199,7 +200,7 @@ class GltfPacker {
   std::vector<JsonEdit> edits_;
   std::vector<SideFile> beside_;
   std::string binary_;
-  bool first_moves_ = false;  // buffer 0 becomes the chunk of a binary file
+  bool first_moves_ = false;  // whether buffer 0 becomes the chunk of a binary file
 };
 
 }  // namespace

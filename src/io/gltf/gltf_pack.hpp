@@ -1,4 +1,4 @@
-// Puts the changes of a glTF file into bytes, in its own container or in the other one.
+// Writes the changes of a glTF file, in its own container or in the other kind.
 #pragma once
 
 #include <filesystem>
@@ -10,16 +10,16 @@
 
 namespace kinemend {
 
-/// The files of a take: its own, and those that it needs beside it.
+/// The files of a take: the main file, and the separate files that it needs.
 struct GltfFiles {
   std::string bytes;
   std::vector<SideFile> beside;
 };
 
-/// The file with its changes, binary or as text. A file without changes keeps its bytes where its
-/// container stays. `output`: where it will stand; empty: nobody knows, so that changed buffers go
-/// into the text. With a place, changed buffers that stood beside the source get the name of the
-/// output, and what is needed beside it in another folder is copied there.
+/// Returns the file with its changes, binary or as text. A file without changes keeps its bytes if
+/// its container is the same. `output`: its path; empty: unknown, so that changed buffers are
+/// stored in the text. If the path is known, changed buffers in separate files get the name of the
+/// output, and other separate files are copied to its folder if needed.
 GltfFiles packed_gltf(const GltfDocument& document, const GltfChanges& changes, bool as_binary,
                       const std::filesystem::path& output);
 

@@ -1,4 +1,4 @@
-// Reads glTF: chooses the animation, decodes it, and says what had to be repaired.
+// Reads glTF: chooses the animation, decodes it, and reports repairs.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -26,7 +26,7 @@ std::string animation_list(const GltfModel& model) {
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
 
-// Whether it turns or moves a joint or a marker.
+// Whether the animation rotates or moves a joint or a marker.
 bool moves_something(const GltfModel& model, std::size_t animation,
                      const std::vector<std::size_t>& joints) {
   std::vector<std::uint8_t> is_joint(model.nodes.size());
@@ -46,7 +46,8 @@ std::size_t named_animation(const GltfFile& file, const GltfModel& model, std::s
                                             file.name, quote(name), animation_list(model)));
 }
 
-// By name, else the first that moves a joint; none where there is a skin and no motion.
+// Chooses the animation by name, else the first that moves a joint; `none` for a skin without
+// motion.
 std::size_t chosen_animation(const GltfFile& file, const GltfModel& model, std::string_view name) {
   const bool is_named = !name.empty();
   const std::size_t first = is_named ? named_animation(file, model, name) : 0;
@@ -146,7 +147,7 @@ std::vector<SourceFact> facts_of(const GltfDocument& document) {
   return facts;
 }
 
-// Those that turn or move the same joints as the one that was read.
+// Lists the animations that move the same joints as the one that was read.
 void name_animations(const GltfDocument& document, SourceInfo& source) {
   const GltfModel& model = document.model;
   if (document.animation == GltfTrack::none) return;

@@ -1,4 +1,4 @@
-// Compares a take with its source, and replaces what differs.
+// Compares a take with its source, and replaces the differences.
 #include "io/gltf/gltf_rewrite.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ namespace kinemend {
 
 namespace {
 
-// The values of a track as its node has them, and which frames differ from the source.
+// The values of a track in its node's frame, and which frames differ from the source.
 struct GltfValues {
   std::size_t width = 3;
   std::vector<std::array<double, 4>> frames;
@@ -35,10 +35,10 @@ double dot4(const double* a, const double* b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 
-// A value that goes to the bytes of a buffer.
+// A value to write into the bytes of a buffer.
 struct GltfStored {
   GltfPlace place;
-  std::array<char, 16> bytes{};  // four components at most
+  std::array<char, 16> bytes{};  // at most four components
   std::size_t size = 0;
 };
 
@@ -47,7 +47,8 @@ class GltfTrackValues {
   GltfTrackValues(const Take& take, const GltfMotion& source, bool same_frames)
       : take_(take), source_(source), same_frames_(same_frames) {}
 
-  // False where the source holds the track already: most tracks, which need not be decoded again.
+  // Whether the track may differ from the source. Most tracks do not, and need not be decoded
+  // again.
   bool may_change(const GltfTrack& track) const {
     if (!same_frames_ || source_.held_keys > 0 || !take_.has_joints()) return true;
     const std::size_t frames = take_.frame_count();
@@ -60,7 +61,7 @@ class GltfTrackValues {
     return false;
   }
 
-  // `curve`: of the source; may be none.
+  // Returns the values of a track. `curve`: the source's curve, or null.
   GltfValues of(const GltfTrack& track, const GltfCurve* curve, const std::string& name) const {
     GltfValues values;
     values.frames.resize(take_.frame_count());
@@ -101,7 +102,7 @@ class GltfTrackValues {
       const Vec3 p = take_.position(f, track.owner);
       if (same_frames_) values.changed[f] = p == source_.take.position(f, track.owner) ? 0 : 1;
       const bool is_kept = values.changed[f] == 0 && !kept.empty();
-      // A scale of 0 is an error only where something has to move under it.
+      // A scale of 0 is an error only if a position below it must change.
       values.frames[f] = components(is_kept                  ? kept[f]
                                     : values.changed[f] != 0 ? track.to_file(p, f, name)
                                                              : Vec3{});
@@ -113,13 +114,14 @@ class GltfTrackValues {
     }
   }
 
-  // As the source has them in each frame, without the way through the take.
+  // Returns the source's translations in each frame, without rounding by the conversion to the
+  // take.
   std::vector<Vec3> source_translations(const GltfCurve* curve) const {
     if (curve == nullptr || !same_frames_) return {};
     return vectors_at(*curve, source_.grid.times);
   }
 
-  // A missing marker waits where it is in the source, or was last.
+  // A missing marker keeps its position in the source, or its last position.
   void add_markers(const GltfTrack& track, const GltfCurve* curve, const std::string& name,
                    GltfValues& values) const {
     std::size_t first = 0;
@@ -155,7 +157,7 @@ class GltfTrackValues {
     if (curve == nullptr && always) std::fill(values.changed.begin(), values.changed.end(), 0);
   }
 
-  // No output holds a number that is not finite.
+  // Marks keys that were not finite as changed, because outputs never contain NaN or infinity.
   static void change_held_keys(const GltfTrack& track, const GltfCurve& curve, GltfValues& values) {
     if (curve.held.empty() || values.changed.empty()) return;
     if (!track.has_key_each_frame) {
@@ -170,8 +172,8 @@ class GltfTrackValues {
   bool same_frames_;
 };
 
-// Follows the sign that the source has, so that its other keys still fit; where the rotation is a
-// quite different one, the sign of the key before.
+// Uses the sign of the source, so that its other keys still fit; if the rotation is very different,
+// the sign of the key before.
 void follow_signs(GltfValues& values, const GltfCurve& curve) {
   // Chosen by hand, not swept.
   constexpr double clear = 0.5;  // within 120 degrees
@@ -264,7 +266,7 @@ class GltfRewriter {
     append_track(track, curve ? &*curve : nullptr, values, in_place);
   }
 
-  // False where the bytes are not the track's alone or cannot hold the values.
+  // Returns false if the bytes are shared with other data or cannot hold the values.
   bool write_in_place(const GltfTrack& track, const GltfCurve& curve, const GltfValues& values) {
     const std::size_t accessor = sampler_of(track).output;
     const bool is_own = accessor_uses_[accessor] == 1 &&
@@ -306,8 +308,8 @@ class GltfRewriter {
     return true;
   }
 
-  // Of keys at or beside a changed one: the slope between the neighbours, as Catmull and Rom
-  // choose it.
+  // Stores tangents of keys at or beside a changed key: the slope between the neighbours, as in
+  // Catmull-Rom splines.
   template <class Store>
   bool store_tangents(const GltfCurve& curve, const GltfValues& values, std::size_t f,
                       const Store& store) const {
@@ -360,7 +362,7 @@ class GltfRewriter {
     return *new_times_;
   }
 
-  // The least and the largest of each component, where the file states them.
+  // Updates the least and the largest value of each component, if the file states them.
   void update_range(std::size_t index) {
     const GltfAccessor& accessor = model_.accessors[index];
     if (!accessor.has_range) return;
@@ -413,8 +415,8 @@ class GltfRewriter {
   GltfChanges changes_;
   GltfAdditions additions_;
   std::vector<std::size_t> accessor_uses_, sampler_uses_;
-  std::vector<std::size_t> written_;      // accessors
-  std::vector<ByteSpan> accessor_texts_;  // of the JSON; looked up once
+  std::vector<std::size_t> written_;      // accessors that were written
+  std::vector<ByteSpan> accessor_texts_;  // spans of accessors in the JSON, found once
   std::optional<std::size_t> new_times_;
 };
 

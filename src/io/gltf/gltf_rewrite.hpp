@@ -1,4 +1,4 @@
-// Turns a changed take into changes of the file that it was read from.
+// Turns a changed take into changes of its source file.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace kinemend {
 
-/// What changes in a file: pieces of its JSON text, and the whole content of some buffers.
+/// The changes of a file: pieces of its JSON text, and the whole content of some buffers.
 struct GltfChanges {
   std::vector<JsonEdit> edits;
   std::map<std::size_t, std::string> buffers;
@@ -22,9 +22,9 @@ struct GltfChanges {
 /// Whether the take has the joints or markers of the document, so that it can be written in place.
 bool belongs_to(const Take& take, const GltfDocument& document, const GltfMotion& motion);
 
-/// The least changes that make the file hold the take. Values are replaced where they are stored. A
-/// track gets new keys at the end of a buffer where it has no key in each frame, shares its bytes
-/// with something else, or cannot hold a value. Errors: `usage` for a joint that cannot be moved.
+/// Returns the smallest changes that make the file hold the take. Values are replaced in place. A
+/// track gets new keys at the end of a buffer if it does not have a key in each frame, shares its
+/// bytes with other data, or cannot hold a value. Errors: `usage` for a joint that cannot be moved.
 GltfChanges changes_of_gltf(const Take& take, const GltfDocument& document,
                             const GltfMotion& motion);
 

@@ -1,4 +1,4 @@
-// Decides on the frame rate of an animation by the times of its keys.
+// Finds the frame rate of an animation from the times of its keys.
 #include "io/gltf/gltf_time_grid.hpp"
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace {
 
 // Chosen by hand (docs/formats/gltf.md).
 constexpr double gltf_rate_when_unknown_hz = 30;
-// The rates that films, games and cameras have. Whole ones first: short takes fit both kinds.
-// Chosen by hand.
+// The rates of films, games and cameras. Whole rates come first, because short takes fit both
+// kinds. Chosen by hand.
 constexpr std::array<double, 16> usual_gltf_rates{
     24, 25, 30, 48, 50, 60, 90, 100, 120, 144, 23.976, 29.97, 59.94, 119.88, 239.76, 240};
 
@@ -24,7 +24,7 @@ double float_error(double time_s) {
   return 4 * static_cast<double>(std::numeric_limits<float>::epsilon()) * std::fabs(time_s);
 }
 
-// Of two times that are this near one is meant.
+// Two times that are closer than this are the same time.
 double least_step_s(double time_s) { return std::max(2e-5, float_error(time_s)); }
 
 double key_tolerance_s(double rate_hz, double largest_time_s) {
@@ -51,7 +51,7 @@ bool lie_on_grid(const std::vector<double>& times, double rate_hz, double tolera
   });
 }
 
-// The usual rate or whole number that a rate is but for rounding.
+// Returns the usual rate or whole number that a rate equals except for rounding.
 double rounded_rate(double rate_hz, double relative) {
   for (const double usual : usual_gltf_rates) {
     if (std::fabs(rate_hz / usual - 1) <= std::max(relative, 1e-4)) return usual;
@@ -60,7 +60,7 @@ double rounded_rate(double rate_hz, double relative) {
   return whole >= 1 && std::fabs(rate_hz / whole - 1) <= relative ? whole : rate_hz;
 }
 
-// By the least distance of two keys; 0 where that gives no frames.
+// Returns the rate by the least distance of two keys; 0 if the keys do not fit it.
 double rate_by_steps(const std::vector<double>& times) {
   double step = times.back() - times.front();
   for (std::size_t i = 1; i < times.size(); ++i) step = std::min(step, times[i] - times[i - 1]);
@@ -75,7 +75,7 @@ double rate_by_steps(const std::vector<double>& times) {
 double rate_by_custom(const std::vector<double>& times) {
   const double largest = std::max(std::fabs(times.front()), std::fabs(times.back()));
   for (const double rate : usual_gltf_rates) {
-    // Any time lies near a frame of a fast rate: only rounding is forgiven.
+    // Any time is near a frame of a fast rate, so only rounding errors are accepted.
     const double tolerance_s = std::min(0.01 / rate, 1e-4) + float_error(largest);
     if (lie_on_grid(times, rate, tolerance_s)) return rate;
   }
@@ -104,7 +104,7 @@ GltfGrid grid_of_curves(const std::vector<const GltfCurve*>& curves, double rate
     if (found > 0) grid.times.rate_hz = found;
     const double frames = grid.is_of_keys ? std::round(span * grid.times.rate_hz)
                                           : std::ceil(span * grid.times.rate_hz - 1e-6);
-    constexpr double most = 1e9;  // refused by any file's size
+    constexpr double most = 1e9;  // too large for any file
     grid.times.count = 1 + static_cast<std::size_t>(std::min(frames, most));
   }
   const double largest = std::max(std::fabs(times.front()), std::fabs(times.back()));

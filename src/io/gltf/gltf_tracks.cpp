@@ -48,7 +48,7 @@ GltfCurves::GltfCurves(const GltfFile& file, const GltfModel& model, GltfBuffers
     slot = c;
     curves_[c] = read_gltf_curve(file, model, buffers, chosen.samplers[channel.sampler],
                                  channel.path, clocks);
-    // Many channels may share a sampler: each counts.
+    // Channels may share a sampler; the memory of each is counted.
     read += curves_[c].keys() * (curves_[c].parts() + 1) * sizeof(double);
     check_gltf_memory(file, buffers, 1, read);
   }

@@ -18,7 +18,7 @@ constexpr std::array<std::uint8_t, 256> base64_values() {
   values.fill(no_base64_digit);
   for (std::size_t i = 0; i < base64_digits.size(); ++i)
     values[static_cast<unsigned char>(base64_digits[i])] = static_cast<std::uint8_t>(i);
-  values['-'] = 62;  // the alphabet for addresses, RFC 4648 section 5
+  values['-'] = 62;  // the URL alphabet, RFC 4648 section 5
   values['_'] = 63;
   return values;
 }
@@ -108,7 +108,7 @@ std::string base64_of(std::string_view bytes) {
 }
 
 std::optional<std::string> relative_path_of_uri(std::string_view uri) {
-  // A colon before any slash would make it a scheme; an encoded one is refused as a drive is.
+  // A colon before any slash makes it a scheme; an encoded colon is refused like a drive.
   auto path = percent_decoded(uri);
   if (!path || !is_inside_folder(*path)) return std::nullopt;
   return path;

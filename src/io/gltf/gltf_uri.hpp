@@ -1,4 +1,4 @@
-// Reads the addresses by which a glTF file names its data: inline base64, or a file beside it.
+// Reads the URIs of a glTF file's data: inline base64, or a separate file.
 #pragma once
 
 #include <optional>
@@ -7,16 +7,17 @@
 
 namespace kinemend {
 
-/// Whether the bytes stand in the address itself.
+/// Whether the URI itself contains the bytes.
 bool is_data_uri(std::string_view uri);
-/// The base64 content of such an address; none where it is not base64 or is damaged.
+/// Returns the base64 content of such a URI; empty if it is not base64 or is damaged.
 std::optional<std::string> bytes_of_data_uri(std::string_view uri);
 std::string base64_of(std::string_view bytes);
 
-/// The relative path that an address names, percent-decoded; none for an address that leaves the
-/// folder of the file or names another place: absolute paths, schemes, drives, `..`.
+/// Returns the relative path of a URI, percent-decoded; empty for a URI outside the folder of the
+/// file: absolute paths, schemes, drives, `..`.
 std::optional<std::string> relative_path_of_uri(std::string_view uri);
-/// A file name as an address: everything but letters, digits and -._~ percent-encoded.
+/// Returns a file name as a URI: all characters except letters, digits and -._~ are
+/// percent-encoded.
 std::string uri_of_file_name(std::string_view name);
 
 }  // namespace kinemend

@@ -1,4 +1,4 @@
-// Writes takes as glTF: into their source where they come from one, else as a new file.
+// Writes takes as glTF, into their source file if there is one, else as a new file.
 #include <utility>
 
 #include "io/gltf/gltf.hpp"
@@ -14,7 +14,7 @@ const GltfDocument* gltf_document_of(const Take& take) {
   return dynamic_cast<const GltfDocument*>(take.source.document.get());
 }
 
-// A new binary file as text, with its chunk inline.
+// Converts a new binary file to text, with its chunk inline.
 std::string text_of_glb(std::string bytes) {
   GltfDocument document;
   Diagnostics none;

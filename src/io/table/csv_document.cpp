@@ -1,4 +1,4 @@
-// Carries through a conversion what a table holds beside the take.
+// Keeps the other data of a table through a conversion.
 #include "io/table/csv_document.hpp"
 
 namespace kinemend {

@@ -16,7 +16,7 @@
 
 namespace kinemend {
 
-/// Neighbouring columns that belong together.
+/// Adjacent columns that belong together.
 struct CsvGroup {
   enum class Kind : std::uint8_t {
     position,     ///< LABEL_x, LABEL_y, LABEL_z
@@ -25,7 +25,7 @@ struct CsvGroup {
   };
   Kind kind = Kind::position;
   std::string label;
-  std::array<std::size_t, 4> columns{};  ///< of w, x, y, z for a rotation, else of x, y, z
+  std::array<std::size_t, 4> columns{};  ///< w, x, y, z for a rotation, else x, y, z
 };
 
 /// A line `# key: value`.
@@ -39,20 +39,20 @@ struct CsvNote {
 struct CsvHeader {
   std::vector<CsvNote> notes;
   std::vector<CsvGroup> groups;
-  std::vector<std::string> ignored;  ///< columns that are neither frame, time nor in a group
+  std::vector<std::string> ignored;  ///< columns that are not frame, time or in a group
   CellStyle style;
   std::int32_t frame_column = -1;
   std::int32_t time_column = -1;
   double seconds_per_time = 1;
-  double frame_rate_hz = 0;  ///< 0 where the head states no rate
+  double frame_rate_hz = 0;  ///< 0 if the head states no rate
   std::string unit;
   std::size_t labels_line = 0;
   std::size_t data_begin = 0;
-  std::size_t data_end = 0;       ///< where the last row ends at the latest
-  std::size_t foreign_lines = 0;  ///< above the labels, not understood
-  std::size_t foreign_place = 0;  ///< of the first of them
+  std::size_t data_end = 0;       ///< upper bound for the end of the last row
+  std::size_t foreign_lines = 0;  ///< unrecognised lines above the labels
+  std::size_t foreign_place = 0;  ///< place of the first such line
   bool unit_is_custom = false;    ///< the file states no unit; its program always uses this one
-  std::string beside;             ///< what else the file holds, in words; empty for nothing
+  std::string beside;             ///< description of the file's other data; empty: none
 
   bool has_rotations() const;
   /// Whether a line `# frames: 0` states that there are no rows.
@@ -61,15 +61,16 @@ struct CsvHeader {
 
 /// Parses up to the first row. Errors: `unreadable_input` with the line.
 CsvHeader read_csv_header(const SourceText& text);
-/// Whether there is such a head.
+/// Whether the text begins with such a head.
 bool has_csv_header(std::string_view head);
 
-/// A CSV file as it was read: the bytes hold every digit, so beside them only landmarks are kept.
+/// A CSV file as it was read. The bytes hold every digit, so only a few offsets are stored with
+/// them.
 struct CsvDocument : FollowingDocument {
   std::string bytes;
-  std::string beside;  ///< what else it holds, in words; empty for nothing
+  std::string beside;  ///< description of the file's other data; empty: none
   double frame_rate_hz = 0;
-  MarkerTable table;  ///< of joints: without markers
+  MarkerTable table;  ///< for joints: without markers
 
   std::vector<std::string> names;
   std::int64_t first_frame = 1;
@@ -78,12 +79,12 @@ struct CsvDocument : FollowingDocument {
   std::vector<CsvGroup> groups;
   Skeleton skeleton;
   double metres_per_unit = 0;
-  std::vector<Vec3> positions;  ///< as repaired; empty where all are in the file
+  std::vector<Vec3> positions;  ///< positions after repair; empty if the file has all of them
 
   std::shared_ptr<const SourceDocument> after(const TakeChange& change) const override;
 };
 
-/// The content of a table beside its markers, for a take that is written without its layout.
+/// The contents of a table besides its markers, for a take that is written without its layout.
 struct TableRest : FollowingDocument {
   std::string beside;
 

@@ -1,4 +1,4 @@
-// Reads the lines above the rows of a CSV file: notes, and the columns that belong together.
+// Reads the lines above the rows of a CSV file: notes and groups of columns.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,7 +29,8 @@ struct Column {
   Part part = Part::none;
 };
 
-// `LASI_x`, `LASI.X`, `LASI X`, `LASI:X`, `LASI-x`; the part alone is no column of its own.
+// `LASI_x`, `LASI.X`, `LASI X`, `LASI:X`, `LASI-x`; a part alone (`x`) is not the column of a
+// marker.
 Column column_of(const std::string& cell) {
   const std::size_t cut = cell.find_last_of("_.: -");
   if (cut == cell.npos || (cut == 0 && cell[0] != '_')) return {cell, Part::none};
@@ -82,7 +83,7 @@ class CsvHeaderReader {
     const std::string_view line = take_line(), bare = without_spaces_around(line);
     if (bare.empty()) return;
     if (bare[0] == '#') return read_note(bare);
-    // What spreadsheets understand.
+    // Spreadsheets read this line.
     if (place_ == after_byte_order_mark(text_.bytes) && bare.substr(0, 4) == "sep=") return;
     if (!first_row_) first_row_ = place_;
     const char separator = separator_of(line);
@@ -113,7 +114,7 @@ class CsvHeaderReader {
                              std::string(without_spaces_around(line.substr(colon + 1))), place_});
   }
 
-  // Columns of a row of axes (X, Y, Z, X, ...), whose names stand in the row above.
+  // Returns the columns of a row of axes (X, Y, Z, X, ...), whose names are in the row above.
   std::vector<Column> columns_below(const Cells& axes) const {
     std::vector<Column> columns(axes.size());
     const Cells* const names = above_.empty() ? nullptr : &above_.back();
@@ -147,7 +148,7 @@ class CsvHeaderReader {
     };
     if (is(i, {w, x, y, z})) return add(CsvGroup::Kind::rotation, {i, i + 1, i + 2, i + 3}, 4);
     if (is(i, {tx, ty, tz})) return add(CsvGroup::Kind::translation, {i, i + 1, i + 2, i + 2}, 3);
-    // The root's position may stand before the rotation of a joint called root.
+    // The root's position may precede the rotation of a joint called root.
     if (is(i, {x, y, z, w}) && !is(i + 3, {w, x, y, z})) {
       return add(CsvGroup::Kind::rotation, {i + 3, i, i + 1, i + 2}, 4);
     }
@@ -176,7 +177,7 @@ class CsvHeaderReader {
     }
   }
 
-  // A row of units below the axes.
+  // Reads a row of units below the axes.
   void read_units_below() {
     const std::string_view line = line_from(text_.bytes, next_);
     for (const std::string& cell : split_cells(line, header_.style.separator)) {
@@ -205,7 +206,7 @@ class CsvHeaderReader {
   const SourceText& text_;
   CsvHeader header_;
   std::vector<Cells> above_;
-  std::optional<std::size_t> first_row_;  // that is neither blank nor a note
+  std::optional<std::size_t> first_row_;  // first row that is not blank or a note
   std::size_t place_ = 0;
   std::size_t next_ = 0;
 };
@@ -229,7 +230,7 @@ CsvHeader read_csv_header(const SourceText& text) {
 }
 
 bool has_csv_header(std::string_view head) {
-  // Their heads may be longer than what is seen of the file here.
+  // Their heads may be longer than the part of the file seen here.
   if (starts_as_motive_export(head) || starts_with_vicon_section(head)) return true;
   try {
     const CsvHeader header = read_csv_header({"", head});

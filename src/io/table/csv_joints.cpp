@@ -144,7 +144,7 @@ class JointReader {
     return joints() * (sizeof(Quat) + 1) + columns_.positions.size() * sizeof(Vec3) + 16;
   }
 
-  // Never for more frames than may be.
+  // Reserves memory, but not for more frames than the limit allows.
   void reserve(std::size_t frames) {
     const std::size_t affordable = memory_limit(text_.bytes.size()) / bytes_per_frame();
     clip_.rotations.reserve(std::min(frames, affordable) * joints());
@@ -191,7 +191,7 @@ class JointReader {
     note(position_missing_, "position_missing", "a position is missing: held from a neighbour");
   }
 
-  // Whether the file was cut off in this row, after others that are whole.
+  // Whether the file was cut off in this row, after complete rows.
   bool ends_in_row(const CellRow& row) const {
     const char* const end = text_.bytes.data() + text_.bytes.size();
     if (row.end != end || clip_.frame_count() == 0 || row.used != row.cells) return false;
@@ -203,7 +203,7 @@ class JointReader {
                                                         header_.style.commas, separator);
   }
 
-  // Half of a rotation is none, so the frame is left out.
+  // A partial rotation is not usable, so the frame is left out.
   void leave_out_from(std::size_t place) {
     note_repair(text_, diagnostics_, "file_cut", place,
                 "the file ends in the middle of a row: the rows before it are read");
@@ -294,7 +294,7 @@ class JointRewriter {
   }
 
  private:
-  // Numbers and times of frames that are not finite.
+  // Replaces frame numbers and times that are not finite.
   void mend_labels(std::size_t frame) {
     const MarkerTable& table = document_.table;
     const auto is_no_number = [&](std::int32_t column) {

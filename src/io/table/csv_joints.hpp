@@ -11,9 +11,9 @@ namespace kinemend {
 
 /// The columns of a table of joints.
 struct JointColumns {
-  std::vector<std::array<std::size_t, 4>> rotations;  ///< J, of w, x, y, z
-  std::vector<std::array<std::size_t, 3>> positions;  ///< of the root, then the translated joints;
-                                                      ///< the first is empty where there is none
+  std::vector<std::array<std::size_t, 4>> rotations;  ///< J times w, x, y, z
+  /// Root, then the translated joints; the first is unused without a root position.
+  std::vector<std::array<std::size_t, 3>> positions;
   bool has_root = false;
 };
 

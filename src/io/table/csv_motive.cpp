@@ -32,7 +32,7 @@ class MotiveReader {
       : text_(text), lines_(text, after_byte_order_mark(text.bytes)) {}
 
   CsvHeader read() {
-    // It can be left out of an export.
+    // An export may omit the line of facts.
     HeadLines first = lines_;
     if (const Cells facts = first.take_cells(); !facts.empty() && facts[0] == motive_first_word) {
       read_facts(facts);
@@ -52,7 +52,7 @@ class MotiveReader {
   }
 
  private:
-  // Each behind its name.
+  // Each fact follows its name.
   void read_facts(const Cells& row) {
     double captured = 0;
     for (std::size_t i = 0; i + 1 < row.size(); ++i) {
@@ -89,7 +89,7 @@ class MotiveReader {
                          "expected the row Frame, Time (Seconds), X, Y, Z of a Motive export");
   }
 
-  // How many columns start here that belong together.
+  // Returns how many columns from here belong together.
   std::size_t take_column(std::size_t i) {
     if (i == 0) {
       header_.frame_column = 0;
@@ -137,7 +137,7 @@ class MotiveReader {
     return types.empty() ? "other things" : fmt::format("{}", fmt::join(types, ", "));
   }
 
-  // What bodies and bones have for markers is where a model wants them, not where they were.
+  // Rejects exports of bodies and bones: their markers are positions of a model, not measurements.
   [[noreturn]] void refuse() const {
     throw text_.error_at(std::size_t{0},
                          fmt::format("a Motive export of {}, without measured markers: no "
@@ -159,7 +159,7 @@ bool starts_as_motive_export(std::string_view text) {
   const std::string_view line = line_from(text, 0);
   if (line.substr(line.substr(0, 1) == "\"" ? 1 : 0, motive_first_word.size()) == motive_first_word)
     return true;
-  // Without the line of facts: the row of types.
+  // Without the line of facts, the row of types is first.
   if (line.empty() || std::string_view(",;\t").find(line[0]) == std::string_view::npos)
     return false;
   const Cells cells = split_cells(line, line[0]);

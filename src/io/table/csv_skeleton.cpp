@@ -1,4 +1,4 @@
-// Writes a skeleton as lines of notes, and reads it from them.
+// Writes a skeleton as lines of notes, and reads these lines.
 #include "io/table/csv_skeleton.hpp"
 
 #include <fmt/format.h>
@@ -55,7 +55,7 @@ class NoteReader {
 
   std::string name() const { return fields_.empty() ? std::string() : fields_[0]; }
 
-  // The words behind a field's own name.
+  // Returns the words after a field's name.
   std::vector<std::string> words(std::string_view field) const {
     for (std::size_t i = 1; i < fields_.size(); ++i) {
       std::vector<std::string> parts = split_cells(fields_[i], ' ');
@@ -66,7 +66,7 @@ class NoteReader {
     return {};
   }
 
-  // Empty where there is no such field. Errors: other than `count` finite numbers.
+  // Returns the numbers of a field; empty if it is missing. Errors: not `count` finite numbers.
   std::vector<double> values(std::string_view field, std::size_t count) const {
     const std::vector<std::string> parts = words(field);
     std::vector<double> found;
@@ -87,7 +87,7 @@ class NoteReader {
     return {v[0], v[1], v[2]};
   }
 
-  // -1 for none; below `joints`.
+  // Returns the parent, below `joints`, or -1.
   std::int32_t parent(std::size_t joints) const {
     const auto v = values("parent", 1);
     const double index = v.empty() ? -2 : v[0];

@@ -1,5 +1,5 @@
-// Reads the heads of Vicon's tables: sections, each with its name, its rate, a row of names, one of
-// axes, one of units and its rows; a blank line between two.
+// Reads the heads of Vicon's tables: sections, each with its name, its rate, rows of names, axes
+// and units, then its data; a blank line separates sections.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,8 +19,8 @@ namespace {
 struct Section {
   std::string name;
   double rate_hz = 0;
-  std::size_t place = 0;  ///< of the line of its name
-  std::size_t body = 0;   ///< of the line below its rate
+  std::size_t place = 0;  ///< place of the line with its name
+  std::size_t body = 0;   ///< place of the line below its rate
 };
 
 std::size_t filled(const Cells& cells) {
@@ -28,13 +28,13 @@ std::size_t filled(const Cells& cells) {
       std::count_if(cells.begin(), cells.end(), [](const auto& cell) { return !cell.empty(); }));
 }
 
-// A name alone in its line: words, no number and no note.
+// Whether the line holds only a name: words, not a number or a note.
 bool is_section_name(const Cells& cells) {
   return filled(cells) == 1 && !cells[0].empty() && cells[0][0] != '#' &&
          std::isalpha(static_cast<unsigned char>(cells[0][0])) != 0;
 }
 
-// "100", or "100" and "Hz".
+// Reads the rate from "100", or "100" and "Hz".
 double section_rate(const Cells& cells) {
   if (cells.empty()) return 0;
   const std::size_t more = filled(cells) - (cells[0].empty() ? 0 : 1);
@@ -47,7 +47,7 @@ double section_rate(const Cells& cells) {
   return rate > 0 && std::isfinite(1 / rate) ? rate : 0;
 }
 
-// Blank lines, also of separators, come before a section.
+// Finds sections, which follow blank lines or lines of separators.
 std::vector<Section> sections_of(const SourceText& text, bool only_first) {
   std::vector<Section> sections;
   HeadLines lines(text, after_byte_order_mark(text.bytes));
@@ -83,7 +83,8 @@ std::vector<Section> sections_of(const SourceText& text, bool only_first) {
   return sections;
 }
 
-// Of a section below its rate: names, then axes behind the frame's number; only events have none.
+// Whether a section has names below its rate, then axes after the frame number; only events have
+// none.
 bool has_table(const SourceText& text, const Section& section) {
   HeadLines lines(text, section.body);
   lines.take();
@@ -146,7 +147,7 @@ class ViconReader {
     return lines_.take_cells();
   }
 
-  // A name stands above its X; columns of three without one are markers too.
+  // A name is above its X; three columns without a name are a marker too.
   void group(const Cells& names, const Cells& axes) {
     std::vector<bool> used(axes.size());
     for (std::size_t i = 1; i + 2 < axes.size(); ++i) {
@@ -168,7 +169,7 @@ class ViconReader {
     return axis.size() == 1 && lower_case(axis[0]) == letter;
   }
 
-  // "mm" or "(mm)" below each axis; programs before Nexus leave the row out.
+  // Reads "mm" or "(mm)" below each axis; programs before Nexus omit this row.
   void read_units() {
     if (header_.data_begin < header_.data_end) {
       HeadLines lines = lines_;
@@ -211,7 +212,7 @@ class ViconReader {
     return rows.size();
   }
 
-  // A blank line ends the section. Rows behind it would be lost without a word.
+  // A blank line ends the section. Rejects rows after it, which would be lost silently.
   void refuse_text_behind(std::size_t blank) const {
     for (std::size_t at = blank; at < header_.data_end; at = next_line(text_.bytes, at)) {
       if (!is_blank(line_from(text_.bytes, at)))

@@ -1,4 +1,4 @@
-// Writes CSV tables: in the layout of their source where they can, else in a plain one.
+// Writes CSV tables in the layout of their source if possible, else in a plain layout.
 #include <fmt/format.h>
 
 #include <string>
@@ -111,7 +111,7 @@ std::string write_plain_joints(const Take& clip) {
   return std::move(table).take();
 }
 
-// The document whose layout holds the clip; null where there is none.
+// Returns the document whose layout can hold the clip, or null.
 const CsvDocument* kept_layout(const Take& clip) {
   const auto* const document = dynamic_cast<const CsvDocument*>(clip.source.document.get());
   const bool same = document != nullptr && document->table.head_is_finite &&

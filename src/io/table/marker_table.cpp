@@ -1,4 +1,4 @@
-// Reads the rows of a marker table, and the rate from their times.
+// Reads the rows of a marker table, and finds the rate from their times.
 #include "io/table/marker_table.hpp"
 
 #include <fmt/format.h>
@@ -53,7 +53,7 @@ class TableReader {
  private:
   std::size_t bytes_per_frame() const { return markers_ * (sizeof(Vec3) + 2) + 16; }
 
-  // Never for more frames than may be.
+  // Reserves memory, but not for more frames than the limit allows.
   void reserve(std::size_t frames) {
     const std::size_t affordable = memory_limit(text_.bytes.size()) / bytes_per_frame();
     const std::size_t count = std::min(frames, affordable);
@@ -94,7 +94,8 @@ class TableReader {
     label(table_.frame_column, finding_.labels.frames);
     label(table_.time_column, finding_.labels.times_s);
     const std::size_t first = clip_.positions.size();
-    // More frames than expected: room for all there can be, at once rather than by doubling.
+    // The table has more frames than expected: reserves memory for all possible frames at once
+    // instead of doubling.
     if (first + markers_ > clip_.positions.capacity()) reserve(text_.bytes.size());
     clip_.positions.resize(first + markers_);
     clip_.observed.resize(first + markers_);
@@ -128,7 +129,7 @@ class TableReader {
     if (column >= 0) labels.push_back(values_[static_cast<std::size_t>(column)]);
   }
 
-  // Whether the fault is what a cut has left of the last number.
+  // Whether the fault is the start of a last number that was cut.
   bool is_cut_number(const CellRow& row) const {
     if (row.end != text_.bytes.data() + text_.bytes.size()) return false;
     const std::string_view word(row.fault, static_cast<std::size_t>(row.end - row.fault));
@@ -149,7 +150,7 @@ class TableReader {
   // The last number of a file that ends in the middle of a row may have lost digits.
   void leave_out_cut_value() {
     if (!ends_in_row()) return;
-    // One repair says it all.
+    // The repair `file_cut` covers these faults too.
     too_short_.count -= last_row_.cells + 1 < width_ ? 1 : 0;
     incomplete_.count -= incomplete_in_row_;
     note_repair(text_, diagnostics_, "file_cut", table_.end,
@@ -169,7 +170,7 @@ class TableReader {
     }
   }
 
-  // A row without any sample.
+  // Removes a last row without samples.
   void drop_last_row() {
     --table_.frames;
     clip_.positions.resize(table_.frames * markers_);
@@ -200,7 +201,7 @@ class TableReader {
     table_.observed = clip_.observed;
   }
 
-  // Unless empty cells say what is missing.
+  // Marks zeros as missing, unless empty cells mark missing samples.
   void hide_zeros() {
     if (std::find(clip_.observed.begin(), clip_.observed.end(), 0) != clip_.observed.end()) return;
     for (std::size_t i = 0; i < clip_.positions.size(); ++i) {
@@ -233,10 +234,10 @@ class TableReader {
   TableFinding finding_;
   CountedRepair too_short_;
   CountedRepair incomplete_;
-  std::size_t incomplete_in_row_ = 0;  // of the last row
+  std::size_t incomplete_in_row_ = 0;  // incomplete markers in the last row
 };
 
-// Half a unit in the last decimal that any of the first times has.
+// Returns half a unit of the last decimal place among the first times.
 double rounding_of(const std::vector<double>& times_s) {
   unsigned decimals = 0;
   char text[fixed_number_room];
@@ -251,7 +252,7 @@ double rounding_of(const std::vector<double>& times_s) {
   return 0.5 * portable::pow(10.0, -static_cast<double>(decimals));
 }
 
-// The rate in use, or the whole number of hertz, that rounded times can stand for.
+// Returns the usual rate, or whole number of hertz, that matches rounded times.
 double rate_of(double mean_step_s, double tolerance_s) {
   // Chosen by hand.
   constexpr std::array<double, 20> in_use{23.976, 24,  25,  29.97,  30,  50,  59.94,

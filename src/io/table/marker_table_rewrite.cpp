@@ -1,4 +1,4 @@
-// Writes changed markers into the bytes of the table that they come from.
+// Writes changed markers into the bytes of their source table.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -38,7 +38,7 @@ class TableRewriter {
       if (table_.is_filler(patch_.row())) continue;
       mend_labels(f);
       for (std::size_t m = 0; m < clip_.marker_count(); ++m) compare(f, m);
-      // The row may look whole from now on: digits that were cut must not pass for a sample.
+      // The row may look complete after the rewrite, so a sample with cut digits is removed.
       for (const std::size_t column : cut_) {
         if (patch_.has_replacements()) empty(column);
       }
@@ -51,7 +51,7 @@ class TableRewriter {
   }
 
  private:
-  // A number or a time that is not finite; the numbers of frames follow from the first.
+  // Replaces a frame number or time that is not finite; frame numbers continue from the first.
   void mend_labels(std::size_t frame) {
     if (is_no_number(table_.frame_column)) {
       patch_.replace(static_cast<std::size_t>(table_.frame_column),
@@ -78,11 +78,11 @@ class TableRewriter {
     if (!known && !was_known) {
       const bool was_cut = !std::isnan(before.x + before.y + before.z) && !(before == Vec3{});
       if (was_cut) cut_.insert(cut_.end(), columns.begin(), columns.end());
-      // In a file that has empty cells, zeros no longer go without saying.
+      // In a file with empty cells, zeros no longer mean missing samples, so they are emptied.
       if (before == Vec3{} && empties_cells_) {
         for (const std::size_t column : columns) empty(column);
       }
-      // A word such as nan: what is left of the position is missing, too.
+      // If one cell is a word such as nan, the rest of the position is missing too.
       const bool has_word = std::any_of(columns.begin(), columns.end(), [&](std::size_t column) {
         return patch_.is_no_number(column);
       });
@@ -98,7 +98,7 @@ class TableRewriter {
     }
   }
 
-  // Another walk over the text, which only a changed take needs.
+  // Reads the text again, which only a changed take needs.
   unsigned decimals() {
     if (!decimals_) decimals_ = decimals_of(bytes_, table_);
     return *decimals_;
@@ -108,9 +108,9 @@ class TableRewriter {
   std::string_view bytes_;
   const MarkerTable& table_;
   CellPatch patch_;
-  bool empties_cells_ = false;      // a sample that was there is missing now
-  bool needs_empty_cells_ = false;  // which only a table with separators can show
-  std::vector<std::size_t> cut_;    // columns of a sample that the end of the file cut
+  bool empties_cells_ = false;      // a sample that was observed is now missing
+  bool needs_empty_cells_ = false;  // only a table with separators can have empty cells
+  std::vector<std::size_t> cut_;    // columns of a sample that was cut by the end of the file
   std::optional<unsigned> decimals_;
 };
 

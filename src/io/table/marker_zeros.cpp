@@ -1,4 +1,4 @@
-// Tells zeros of missing markers from markers that rest at the origin, by their jumps.
+// Distinguishes zeros of missing markers from markers that rest at the origin, by their jumps.
 #include "io/table/marker_zeros.hpp"
 
 #include <algorithm>
@@ -12,10 +12,10 @@ namespace {
 
 // See docs/formats/c3d.md and trc.md. Chosen by hand, not swept.
 constexpr double steps_of_a_jump = 20;
-// No measurement is finer than this. Chosen by hand, not swept.
+// The finest resolution of a measurement. Chosen by hand, not swept.
 constexpr double finest_resolution_m = 1e-4;
 constexpr double metres_of_unknown_unit = 0.001;
-// Of a marker whose usual step is not known. Chosen by hand, not swept.
+// For a marker whose usual step is not known. Chosen by hand, not swept.
 constexpr double longest_jump_m = 0.05;
 
 // One marker's path.
@@ -32,7 +32,8 @@ class MarkerPath {
   }
   bool is_elsewhere(std::size_t frame) const { return is_seen(frame) && !is_zero(frame); }
 
-  // From frame to frame where it is elsewhere in both; nothing where it never is.
+  // Returns the usual step between frames in which the marker is away from the origin; empty if
+  // there are none.
   std::optional<double> usual_step() const {
     std::vector<double> steps;
     for (std::size_t f = 1; f < frames(); ++f) {
@@ -53,7 +54,7 @@ class MarkerPath {
   const std::vector<std::uint8_t>& is_measured_;
 };
 
-// What is longer cannot be a step of the marker.
+// Returns the longest possible step of the marker.
 double longest_step(const MarkerPath& path, double resolution, double metre) {
   const std::optional<double> usual = path.usual_step();
   if (!usual) return std::max(longest_jump_m * metre, steps_of_a_jump * resolution);
@@ -63,8 +64,8 @@ double longest_step(const MarkerPath& path, double resolution, double metre) {
 void find_in_path(const MarkerPath& path, std::size_t marker, double resolution, double metre,
                   std::vector<ZeroGap>& gaps) {
   double jump = -1;
-  double before = -1;    // distance where it was last elsewhere; negative where it never was
-  std::size_t next = 0;  // where it is elsewhere again
+  double before = -1;    // distance of its last position away from the origin; negative: none
+  std::size_t next = 0;  // frame in which it is away from the origin again
   for (std::size_t f = 0; f < path.frames(); ++f) {
     if (path.is_elsewhere(f)) before = path.distance(f);
     if (!path.is_zero(f)) continue;
@@ -74,14 +75,14 @@ void find_in_path(const MarkerPath& path, std::size_t marker, double resolution,
     while (next < path.frames() && !path.is_elsewhere(next)) ++next;
     const double after = next < path.frames() ? path.distance(next) : -1;
     if (jump < 0) jump = longest_step(path, resolution, metre);
-    // One that is never elsewhere has no jump to tell it by.
+    // A marker that is always at the origin has no jump.
     if (std::max(before, after) > jump) gaps.push_back({marker, f, last});
     f = last - 1;
   }
 }
 
-// Markers that are at the origin in every frame; none in a clip that has another way to say what is
-// missing.
+// Returns the markers that are at the origin in every frame; empty for a clip that marks missing
+// samples in another way.
 std::vector<std::size_t> never_elsewhere(const Take& clip,
                                          const std::vector<std::uint8_t>& is_measured) {
   std::vector<std::size_t> markers;
@@ -103,7 +104,7 @@ std::vector<std::size_t> never_elsewhere(const Take& clip,
 std::vector<ZeroGap> find_zero_gaps(const Take& clip, double resolution,
                                     const std::vector<std::uint8_t>& is_measured) {
   std::vector<ZeroGap> gaps;
-  // Few takes have any.
+  // Few takes have zeros.
   if (std::find(clip.positions.begin(), clip.positions.end(), Vec3{}) == clip.positions.end())
     return gaps;
   const double unit_m = metres_per_unit(clip.unit);
@@ -111,8 +112,8 @@ std::vector<ZeroGap> find_zero_gaps(const Take& clip, double resolution,
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
     if (clip.holds_positions(m)) find_in_path({clip, m, is_measured}, m, resolution, metre, gaps);
   }
-  // Alone it may be there by right, unless zeros stand for what is missing elsewhere in the clip;
-  // several cannot be in one place.
+  // A single marker may really be at the origin, unless zeros mean missing samples elsewhere in the
+  // clip; two markers cannot be in one place.
   const std::vector<std::size_t> still = never_elsewhere(clip, is_measured);
   if (clip.frame_count() < 2 || (still.size() < 2 && gaps.empty())) return gaps;
   for (const std::size_t m : still) gaps.push_back({m, 0, clip.frame_count()});

@@ -16,18 +16,19 @@ struct ZeroGap {
   std::size_t last = 0;
 };
 
-/// Many programs write 0 0 0 where a marker was not seen. Finds the samples at exactly the origin
-/// that no marker can have been at: it would have to jump there, or back, from farther away than 20
-/// times the step that it usually makes from frame to frame (5 cm where that is not known), than 20
-/// `resolution` (file units), and than 2 mm; or it is there in every frame of several, and so is
-/// another marker (no two can be in one place) or such zeros stand elsewhere, in a clip where no
-/// sample is missing otherwise. Millimetres are taken where the clip names no unit that is known. A
-/// marker that rests at the origin or passes through it keeps its samples; so do points that are no
-/// positions, and a sample of which `is_measured` (one for each sample, or empty) says so.
+/// Finds samples at exactly the origin that are missing, because many programs write 0 0 0 for a
+/// marker that was not seen. A sample is missing if the marker would have to jump to the origin, or
+/// back, by more than 20 times its usual step from frame to frame (5 cm if that is not known), more
+/// than 20 `resolution` (file units), and more than 2 mm. In a clip of several frames, a marker
+/// that is always at the origin is missing if another marker is there too (two cannot be in one
+/// place) or such zeros occur elsewhere, and the clip marks no samples as missing. The unit is a
+/// millimetre if the clip names no known unit. A marker that rests at the origin or passes through
+/// it keeps its samples; so do points that are not positions, and samples that `is_measured` (one
+/// mark per sample, or empty) marks.
 std::vector<ZeroGap> find_zero_gaps(const Take& clip, double resolution = 0,
                                     const std::vector<std::uint8_t>& is_measured = {});
 
-/// How many samples the gaps hold.
+/// Returns the number of samples in the gaps.
 std::size_t sample_count(const std::vector<ZeroGap>& gaps);
 
 /// Makes the samples of gaps missing.
@@ -36,7 +37,7 @@ void mark_missing(const std::vector<ZeroGap>& gaps, Take& clip);
 /// The result of `mark_zeros_missing`.
 struct MissingZeros {
   std::size_t samples = 0;
-  std::size_t first_frame = 0;  ///< of the first of them
+  std::size_t first_frame = 0;  ///< frame of the first of these samples
 };
 
 /// Finds gaps of zeros and makes their samples missing.

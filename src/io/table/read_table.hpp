@@ -1,5 +1,4 @@
-// What readers of tables share: the bytes to read and what goes with them, and the frame rate of a
-// table.
+// Functions that readers of tables share: reading the bytes, and the frame rate of a table.
 #pragma once
 
 #include <cstddef>
@@ -16,24 +15,24 @@ namespace kinemend {
 
 /// The statements of a table about its rate.
 struct TableRate {
-  double stated_hz;            ///< NaN or 0 where nothing is stated
-  std::size_t stated_place;    ///< byte at which it is, or would be
+  double stated_hz;            ///< NaN or 0 if the file states no rate
+  std::size_t stated_place;    ///< byte of the rate, or of its expected place
   std::size_t rows_place;      ///< byte of the first row
-  double asked_hz;             ///< of the options; 0: not given
+  double asked_hz;             ///< from the options; 0: not given
   double unknown_hz;           ///< the format's own guess
-  std::string_view stated_by;  ///< in words: `DataRate`
-  std::size_t mismatch_place;  ///< byte that a mismatch with the times is noted at
-  std::string_view missing;    ///< in words, where nothing usable is stated
-  bool must_be_stated;         ///< whether times and options in its place are a repair too
+  std::string_view stated_by;  ///< name of the field: `DataRate`
+  std::size_t mismatch_place;  ///< byte for reports of a mismatch with the times
+  std::string_view missing;    ///< message if no usable rate is stated
+  bool must_be_stated;         ///< whether using times or options instead is a repair too
 };
 
-/// The rate that is stated, else that of the times, else the one asked for, else the guess.
+/// Returns the stated rate, else the rate of the times, else the requested rate, else the guess.
 /// Repairs: `frame_rate_unusable`, `time_mismatch`, `frame_rate_assumed`.
 double table_rate(const SourceText& text, Diagnostics& diagnostics, const RowRate& times,
                   const TableRate& said);
 
-/// Reads a table by `Reader(document, name, options).read()`, and keeps its bytes in the `Document`
-/// that becomes the take's source.
+/// Reads a table with `Reader(document, name, options).read()`, and keeps its bytes in the
+/// `Document`, which becomes the take's source.
 template <class Document, class Reader>
 TakeResult read_table(std::string&& bytes, std::string_view name, std::string_view format,
                       const ReadOptions& options) {

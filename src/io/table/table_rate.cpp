@@ -1,4 +1,4 @@
-// Compares the stated rate with the times of the rows, and notes what had to be assumed.
+// Compares the stated rate with the times of the rows, and reports assumptions.
 #include "io/table/read_table.hpp"
 
 #include <fmt/format.h>
@@ -11,7 +11,8 @@ namespace kinemend {
 
 double table_rate(const SourceText& text, Diagnostics& diagnostics, const RowRate& times,
                   const TableRate& said) {
-  // Between the rate that is stated and that of the times, relative. Chosen by hand, not swept.
+  // Relative tolerance between the stated rate and the rate of the times. Chosen by hand, not
+  // swept.
   constexpr double tolerance = 0.01;
   const double stated = usable_rate(text, diagnostics, said.stated_hz, said.stated_place);
   if (stated > 0) {

@@ -15,27 +15,28 @@ namespace kinemend {
 
 /// The lines above the rows of a TRC file.
 struct TrcHeader {
-  std::string_view first_line;  ///< `PathFileType ...`; empty where there is none
-  std::string first_cell;       ///< the name that the first line gives
+  std::string_view first_line;  ///< `PathFileType ...`; empty if missing
+  std::string first_cell;       ///< the name in the first line
   std::vector<std::string> keys;
   std::vector<std::string> values;
   std::size_t values_line = 0;  ///< byte of the line of values
   std::size_t labels_line = 0;
   std::vector<std::string> labels;  ///< after `Frame#` and `Time`, one per marker
   bool has_time = true;
-  CellStyle style;  ///< of the rows
+  CellStyle style;  ///< style of the rows
   std::size_t data_begin = 0;
 
-  /// The value of a key; empty where the header lacks it.
+  /// Returns the value of a key; empty if the header lacks it.
   std::string_view value(std::string_view key) const;
-  /// The same as a number; NaN where it is not finite. A decimal comma is allowed.
+  /// Returns the value of a key as a number; NaN if it is not finite. A decimal comma is allowed.
   double number(std::string_view key) const;
 };
 
 /// Parses up to the first row. Errors: `unreadable_input` with the line.
 TrcHeader read_trc_header(const SourceText& text, Diagnostics& diagnostics);
 
-/// A TRC file as it was read: the bytes hold every digit, so beside them only landmarks are kept.
+/// A TRC file as it was read. The bytes hold every digit, so only a few offsets are stored with
+/// them.
 struct TrcDocument : SourceDocument {
   std::string bytes;
   std::string first_line;

@@ -14,13 +14,13 @@ bool begins_with(std::string_view text, std::string_view word) {
   return equal_ignoring_case(text.substr(0, word.size()), word);
 }
 
-// Of a line that may hold nothing but separators and quotes.
+// Whether a character belongs to a line that holds only separators and quotes.
 bool is_filler(char c) { return is_space(c) || c == ',' || c == ';' || c == '"'; }
 
 bool is_empty(std::string_view line) { return std::all_of(line.begin(), line.end(), is_filler); }
 
-// Cells stand between tabs; some files have only spaces, and spreadsheets write commas, or
-// semicolons where commas are decimal.
+// Returns the separator: tabs, or spaces in some files; spreadsheets write commas, or semicolons if
+// commas are decimal.
 char separator_of(std::string_view line) {
   for (const char separator : {'\t', ';', ','}) {
     if (line.find(separator) != line.npos) return separator;
@@ -52,7 +52,8 @@ class TrcHeaderReader {
   }
 
  private:
-  // In a head of commas the values have commas too, but in one of spaces they may be decimal.
+  // Returns the separator of values. A head with commas has values with commas; in a head with
+  // spaces commas may be decimal.
   char separator_in(std::string_view line) const {
     if (line.find('\t') != line.npos) return '\t';
     return head_separator_ == '\t' ? ' ' : head_separator_;
@@ -136,7 +137,7 @@ class TrcHeaderReader {
     return true;
   }
 
-  // The row of X1, Y1, Z1 and the blank line; both may be missing.
+  // Reads the row of X1, Y1, Z1 and the blank line; both may be missing.
   void read_below_labels() {
     bool has_axes = false, has_blank = false;
     header_.data_begin = next_;
@@ -167,7 +168,7 @@ class TrcHeaderReader {
   void choose_style() {
     const std::string_view rows = text_.bytes.substr(header_.data_begin);
     const std::string_view line = line_from(rows, 0);
-    // The labels' separator is the rows' own where the rows have it, tabs before all others.
+    // Rows use the labels' separator if they contain it, but tabs take precedence.
     char separator = '\t';
     if (line.find('\t') == line.npos) {
       const bool as_labels = labels_separator_ != ' ' && line.find(labels_separator_) != line.npos;
@@ -189,7 +190,7 @@ class TrcHeaderReader {
                 "numbers have decimal commas");
   }
 
-  // Commas between cells, and not one point: digits behind decimal commas would pass for cells.
+  // Rejects rows with commas and no point: digits after decimal commas would be read as cells.
   void refuse_commas_of_two_kinds(std::string_view rows) const {
     if (header_.style.separator != ',' || rows.find_first_of(".\"") != rows.npos) return;
     throw text_.error_at(header_.data_begin,
@@ -210,7 +211,7 @@ class TrcHeaderReader {
   const SourceText& text_;
   Diagnostics& diagnostics_;
   TrcHeader header_;
-  char head_separator_ = 0;  // of its first line
+  char head_separator_ = 0;  // separator of the first line
   char labels_separator_ = '\t';
   std::size_t place_ = 0;
   std::size_t next_ = 0;

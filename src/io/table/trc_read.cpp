@@ -63,14 +63,14 @@ class TrcReader {
     const auto declared = whole(header_.number("NumFrames"));
     TableFinding rows = read_marker_table(text_, diagnostics_, declared, document_.table, clip_);
     if (rows.widest == 0) return rows;
-    // Commas may stand for two things at once.
+    // The commas may be both separators and decimal.
     if (document_.table.style.separator == ',') {
       throw text_.error_at(rows.wide_row,
                            fmt::format("expected {} cells between commas as in the row of labels, "
                                        "found {}",
                                        document_.table.width(), rows.widest));
     }
-    // Coordinates beyond the labels: markers without a name.
+    // Coordinates beyond the labels are markers without a name.
     const std::size_t markers = (rows.widest - leading_columns() + 2) / 3;
     check_marker_count(markers);
     clip_.names.resize(markers);
@@ -108,7 +108,7 @@ class TrcReader {
 
   void check_counts() {
     if (clip_.names.empty()) throw text_.error_at(header_.labels_line, "the file has no markers");
-    // A take without frames says so.
+    // A take without frames must state NumFrames 0.
     if (document_.table.frames == 0 && header_.number("NumFrames") != 0) {
       throw text_.error_at(header_.data_begin, "expected a row for each frame, found none");
     }

@@ -16,18 +16,18 @@ namespace kinemend {
 
 namespace {
 
-// Of what is written without a layout of its source's.
+// The style of a file that does not use its source's layout.
 struct PlainStyle {
   std::string first_line;
   std::string_view line_end = "\n";
-  unsigned decimals = 10;  // more than nine: as many as a value needs
+  unsigned decimals = 10;  // more than nine: as many digits as a value needs
 };
 
-// The first line and the digits of the source, for a clip that has other frames or markers.
+// Returns the first line and the decimals of the source, for a clip whose frames or markers differ.
 PlainStyle style_of(const Take& clip, const TrcDocument* document) {
   PlainStyle style;
   if (document != nullptr) {
-    // One of commas does not go with tabs.
+    // A first line with commas does not fit a table with tabs.
     if (document->first_line.find('\t') != std::string::npos ||
         document->first_line.find_first_of(",;") == std::string::npos) {
       style.first_line = document->first_line;

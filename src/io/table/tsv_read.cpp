@@ -17,7 +17,7 @@ namespace {
 // Chosen by hand (docs/formats/tsv.md).
 constexpr double tsv_rate_when_unknown_hz = 100;
 
-// NO_OF_FRAMES and the like.
+// Whether a cell is a key, such as NO_OF_FRAMES.
 bool is_key(std::string_view cell) {
   const auto fits = [](char c) {
     return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
@@ -61,7 +61,7 @@ class TsvReader {
     if (count > 0) note_repair(text_, diagnostics_, kind, place, message, count);
   }
 
-  // Up to the first line that starts with no key; that one may be a row of labels.
+  // Reads keys up to the first line without a key, which may be a row of labels.
   void read_keys() {
     for (;;) {
       const std::size_t begin = lines_.next();
@@ -104,7 +104,7 @@ class TsvReader {
     }
   }
 
-  // Its name, its frame, its time.
+  // Reads an event: its name, its frame, its time.
   void read_event(const Cells& cells) {
     const double time_s = number_of(cells[3]);
     if (std::isfinite(time_s)) {
@@ -152,14 +152,14 @@ class TsvReader {
     }
     name_the_unnamed();
     check_counts();
-    // FREQUENCY is a word where the cameras were driven from outside.
+    // FREQUENCY is a word if the cameras had an external trigger.
     clip_.frame_rate_hz = table_rate(
         text_, diagnostics_, check_row_labels(text_, diagnostics_, table, found.labels, clip_),
         {rate_.number, rate_.place, table.begin, options_.frame_rate_hz, tsv_rate_when_unknown_hz,
          "FREQUENCY", rate_.place, "the head has no usable FREQUENCY", true});
   }
 
-  // `Frame`, `Time`, then three for each marker.
+  // Counts the labels before the markers: `Frame`, `Time`, then three labels per marker.
   std::size_t leading_by_labels() {
     std::size_t leading = 0;
     while (leading < labels_.size() && !ends_with_axis(labels_[leading])) ++leading;
@@ -188,7 +188,7 @@ class TsvReader {
            std::string_view("XYZ").find(label.back()) != std::string_view::npos;
   }
 
-  // Frame and time stand before the markers, or neither.
+  // Either both frame and time precede the markers, or neither.
   std::size_t leading_by_width(std::string_view rows) {
     const std::size_t cells = split_cells(line_from(rows, 0), '\t').size();
     if (cells <= 3 * clip_.names.size()) return 0;
