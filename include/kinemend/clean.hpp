@@ -107,12 +107,12 @@ struct TrackSummary {
   std::size_t peak_frames = 1;
 };
 
-/// The changes made to a take of either kind.
+/// The report of cleaning a take of either kind.
 struct CleanReport {
   TakeKind kind = TakeKind::joints;
   std::string method;  ///< `Cleaner::name`
   TakeSource source;   ///< the source that was used for the take, and why
-  std::string unit;  ///< of the tracks: "deg" for joints; the file's for markers, empty if unknown
+  std::string unit;    ///< "deg" for joints; the file's unit for markers, empty if unknown
   std::size_t frames = 0;
   std::size_t calibration_frames = 0;  ///< at the start, left alone; joints only
   double frame_rate_hz = 0;
@@ -140,9 +140,9 @@ struct CleanResult {
   CleanReport report;
 };
 
-/// Cleans a take: runs the cleaner, fills gaps if asked (measured samples come out as without
-/// filling), holds feet if asked, blends by strength, range and largest change, and reports.
-/// Samples outside the selection and samples whose change is below rounding keep their exact value.
+/// Cleans a take: runs the cleaner, fills gaps if asked (this does not affect measured samples),
+/// holds feet if asked, blends by strength, range and largest change, and reports. Samples outside
+/// the selection and samples whose change is below rounding keep their exact value.
 /// Joints: calibration frames are set aside; joints without rotation channels keep their exact
 /// value; joints with one or two get rotations that these channels can express.
 /// Markers: missing samples that are not filled stay missing; points that are angles or forces keep

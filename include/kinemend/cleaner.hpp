@@ -15,7 +15,7 @@
 
 namespace kinemend {
 
-/// The change made to one sample of a track.
+/// The treatment of one sample of a track.
 enum class Action : std::uint8_t { kept, denoised, despiked, filled, foot_adjusted, refused };
 
 std::string_view to_string(Action action);

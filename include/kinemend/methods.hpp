@@ -82,7 +82,8 @@ std::unique_ptr<Cleaner> make_one_euro(const OneEuroOptions& options = {});
 /// that quick moves are kept.
 struct BilateralOptions {
   double sigma_t_s = 0.01;  ///< standard deviation of the weights in time, of one pass
-  double sigma_g_deg = 8;   ///< the same in rotation angle (geodesic distance |Log(a^-1 b)|)
+  /// Standard deviation in rotation angle (geodesic distance |Log(a^-1 b)|).
+  double sigma_g_deg = 8;
   std::int64_t passes = 5;
   std::string ends = "reflect";  ///< reflect (continues a steady turn) or mirror (the paper's)
 };
@@ -90,7 +91,7 @@ std::unique_ptr<Cleaner> make_bilateral(const BilateralOptions& options = {});
 
 /// Non-local pose means (Dean 2016): replaces a pose by the mean of nearby poses that occur in
 /// similar stretches of motion (patches). With `causal` the root position is not changed.
-/// Errors, beside values out of range: `causal` with the whole take as window.
+/// Errors, besides values out of range: `causal` with the whole take as window.
 struct NonlocalOptions {
   double window_s = 0.175;      ///< whole window that is searched (21 poses at 120 Hz); 0: all
   double patch_s = 0.092;       ///< whole patch (11 poses at 120 Hz)

@@ -146,8 +146,8 @@ struct Comparison {
   double psnr_peak = 0;                               ///< the peak it was taken with
   std::optional<MeanAndDeviation> rmse_per_marker_m;  ///< where the scale is known
   double mse_rad2 = 0;
-  FootSlide foot_slide;                 ///< of the other clip
-  FootSlide foot_slide_reference;       ///< of the reference itself, for comparison
+  FootSlide foot_slide;                 ///< slide of the other clip
+  FootSlide foot_slide_reference;       ///< slide of the reference itself, for comparison
   std::vector<JointComparison> joints;  ///< J
 };
 
@@ -177,8 +177,8 @@ struct MarkerComparisonSettings {
 /// Errors of a marker, or of a whole take, in file units of the reference. Root mean squares are
 /// taken over samples that both takes have.
 struct MarkerErrors {
-  std::size_t samples = 0;  ///< of markers
-  double rms_distance = 0;  ///< of positions
+  std::size_t samples = 0;  ///< number of marker samples
+  double rms_distance = 0;  ///< root mean square of distances
   double max_distance = 0;
   double rms = 0;           ///< along an axis, over the channels that are compared
   double velocity_rms = 0;  ///< `rms` of velocities by central differences, per second

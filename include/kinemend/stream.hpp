@@ -34,7 +34,7 @@ class Stream {
  private:
   const Cleaner& cleaner_;
   Take like_;
-  TakeView view_;  // of `like_`
+  TakeView view_;  // view of `like_`
   std::unique_ptr<LiveFilter> filter_;
 };
 

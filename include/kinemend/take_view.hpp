@@ -39,7 +39,8 @@ struct Selection {
   std::vector<std::uint8_t> owners{};  ///< J or M, 1 if it may change; empty: all
   bool root_position = true;           ///< position of joint 0
   bool translations = true;            ///< positions of translated joints that are selected
-  double body_height = 0;  ///< of the person, file units, the scale for markers; 0: estimated
+  /// Height of the person, file units, the scale for markers; 0: estimated.
+  double body_height = 0;
   TakeNoise noise{};
   Source source = Source::unknown;  ///< the system that recorded the take
 

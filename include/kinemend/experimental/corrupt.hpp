@@ -22,7 +22,7 @@ struct DamageReport {
   std::size_t samples_damaged = 0;
   double rms_deg = 0;  ///< geodesic, over all samples; positions as an arc
   double max_deg = 0;
-  double rms_position = 0;         ///< of joints or markers, file units
+  double rms_position = 0;         ///< for positions of joints or markers, file units
   std::vector<std::string> notes;  ///< differences from the requested damage
 };
 

@@ -27,7 +27,7 @@ struct ModelCard {
 /// Plain data: immutable in use and shared between threads.
 struct Model {
   std::string method;     ///< "example", "wiener", "kalman-learned"
-  int version = 1;        ///< of the method's tensors
+  int version = 1;        ///< version of the method's tensors
   double rate_hz = 30;    ///< frame rate of the training motion
   std::size_t takes = 0;  ///< number of takes it was trained on
   double seconds = 0;     ///< duration of the training motion
@@ -57,7 +57,7 @@ std::string model_checksum(std::string_view bytes);
 /// A model that is part of the program.
 struct ShippedModel {
   std::string_view method;
-  std::string_view bytes;  ///< of the model file
+  std::string_view bytes;  ///< content of the model file
 };
 std::vector<ShippedModel> shipped_models();
 /// Returns the shipped model of a method, which is parsed once and kept. Errors: `ErrorKind::usage`

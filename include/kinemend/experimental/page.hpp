@@ -14,8 +14,7 @@
 
 namespace kinemend {
 
-/// Whether this build contains the page's program. A build whose bundle in web/dist
-/// was removed does not.
+/// Whether this build contains the page's program. A build without the bundle in web/dist does not.
 bool has_report_page();
 
 struct PageSettings {

@@ -108,8 +108,8 @@ class ParameterMaker {
     if (!others.empty()) set_texts(all_, "POINT", "SCALARS", others);
   }
 
-  // "+X": Returns an axis with its sign, which "X" implies if it is positive: the axis nearest to
-  // the rotated one.
+  // Returns the axis nearest to a rotated axis, with its sign ("+X", or "X" if the source writes no
+  // plus).
   std::string turned_axis(std::string_view axis) const {
     const bool negative = axis.substr(0, 1) == "-";
     const bool has_sign = negative || axis.substr(0, 1) == "+";

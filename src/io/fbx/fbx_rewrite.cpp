@@ -322,7 +322,7 @@ class FbxRewriter {
   std::vector<std::vector<double>> changed_;  // by curve: its value in each frame
   std::vector<std::size_t> mended_;           // repaired curves
   std::vector<std::int64_t> times_;
-  std::vector<Vec3> angles_, translations_;  // of all joints, by frame
+  std::vector<Vec3> angles_, translations_;  // values of all joints, by frame
   std::vector<FbxMatrix> bases_;
   std::vector<FbxPatch> patches_;
 };

@@ -81,7 +81,7 @@ struct FbxScene {
   std::vector<FbxConnection> connections;
   std::unordered_map<std::int64_t, std::uint32_t> record_of_id;
   double ticks_per_second = 46186158000.0;  ///< FBX SDK, FbxTime
-  double frame_rate_hz = 30;                ///< of the file's time mode
+  double frame_rate_hz = 30;                ///< rate of the file's time mode
   double unit_cm = 1;                       ///< UnitScaleFactor
   std::int64_t up_axis = 1;                 ///< 0 x, 1 y, 2 z
 };

@@ -18,7 +18,7 @@ struct NpzDocument : SourceDocument {
   std::string bytes;
   ZipArchive archive;
   double rate_when_unknown_hz = 0;  ///< for a file without a usable rate
-  std::size_t max_depth = 0;        ///< of joints
+  std::size_t max_depth = 0;        ///< deeper nesting of joints is an error
 };
 
 /// Returns the unpacked array of that name, or empty. `left_bytes` is the number of bytes that may

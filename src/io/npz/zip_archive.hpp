@@ -13,20 +13,20 @@ namespace kinemend {
 /// A member of an archive and its offsets in the bytes.
 struct ZipMember {
   std::string name;
-  std::size_t begin = 0;  ///< of its local header
+  std::size_t begin = 0;  ///< offset of its local header
   std::size_t end = 0;    ///< beginning of the next member, or of the directory
-  std::size_t data = 0;   ///< of its packed bytes
+  std::size_t data = 0;   ///< offset of its packed bytes
   std::size_t packed_bytes = 0;
   std::size_t raw_bytes = 0;
   std::uint32_t checksum = 0;
   std::uint16_t packing = 0;
   std::uint16_t flags = 0;
-  std::size_t entry = 0;  ///< of its entry in the directory
+  std::size_t entry = 0;  ///< offset of its entry in the directory
   std::size_t entry_bytes = 0;
 };
 
 struct ZipArchive {
-  std::string name;  ///< of the file, for messages
+  std::string name;  ///< name of the file, for messages
   std::vector<ZipMember> members;
   std::size_t directory = 0;
   std::size_t directory_end = 0;
