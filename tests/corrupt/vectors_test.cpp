@@ -144,8 +144,7 @@ TEST_P(DamageOfVectors, TouchesNamedTracksOnlyAndGivesThemTheSameAsAmongOthers) 
 // Rotation vectors are damaged as rotations: with the same seed, a clip and its vectors stay equal.
 TEST(DamageOfRotationVectors, IsThatOfTheRotations) {
   Take clip = moving_humanoid(300);
-  for (auto& channels : clip.skeleton.channels)
-    channels.clear();  // removes all channel restrictions
+  for (auto& channels : clip.skeleton.channels) channels.clear();  // no restrictions
   const OptionValues with_root = {{"root", true}};
   const std::vector<std::pair<std::string, OptionValues>> cases = {
       {"gaussian", {}}, {"uniform", {}},       {"ar1", {}},

@@ -55,8 +55,7 @@ TEST(ForwardKinematics, PutsRestRotationsBeforeLocalOnes) {
   Take clip = chain_clip(3, 1);
   clip.skeleton.rest_rotations[1] = about_z(pi / 2);
   expect_close(forward_kinematics(clip, 0).positions[2], {1, 1, 0});
-  clip.rotation(0, 1) =
-      about_y(-pi / 2);  // moves its x axis to its z axis, which is the parent's z
+  clip.rotation(0, 1) = about_y(-pi / 2);  // its x axis to its z, the parent's z
   expect_close(forward_kinematics(clip, 0).positions[2], {1, 0, 1});
   clip.skeleton.rest_rotations[0] = about_x(pi / 2);
   expect_close(forward_kinematics(clip, 0).positions[2], {1, -1, 0});

@@ -261,8 +261,7 @@ TEST(Pipeline, FillsTheGapsOfJoints) {
   for (std::size_t f = 100; f < 110; ++f) clip.rotation(f, 5) = exp({2, 0, 0});
   CleanSettings settings;
   settings.fill = FillSettings{};
-  settings.strength =
-      0.5;  // applies to smoothing only: a filling is not blended with the value stored in the gap
+  settings.strength = 0.5;  // smoothing only: a filling is not blended with the gap's value
   const CleanResult result = clean_take(clip, *make_auto(), settings);
   ASSERT_THAT(result.report.fill.gaps, SizeIs(1));
   EXPECT_TRUE(result.report.fill.gaps[0].filled) << result.report.fill.gaps[0].reason;

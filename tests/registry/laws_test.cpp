@@ -226,8 +226,7 @@ TEST_P(EveryAhead, GoesStraightThroughAGap) {
 TEST_P(EveryAhead, ChangesLittleWhenRunAgain) {
   const Take input = noisy_take();
   const Take once = cleaned(input), twice = cleaned(once);
-  EXPECT_LE(rms_angle_deg(once, twice),
-            0.25 * rms_angle_deg(input, once) + 1e-9);  // measured: 0.18
+  EXPECT_LE(rms_angle_deg(once, twice), 0.25 * rms_angle_deg(input, once) + 1e-9);  // 0.18
 }
 
 TEST_P(Every, BeatsItsDamagedInputOnAWalk) {

@@ -218,8 +218,7 @@ TEST_P(EveryCausalOnMarkers, BeatsItsDamagedInputAtRest) {
       truth.position(f, m) = truth.position(0, m);
   }
   const Take noisy = damaged(truth, 5, 0, 0, 2);
-  EXPECT_LT(rms_distance(cleaned(noisy), truth),
-            0.5 * rms_distance(noisy, truth));  // measured: 0.41
+  EXPECT_LT(rms_distance(cleaned(noisy), truth), 0.5 * rms_distance(noisy, truth));  // 0.41
 }
 
 // On a walk, the lag costs about as much as the smoothing gains.

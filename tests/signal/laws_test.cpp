@@ -271,8 +271,7 @@ TEST(EveryDenoiser, BringsANoisySignalNearerToTheCleanOneAndBendsNoEnd) {
     if (filter.name == "causal butterworth" || filter.name == "wide gaussian")
       continue;  // lags, or is too strong for this signal
     const PoseMatrix result = filtered(noisy, filter.apply);
-    const double share =
-        filter.name == "universal soft wavelet" ? 0.9 : 0.75;  // it flattens the signal
+    const double share = filter.name == "universal soft wavelet" ? 0.9 : 0.75;  // it flattens
     EXPECT_LT(rms(result.values, clean.values), share * rms(noisy.values, clean.values))
         << filter.name;
     // The ends keep at most the noise of the end sample.
