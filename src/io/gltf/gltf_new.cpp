@@ -201,8 +201,7 @@ std::vector<Vec3> held_track(const Take& clip, std::size_t marker) {
 std::string new_glb_of_joints(const Take& clip) { return SkeletonWriter(clip).write(); }
 
 std::string new_glb_of_markers(const Take& clip) {
-  // Radius of the marker spheres, and a millimetre for an unknown unit, as in other formats. Chosen
-  // by hand.
+  // Radius of the marker spheres; a millimetre if the unit is unknown. Chosen by hand.
   constexpr double radius_m = 0.008, metres_of_unknown_unit = 0.001;
   const double unit_m = metres_per_unit(clip.unit);
   const double scale = unit_m > 0 ? unit_m : metres_of_unknown_unit;

@@ -11,8 +11,7 @@ namespace kinemend {
 
 double table_rate(const SourceText& text, Diagnostics& diagnostics, const RowRate& times,
                   const TableRate& said) {
-  // Relative tolerance between the stated rate and the rate of the times. Chosen by hand, not
-  // swept.
+  // Relative difference of the stated rate and the times' rate. Chosen by hand, not swept.
   constexpr double tolerance = 0.01;
   const double stated = usable_rate(text, diagnostics, said.stated_hz, said.stated_place);
   if (stated > 0) {
