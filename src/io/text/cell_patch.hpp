@@ -27,10 +27,12 @@ class CellPatch {
   const CellRow& row() const { return row_; }
   /// Returns the value as read; NaN for an empty cell.
   double value(std::size_t column) const { return values_[column]; }
-  /// Whether the cell holds a word such as `nan` instead of a number.
+  /// Whether the cell holds a word such as `nan` instead of a number. Quotes around nothing are an
+  /// empty cell.
   bool is_no_number(std::size_t column) const {
     const TokenSpan& token = tokens_[column];
-    return std::isnan(values_[column]) && token.begin != token.end;
+    const std::string_view text(token.begin, static_cast<std::size_t>(token.end - token.begin));
+    return std::isnan(values_[column]) && text.find_first_not_of("\" \t") != text.npos;
   }
   /// Replaces a cell. NaN makes an empty cell, or `NaN` in a table without separators. The old
   /// digits are kept if they express the new value as accurately as `decimals` digits can.

@@ -1,6 +1,8 @@
 // Tests of CSV tables of markers and joints, from this project and from other programs.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <map>
 
 #include "io/hostile.hpp"
@@ -290,6 +292,26 @@ TEST(CsvWriter, EveryFixtureComesBackToTheByte) {
     const std::string written = write_take(read.take, "csv");
     EXPECT_TRUE(was_mended(read.diagnostics) || written == bytes) << path;
     EXPECT_EQ(write_take(read_table(written).take, "csv"), written) << path;
+  }
+}
+
+TEST(CsvWriter, QuotesAroundNothingAreAnEmptyCellThatComesBack) {
+  for (const char* name : {"good/joints.csv", "good/plain.csv"}) {
+    const std::string bytes = csv_fixture(name);
+    const std::size_t row = bytes.rfind('\n', bytes.size() - 2) + 1;
+    const auto cells =
+        std::count(bytes.begin() + static_cast<std::ptrdiff_t>(row), bytes.end(), ',');
+    std::size_t begin = bytes.find(',', bytes.find(',', row) + 1) + 1;  // after frame and time
+    for (std::ptrdiff_t cell = 2; cell <= cells; ++cell) {
+      SCOPED_TRACE(fmt::format("{}, cell {}", name, cell));
+      const std::size_t end = std::min(bytes.find(',', begin), bytes.find_first_of("\r\n", begin));
+      std::string quoted = bytes;
+      quoted.replace(begin, end - begin, "\"\"");
+      const TakeResult result = read_table(quoted);
+      EXPECT_EQ(result.diagnostics.count("value_not_finite"), 0u);
+      EXPECT_EQ(write_take(result.take), quoted);
+      begin = end + 1;
+    }
   }
 }
 
