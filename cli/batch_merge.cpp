@@ -41,7 +41,7 @@ struct FoundRow {
 };
 using FoundRows = std::map<std::string, FoundRow>;
 
-/// What the summaries beside the rows say about the whole batch.
+/// Facts about the whole batch in the summaries beside the rows.
 struct WholeBatch {
   std::string options_hash;
   std::string from;       ///< the summary that stated it

@@ -1,4 +1,4 @@
-// What the report promises of a filling, against what it becomes.
+// Compares the errors that the report expects with the real errors of fillings.
 #include <gtest/gtest.h>
 
 #include <numeric>
