@@ -1,9 +1,9 @@
-# The front desk: every target is one thin call of CMake, CTest or a script. `make help` lists them.
+# Every target is one short call of CMake, CTest or a script. `make help` lists them.
 SHELL := /bin/bash
 JOBS ?= $(shell nproc)
 PYTHON ?= /usr/bin/python3
 BUILD := build
-# One build serves every target but those of other systems and of sanitisers.
+# One build serves all targets except those for other systems and sanitisers.
 RELEASE := $(BUILD)/release
 # The sanitised build: `asan`, or `asan-all`, which has every room.
 ASAN ?= asan
@@ -12,7 +12,7 @@ DEMO := build/demo_takes
 # Each target installs the sections of packages.txt that it needs.
 need = @tools/install_packages packages.txt
 
-# The program for Windows, and what runs it here.
+# The program for Windows, and the emulator that runs it here.
 WINDOWS := $(BUILD)/windows/cli/kinemend.exe
 WINE ?= /usr/lib/wine/wine64
 
@@ -159,7 +159,7 @@ test-all: ## the same, with training, pages, browser, Python and Blender install
 	$(need) core test page browser train python blender
 	$(MAKE) test
 
-# The rooms that are not sanitised are those of the release build.
+# Rooms that are not sanitised come from the release build.
 asan-build:
 	$(need) core test sanitize
 	@cmake --preset release >/dev/null
@@ -195,7 +195,7 @@ papers: $(RELEASE)/.benches ## the papers' own experiments, and the figures of p
 	tools/run_papers $(RELEASE)
 	$(if $(CHECK),tools/check_figures build/papers)
 
-# On takes that the project makes itself, so that the figures are the same everywhere.
+# Uses synthetic takes, so that the figures are the same everywhere.
 papers-quick: $(RELEASE)/.benches
 	KINEMEND_DATA= tools/run_papers $(RELEASE) --quick
 	tools/check_figures build/papers --quick

@@ -37,7 +37,7 @@ def cost_of_cleaning(take, method):
         result = kinemend.clean(take, cleaner)
         spent = time.perf_counter() - begin
         costs.append(spent - result.report.figures.seconds)
-        # The next call does not pay for freeing it.
+        # Freeing it here keeps that cost out of the next call.
         del result
     return 1000 * (min(costs) - copy)
 

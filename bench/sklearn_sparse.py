@@ -40,7 +40,7 @@ atoms = training[random.choice(len(training), ATOMS, replace=False)]
 atoms /= np.linalg.norm(atoms, axis=1, keepdims=True)
 noisy = windows(2000, NOISE)
 timed("batch_omp", lambda: sparse_encode(noisy, atoms, algorithm="omp", n_nonzero_coefs=10, n_jobs=1))
-# Its lasso has half the squares.
+# scikit-learn's lasso halves the squared error.
 penalty = 0.25 * NOISE * np.sqrt(2 * np.log(ATOMS))
 for algorithm in ("lasso_cd", "lasso_lars"):
     timed(f"{algorithm}/256",

@@ -41,7 +41,7 @@ struct FoundRow {
 };
 using FoundRows = std::map<std::string, FoundRow>;
 
-/// The state of the whole batch, as the summaries beside the rows report it.
+/// Facts about the whole batch in the summaries beside the rows.
 struct WholeBatch {
   std::string options_hash;
   std::string from;       ///< the summary that stated it

@@ -65,7 +65,7 @@ std::pair<std::size_t, std::size_t> frames_of(const FrameRange& range, std::size
   double first = 0;
   double last = frames - 1;
   if (range.in_seconds) {
-    // A frame that lies on an end, give or take the rounding of the rate, belongs to the range.
+    // A frame at an end, up to the rounding of the rate, belongs to the range.
     constexpr double slack = 1e-6;
     if (range.last && *range.last * frame_rate_hz > frames + slack)
       refuse(fmt::format("{} s is after the end of the take, {:.3f} s", *range.last,

@@ -11,7 +11,7 @@ namespace kinemend::cli {
 
 using Json = nlohmann::ordered_json;
 
-/// Indented, with a newline at the end; bytes that are not UTF-8 are replaced.
+/// Indented JSON with a newline at the end; bytes that are not UTF-8 are replaced.
 std::string json_text(const Json& json);
 Json json_of(const OptionValue& value);
 Json json_of(const OptionValues& values);

@@ -49,7 +49,7 @@ class LiveOutput {
   /// To a client. Errors: `ErrorKind::cannot_write` if it cannot be reached.
   LiveOutput(const Address& address, Transport transport, std::size_t most_waiting);
 
-  /// `came` is the arrival time of the input of this piece. It is empty for the last frames of a
+  /// `came` is the arrival time of the input of this piece; it is empty for the last frames of a
   /// stream, whose latency is not counted because they waited for the end.
   void add(bool is_header, std::string_view text, std::optional<LiveClock::time_point> came);
   /// Whether to drop frames when too many wait. If not, the caller asks `is_full` before it adds.

@@ -1,5 +1,4 @@
-// Makes groups of flags from the table of methods, and refuses options that belong to another
-// group.
+// Makes groups of flags from the table of methods, and rejects options of another group.
 #include "method_options.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-# Bundles web/src into FOLDER/page.js and FOLDER/page.css, with the licences of the packages in front, as they ask for.
+# Bundles web/src into FOLDER/page.js and FOLDER/page.css, with the licences of the packages in front, as they require.
 #   cmake -DESBUILD=esbuild -DSOURCE=web -DPACKAGES=node_modules -DFOLDER=build/release/web -P bundle_page.cmake
 execute_process(COMMAND ${CMAKE_COMMAND} -E env NODE_PATH=${PACKAGES}
   ${ESBUILD} ${SOURCE}/src/page.ts --bundle --minify --format=iife --target=es2021 --charset=ascii --legal-comments=inline

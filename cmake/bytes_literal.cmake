@@ -1,9 +1,10 @@
-# bytes_literal(<variable> <file>): the bytes of a file as a C++ string literal. One compiles many times faster than an array of
-# numbers, and needs no assembler.
+# bytes_literal(<variable> <file>): the bytes of a file as a C++ string literal. It compiles many times faster than an
+# array of numbers and needs no assembler.
 function(bytes_literal variable file)
   file(SIZE ${file} size)
   file(READ ${file} bytes HEX)
-  # Eight bytes a match, as matches are what costs time; those added to fill the last are not part of what the size says.
+  # Converts eight bytes per match, because the number of matches determines the time. The stated size excludes the
+  # bytes added to fill the last match.
   math(EXPR missing "(8 - ${size} % 8) % 8")
   string(REPEAT 00 ${missing} filling)
   string(APPEND bytes ${filling})

@@ -1,4 +1,4 @@
-# Writes OUTPUT, a C++ source that holds the bundle of web/ as bytes; an empty one where SCRIPT names no file.
+# Writes OUTPUT, a C++ source that holds the bundle of web/ as bytes; it is empty if SCRIPT names no file.
 #   cmake -DSCRIPT=page.js -DSTYLE=page.css -DOUTPUT=embedded_page.cpp -P embed_page.cmake
 include(${CMAKE_CURRENT_LIST_DIR}/bytes_literal.cmake)
 set(text "// Made from web/ by cmake/embed_page.cmake.\n#include \"report/page/document.hpp\"\n\nnamespace kinemend::page {\n\n#pragma GCC diagnostic ignored \"-Woverlength-strings\"\n\n")

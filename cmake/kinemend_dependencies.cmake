@@ -1,5 +1,5 @@
-# What the project builds on. Where the target is another system than this one (KINEMEND_FOREIGN), the libraries that are headers
-# are taken from this system, and what Highway and fmt have compiled is compiled with the project.
+# The libraries that the project uses. For another target system (KINEMEND_FOREIGN), header libraries are taken from
+# this system, and the compiled parts of Highway and fmt are compiled with the project.
 
 if(NOT KINEMEND_FOREIGN)
   find_package(Threads REQUIRED)
@@ -17,7 +17,7 @@ endif()
 
 set(KINEMEND_HEADERS /usr/include CACHE PATH "Folder of the headers of Eigen, fmt, Highway and the like, for a foreign target")
 
-# The folder itself must not be searched: it holds the C library of this system too.
+# The folder itself must not be searched, because it also holds this system's C library.
 set(foreign_headers ${PROJECT_BINARY_DIR}/foreign_headers)
 file(MAKE_DIRECTORY ${foreign_headers})
 foreach(name fmt fast_float hwy Spectra nlohmann CLI toml++ xxhash.h eigen3/Eigen eigen3/unsupported)
@@ -30,8 +30,8 @@ foreach(name fmt fast_float hwy Spectra nlohmann CLI toml++ xxhash.h eigen3/Eige
   endif()
 endforeach()
 if(EMSCRIPTEN)
-  # Eigen adds in the order of x86 there, so that it writes the same bytes. Assembler of x86, which only hints at registers or stands in for
-  # intrinsics that old versions of GCC get wrong, is taken out of a copy.
+  # Eigen adds in the order of x86 there, so that it writes the same bytes. A copy leaves out x86 assembler, which only
+  # hints at registers or replaces intrinsics that old versions of GCC get wrong.
   if(IS_SYMLINK ${foreign_headers}/Eigen)
     file(REMOVE ${foreign_headers}/Eigen)
   endif()
@@ -42,7 +42,7 @@ if(EMSCRIPTEN)
     file(READ ${KINEMEND_HEADERS}/eigen3/Eigen/${header} text)
     string(REPLACE "#if EIGEN_COMP_GNUC && EIGEN_COMP_GNUC < 63" "#if 0" text "${text}")
     string(REGEX REPLACE "__asm__ +\\([^\n]*\\+x,m[^\n]*\\);" "" text "${text}")
-    # Written only where it differs, so that nothing is compiled again.
+    # Written only if it differs, so that nothing is recompiled.
     file(GENERATE OUTPUT ${foreign_headers}/Eigen/${header} CONTENT "${text}")
   endforeach()
   file(GENERATE OUTPUT ${foreign_headers}/mmintrin.h CONTENT "// Eigen includes this header of x86 and uses nothing of it.\n")
@@ -56,13 +56,13 @@ target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
 add_library(kinemend_highway STATIC ${PROJECT_SOURCE_DIR}/cmake/highway_dispatch.cpp)
 target_include_directories(kinemend_highway SYSTEM PUBLIC ${foreign_headers})
 if(EMSCRIPTEN)
-  # The vectors of WebAssembly in Highway 1.0 know no doubles; the compiler finds the instructions for emulated ones.
+  # In Highway 1.0, WebAssembly vectors have no doubles; the compiler finds the instructions for emulated ones.
   target_compile_definitions(kinemend_highway PUBLIC HWY_COMPILE_ONLY_EMU128)
 endif()
 add_library(hwy::hwy ALIAS kinemend_highway)
 
 if(EMSCRIPTEN)
-  # Without threads. Debian has no zlib for WebAssembly; its source is the same, and so are the bytes that it packs.
+  # WebAssembly has no threads here. Debian has no zlib for it; compiling the same source gives the same packed bytes.
   add_library(Threads::Threads INTERFACE IMPORTED GLOBAL)
   set(KINEMEND_ZLIB ${PROJECT_SOURCE_DIR}/build/wasm_tools/zlib CACHE PATH "Folder of zlib's source")
   if(NOT EXISTS ${KINEMEND_ZLIB}/zlib.h)

@@ -1,12 +1,12 @@
-# Decides which parts are built besides the program and the library. None of them changes how the program and the library are
-# compiled, so a package that is installed later costs only the compile of its own part.
+# Selects the parts to build besides the program and the library. None of them changes how these two are compiled, so a
+# package installed later costs only the compilation of its own part.
 
-# LibTorch's package looks for glog under two names; without this CMake warns whoever configures.
+# LibTorch's package looks for glog under two names; without this setting CMake would print a warning.
 set(FPHSA_NAME_MISMATCHED ON)
 
 # kinemend_optional(<variable> <option> <part> <arguments of find_package>...)
-# Sets the variable to ON where the option asks for the part: ON requires the package, AUTO takes the part if the package is found.
-# A macro, so that the variables of the package reach the caller.
+# Sets the variable to ON if the option asks for the part: ON requires the package, AUTO uses it if it is found.
+# It is a macro, so that the caller gets the package's variables.
 macro(kinemend_optional variable option part package)
   set(${variable} OFF)
   if("${${option}}" STREQUAL "ON")
@@ -21,7 +21,8 @@ macro(kinemend_optional variable option part package)
   endif()
 endmacro()
 
-# A build for another system, a sanitised build, and a build as a part of another project have only the parts that they name.
+# A build for another system, a sanitised build, and a build as part of another project include only the parts that they
+# name.
 if(KINEMEND_FOREIGN OR KINEMEND_SANITIZE OR NOT PROJECT_IS_TOP_LEVEL)
   set(kinemend_takes_all_parts OFF)
 else()
@@ -35,7 +36,7 @@ if(KINEMEND_FOREIGN)
     set(kinemend_with_tests ON)
   endif()
 else()
-  # Debian's package of GoogleTest stops CMake where that of GoogleMock is missing.
+  # Debian's GoogleTest package stops CMake if GoogleMock's is missing.
   find_path(KINEMEND_GMOCK gmock/gmock.h)
   if(KINEMEND_GMOCK OR KINEMEND_TESTS STREQUAL "ON")
     kinemend_optional(kinemend_with_tests KINEMEND_TESTS "tests" GTest)

@@ -3,7 +3,7 @@ set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXE
 
 # Debian packages, by `make deb`: kinemend (the program) and libkinemend-dev (library, headers, CMake package).
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/kinemend RENAME copyright COMPONENT program)
-# tools/make_deb writes these: the licences of what is compiled in.
+# tools/make_deb writes these files: the licences of compiled-in libraries.
 foreach(part program development)
   set(package kinemend)
   if(part STREQUAL "development")
@@ -26,7 +26,7 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER "The Kinemend authors <maintainers@kinemend.invalid>")
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
-# What the binaries link is found by dpkg-shlibdeps.
+# dpkg-shlibdeps finds the libraries that the binaries link.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME kinemend)

@@ -1,5 +1,5 @@
-# A room is one folder below src/, or one of a wing of such folders (methods/auto): a static library of its own, tested by one
-# program of its own. The library of methods/auto is kinemend_methods_auto.
+# A room is a folder below src/ or below a wing of such folders (methods/auto): a static library with its own test
+# program. The library of methods/auto is kinemend_methods_auto.
 
 set(KINEMEND_ROOMS "" CACHE INTERNAL "")
 
@@ -7,10 +7,11 @@ set(KINEMEND_ROOMS "" CACHE INTERNAL "")
 add_library(kinemend_settings INTERFACE)
 # No contraction: the same seed gives the same bytes with and without fused multiply-add.
 target_compile_options(kinemend_settings INTERFACE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>)
-# Eigen orders the sums of a product by the registers and the cache of the processor, which it asks for; these are the same everywhere.
+# Eigen orders the sums of a product by the processor's registers and caches, which it queries; these settings are the
+# same everywhere.
 target_compile_definitions(kinemend_settings INTERFACE EIGEN_NO_CPUID EIGEN_ARCH_DEFAULT_NUMBER_OF_REGISTERS=16)
 set(kinemend_warnings -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual)
-# In files that are compiled as one, a name of one file often shadows a name of another. Static analysis looks at each file alone.
+# In files compiled as one, a name of one file often shadows that of another. Static analysis checks each file alone.
 if(CMAKE_UNITY_BUILD)
   list(APPEND kinemend_warnings -Wno-shadow)
 endif()
@@ -25,18 +26,18 @@ set(kinemend_false_alarms "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-stringop-
 if(KINEMEND_OTHER_ROOMS)
   target_compile_options(kinemend_settings INTERFACE "$<$<CXX_COMPILER_ID:Clang>:SHELL:-include ${PROJECT_SOURCE_DIR}/cmake/same_json_layout.hpp>")
 endif()
-# What does little work is compiled in half the time.
+# Code that does little work is compiled with light optimisation, in half the time.
 add_library(kinemend_light INTERFACE)
 target_compile_options(kinemend_light INTERFACE $<$<NOT:$<CONFIG:Debug>>:${KINEMEND_LIGHT_LEVEL}>)
 add_library(kinemend_sanitizer INTERFACE)
 if(KINEMEND_SANITIZE)
-  # The checks switched off cost a fifth of the time; AddressSanitizer finds what these would.
+  # The disabled checks take a fifth of the time; AddressSanitizer finds the same errors.
   target_compile_options(kinemend_sanitizer INTERFACE -fsanitize=${KINEMEND_SANITIZE} -fno-omit-frame-pointer
     -fno-sanitize=null,object-size,vptr -fno-sanitize-recover=all)
   target_link_options(kinemend_settings INTERFACE -fsanitize=${KINEMEND_SANITIZE})
 endif()
 
-# Whether a room is sanitised and tested in this build; in others every room is tested.
+# Returns whether a room is sanitised and tested in this build; other builds test every room.
 function(kinemend_is_examined name result)
   set(${result} OFF PARENT_SCOPE)
   if(NOT KINEMEND_SANITIZED_ROOMS OR "${name}" IN_LIST KINEMEND_SANITIZED_ROOMS)
@@ -44,13 +45,13 @@ function(kinemend_is_examined name result)
   endif()
 endfunction()
 
-# Whether the library of a room comes from another build (KINEMEND_OTHER_ROOMS).
+# Returns whether the library of a room comes from another build (KINEMEND_OTHER_ROOMS).
 function(kinemend_is_imported target result)
   get_target_property(imported ${target} IMPORTED)
   set(${result} ${imported} PARENT_SCOPE)
 endfunction()
 
-# Notes what this build cannot have and why; `make test` prints the notes.
+# Records what this build lacks and why; `make test` prints these notes.
 set(left_out_file ${PROJECT_BINARY_DIR}/left_out.txt)
 file(WRITE ${left_out_file} "")
 function(kinemend_left_out what)
@@ -58,8 +59,8 @@ function(kinemend_left_out what)
   file(APPEND ${PROJECT_BINARY_DIR}/left_out.txt "Left out: ${what}\n")
 endfunction()
 
-# Where several files are compiled as one (CMAKE_UNITY_BUILD), names of unnamed namespaces must not meet in a room. Left out are files
-# that Highway includes again for each instruction set, and those that take long enough to be worth a core of their own.
+# Where several files are compiled as one (CMAKE_UNITY_BUILD), unnamed namespaces of a room must not share names. Files
+# that Highway includes again for each instruction set, and files slow enough to use a core of their own, are excluded.
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 30)
 function(kinemend_compile_alone)
   foreach(source ${ARGN})
@@ -70,11 +71,11 @@ function(kinemend_compile_alone)
   endforeach()
 endfunction()
 
-# What most files include, compiled once for the rooms that are compiled alike: with the same of kinemend_light and kinemend_sanitizer.
+# Headers that most files include, precompiled once for rooms with the same kinemend_light and kinemend_sanitizer.
 function(kinemend_precompiled target)
   list(JOIN ARGN "_" key)
   if(NOT TARGET kinemend_headers_${key})
-    # Written only where it differs, so that CMake may run again and nothing is compiled again.
+    # Written only if it differs, so that rerunning CMake recompiles nothing.
     file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/headers_${key}.cpp CONTENT "// Compiled for its precompiled headers.\n")
     add_library(kinemend_headers_${key} STATIC EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/headers_${key}.cpp)
     target_link_libraries(kinemend_headers_${key} PRIVATE kinemend_settings fmt::fmt ${ARGN})
@@ -93,7 +94,7 @@ function(kinemend_room folder)
   set(KINEMEND_ROOMS ${KINEMEND_ROOMS} kinemend_${name} CACHE INTERNAL "")
   kinemend_is_examined(${folder} examined)
   if(KINEMEND_OTHER_ROOMS AND NOT examined)
-    # Instrumented code and code that is not call each other freely, so a room that is not examined need not be compiled again.
+    # Instrumented and plain code can call each other, so a room that is not examined need not be recompiled.
     add_library(kinemend_${name} STATIC IMPORTED GLOBAL)
     set_target_properties(kinemend_${name} PROPERTIES IMPORTED_LOCATION ${KINEMEND_OTHER_ROOMS}/libkinemend_${name}.a)
     target_include_directories(kinemend_${name} INTERFACE ${PROJECT_SOURCE_DIR}/include)
@@ -136,15 +137,15 @@ function(kinemend_embed_models folder)
   set_source_files_properties(${output} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# kinemend::kinemend is all rooms together. What is installed is one library, kinemend_installed. The libraries that the rooms use stay
-# inside a shared one, so that a project that links it has to find none of them. The package of a static one finds those that are
+# kinemend::kinemend is all rooms together. One library is installed, kinemend_installed. A shared one contains the
+# libraries that the rooms use, so that a project need not find them; the package of a static one finds those that are
 # not compiled with the project.
 function(kinemend_library)
   add_library(kinemend INTERFACE)
   add_library(kinemend::kinemend ALIAS kinemend)
   target_link_libraries(kinemend INTERFACE ${KINEMEND_ROOMS})
 
-  # All rooms, for a build that takes some of them from this one.
+  # All rooms, for a build that reuses some of them from this one.
   add_custom_target(kinemend_rooms DEPENDS ${KINEMEND_ROOMS})
   # A sanitised library is not installed.
   if(KINEMEND_SANITIZE)
@@ -191,7 +192,7 @@ function(kinemend_library)
   kinemend_install_library("${packages}")
 endfunction()
 
-# `packages`: of CMake; a project that links the library has to find them.
+# `packages` are the CMake packages that a project linking the library must find.
 function(kinemend_install_library packages)
   set(folder ${CMAKE_INSTALL_LIBDIR}/cmake/kinemend)
   include(CMakePackageConfigHelpers)
@@ -208,13 +209,13 @@ function(kinemend_install_library packages)
   kinemend_install_pkg_config("${packages}")
 endfunction()
 
-# What `pkg-config kinemend` reads. Its paths are relative to itself, so that an installed folder may be moved.
+# Read by `pkg-config kinemend`. Its paths are relative to itself, so that an installed folder may be moved.
 function(kinemend_install_pkg_config packages)
   set(folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
   string(REGEX REPLACE "[^/]+" ".." prefix_from_here ${folder})
   set(required "")
   set(flags "")
-  # A shared library names what it needs; for a static one the program links it.
+  # A shared library names its own dependencies; for a static one, the program links them.
   if(NOT BUILD_SHARED_LIBS)
     set(flags " -pthread")
     if("ZLIB" IN_LIST packages)

@@ -5,7 +5,7 @@
 # Installs the packages into the build folder, once for each state of the lock file, and sets ${problem} where that is not possible.
 function(kinemend_web_packages folder problem)
   set(arguments ci --ignore-scripts --prefer-offline)
-  # TypeScript and what drives a browser are for tests.
+  # TypeScript and the browser driver are only for tests.
   if(NOT kinemend_with_tests)
     list(APPEND arguments --omit=dev)
   endif()
@@ -34,7 +34,7 @@ function(kinemend_web_packages folder problem)
   endif()
 endfunction()
 
-# Bundles the page in the build folder, for tests, `make page` and the app. What the program embeds does not depend on it.
+# Bundles the page in the build folder for tests, `make page` and the app. The embedded bundle does not depend on it.
 function(kinemend_bundle_page)
   set(web ${PROJECT_SOURCE_DIR}/web)
   set(folder ${PROJECT_BINARY_DIR}/web)
@@ -77,7 +77,7 @@ function(kinemend_embed_page room)
   set(folder ${PROJECT_SOURCE_DIR}/web/dist)
   set(output ${PROJECT_BINARY_DIR}/embedded_page.cpp)
   set(script ${PROJECT_SOURCE_DIR}/cmake/embed_page.cmake)
-  # The module for JavaScript is used by pages; it writes none.
+  # The JavaScript module writes no pages; pages use it.
   set(parts -DSCRIPT=${folder}/page.js -DSTYLE=${folder}/page.css)
   if(EMSCRIPTEN)
     set(parts "")

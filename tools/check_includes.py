@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-# Which rooms a room may include; the closure is taken below.
+# The rooms that each room may include; the closure is computed below.
 USES = {
     "base": set(),
     "rotation": {"base"},
@@ -65,25 +65,26 @@ PUBLIC = {header: room for room, headers in {
     "all": "kinemend",
 }.items() for header in headers.split()}
 
-# Folders of programs: they see include/ (and their own folder) only.
+# Folders of programs, which may include only include/ and their own folder.
 PROGRAMS = ["cli", "examples", "tools", "python", "web"]
 
-# Functions of <cmath> that systems round differently, and the files that may call them: the exponential of a matrix is Eigen's.
+# Functions of <cmath> that systems round differently, and the files that may call them: Eigen computes the exponential
+# of a matrix.
 SYSTEM_MATHS = re.compile(r"\bstd::(a?(?:sin|cos|tan)h?|atan2|exp|exp2|expm1|log|log2|log10|log1p|pow|cbrt|hypot|[lt]gamma|erfc?|polar|arg)\(")
 MAY_CALL_SYSTEM_MATHS = {"src/learned/papers/linear_dynamics.cpp"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 
-# What every system has: headers of the standard library, and of the libraries that the project uses.
+# Headers available on every system: the standard library and the project's libraries.
 SYSTEM_INCLUDE = re.compile(r"^\s*#\s*include\s*<([^>]+)>", re.MULTILINE)
 ON_EVERY_SYSTEM = re.compile(r"[a-z_]+|(unsupported/)?Eigen/\w+|Spectra/.*|(fmt|hwy|fast_float|torch)/.*\.h|toml\+\+/toml\.h|"
                              r"(nlohmann|CLI)/\w+\.hpp|zlib\.h|xxhash\.h")
-# Files that have a form for systems without the header, or that one system alone compiles.
+# Files with a variant for systems without the header, or compiled on one system only.
 OF_ONE_SYSTEM = {"src/base/parallel.cpp": "tbb/", "src/io/text/number.hpp": "emmintrin.h", "wasm/": "emscripten.h"}
 PLATFORM = ("src/base/platform/", "cli/platform/")
 PORTABLE = ["include", "src", "cli", "examples", "tools", "wasm"]
 
-# What some systems add to headers of the standard library, by the header.
+# Names that some systems add to standard headers, by header.
 EXTENSIONS = re.compile(r"(?<![\w.>:])(?:::)?(?:" + "|".join([
     # <cstdlib>, <cstdio>
     r"(?:secure_getenv|setenv|unsetenv|putenv|mkstemp|mkostemp|mkdtemp|realpath|qsort_r|reallocarray|aligned_alloc)\s*\(",

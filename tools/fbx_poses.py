@@ -142,7 +142,7 @@ class Animated:
                 times = [t[0] for t in self.values(sampler["input"])]
                 self.tracks[target["node"], target["path"]] = (times, self.values(sampler["output"]))
 
-        # assimp keeps the helper nodes of a model at rest beside a track that holds the whole transform.
+        # assimp keeps a model's helper nodes at rest beside a track with the whole transform.
         moved = {self.scene["nodes"][node].get("name", "") for node, _ in self.tracks}
         self.void = {node for node, entry in enumerate(self.scene["nodes"])
                      if "_$AssimpFbx$_" in entry.get("name", "") and entry["name"].split("_$AssimpFbx$_")[0] in moved}

@@ -1,4 +1,4 @@
-// Sends a take frame by frame through every method that works live, and writes what comes out.
+// Sends a take frame by frame through every method that works live, and writes the result.
 //
 //   stream_take TAKE FOLDER
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ std::unique_ptr<Stream> stream_of(const Cleaner& cleaner, const Take& take) {
                            : make_stream(cleaner, take, body_height(take));
 }
 
-// None of a method that needs the whole take.
+// Returns nothing for a method that needs the whole take.
 std::optional<Take> streamed(const Take& take, const Method& method, const OptionValues& options) {
   try {
     const auto cleaner = make_cleaner(method.name, options);

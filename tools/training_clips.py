@@ -3,7 +3,7 @@ import csv
 import os
 import pathlib
 
-# Frames of zeros, repeated frames, turns by 360 degrees.
+# Takes with frames of zeros, repeated frames, or turns by 360 degrees.
 DEFECTS = {"07_12", "09_10", "06_02", "01_07", "03_02", "35_22", "05_16"}
 MEASURED_ON = {"02_09", "05_08", "06_06", "131_02", "16_11", "27_01", "35_33", "49_14", "135_05"}
 KEPT_FOR_THE_PAGE = {"01_13", "02_05", "02_10", "05_14", "06_11", "08_08", "09_03", "131_07", "135_09", "16_24", "35_01", "35_14", "49_17"}

@@ -3,11 +3,11 @@
 /** Options of the command line, with underscores for dashes: {method: 'butterworth', cutoff_hz: 6, despike: false}. */
 export type Options = Record<string, string | number | boolean | (string | number)[]>;
 
-/** What a command has made. */
+/** The result of a command. */
 export interface Result {
-  /** The exit code of the program: 0 for success. */
+  /** The program's exit code: 0 for success. */
   code: number;
-  /** The file that was written, in the format of its name; empty where nothing was. */
+  /** The written file, in the format of its name; empty if none was written. */
   bytes: Uint8Array;
   /** What the program prints on standard output: JSON. */
   report: string;
@@ -23,40 +23,40 @@ export interface View {
 
 /** A live stream: the text of `kinemend stream`, in and out. */
 export interface Live {
-  /** Takes text or UTF-8 bytes as they arrive, in pieces of any size: a header, then a line a frame. Returns the cleaned lines that are ready. */
+  /** Takes text or UTF-8 bytes in pieces of any size: a header, then one line per frame. Returns the cleaned lines that are ready. */
   push(piece: string | Uint8Array): string;
-  /** Ends the stream and returns the remaining lines. Throws where no header came. */
+  /** Ends the stream and returns the remaining lines. Throws if no header came. */
   finish(): string;
-  /** Ends the stream without them. */
+  /** Ends the stream and discards the remaining lines. */
   close(): void;
-  /** How many frames the output is behind the input; 0 before a header. */
+  /** The delay of the output in frames; 0 before a header. */
   readonly delayFrames: number;
-  /** What there was to say: a new skeleton with its delay, the first line that is no frame. */
+  /** Messages about the stream: a new skeleton with its delay, the first invalid line. */
   readonly messages: string[];
 }
 
 export interface Kinemend {
-  /** Removes noise. `name` tells the format of the result. */
+  /** Removes noise. The ending of `name` gives the format of the result. */
   clean(bytes: Uint8Array, name: string, options?: Options): Result;
   /** Fills gaps. */
   fill(bytes: Uint8Array, name: string, options?: Options): Result;
   /** Finds damage; `report` is `kinemend.report/1`. */
   check(bytes: Uint8Array, name: string, options?: Options): Result;
-  /** Says what the take holds. */
+  /** Describes the contents of the take. */
   info(bytes: Uint8Array, name: string, options?: Options): Result;
-  /** Writes the take in the format of the name `output`. */
+  /** Writes the take in the format given by the ending of `output`. */
   convert(bytes: Uint8Array, name: string, output: string, options?: Options): Result;
-  /** Begins a live stream. Options are those of `kinemend stream` that name no address; `skeleton` is a file that `putFile` keeps. */
+  /** Begins a live stream. Options are those of `kinemend stream` except addresses; `skeleton` is the name of a file given to `putFile`. */
   stream(options?: Options): Live;
-  /** Runs any of these commands. `output`: the name of the result; empty: none. */
+  /** Runs any of these commands. `output` is the name of the result; if it is empty, the command writes none. */
   run(command: string, bytes: Uint8Array, name: string, options?: Options, output?: string): Result;
   /** Keeps a file beside the takes: the skeleton of an AMC file, the buffer of a glTF file. */
   putFile(name: string, bytes: Uint8Array): void;
-  /** Gives a kept file. Throws where there is none. */
+  /** Returns a file given to `putFile`. Throws if it does not exist. */
   readFile(name: string): Uint8Array;
   removeFile(name: string): void;
   view: View;
 }
 
-/** Loads the module. `settings` go to Emscripten's loader, such as {wasmBinary} or {locateFile}. Loading takes longer than a call: do it once. */
+/** Loads the module. `settings` go to Emscripten's loader, such as {wasmBinary} or {locateFile}. Loading is slower than a call, so do it once. */
 export function load(settings?: Record<string, unknown>): Promise<Kinemend>;

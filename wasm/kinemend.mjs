@@ -1,10 +1,10 @@
-// Cleans motion capture in Node 18 or later and in browsers. `await load()` gives the functions; a call works on bytes and never on files.
+// Cleans motion capture in Node 18 or later and in browsers. `await load()` returns the functions; a call works on bytes and never on files.
 
 import makeModule from './kinemend_module.mjs';
 
 const decoder = new TextDecoder();
 
-// Emscripten 3.1 expects of Node what its modules no longer have.
+// Emscripten 3.1 expects globals of Node that its modules no longer have.
 async function settingsForNode(settings) {
   const {createRequire} = await import('module');
   const {fileURLToPath} = await import('url');
@@ -32,8 +32,8 @@ export async function load(settings = {}) {
   };
 
   /**
-   * Runs a command on the bytes of a take. `name` tells the format where the content does not. Returns {code, bytes, report, messages}: the exit
-   * code of the program, the take that was written, what the program prints on standard output (JSON) and on standard error.
+   * Runs a command on the bytes of a take. The ending of `name` gives the format if the content does not. Returns {code, bytes, report, messages}:
+   * the program's exit code, the written take, and what the program prints on standard output (JSON) and on standard error.
    */
   function run(command, bytes, name, options = {}, output = '') {
     const places = [text(command), text(name), copied(bytes), text(output), text(JSON.stringify(options))];
@@ -61,13 +61,13 @@ export async function load(settings = {}) {
     }
   };
 
-  /** The bytes of a file that `putFile` keeps, or that the page has saved. */
+  /** The bytes of a file given to `putFile`, or saved by the page. */
   function readFile(name) {
     if (withText([name], module._kinemend_read_file) !== 0) throw new Error(decoder.decode(answer('messages')).trim());
     return answer('bytes');
   }
 
-  /** The page of `kinemend view` without a server: a session on a take that `putFile` keeps answers its requests (cli/view_session.hpp). */
+  /** The page of `kinemend view` without a server: a session on a take given to `putFile` answers its requests (cli/view_session.hpp). */
   const view = {
     open(name) {
       const code = withText([name], module._kinemend_view_open);
@@ -80,8 +80,8 @@ export async function load(settings = {}) {
   };
 
   /**
-   * Begins a live stream, as `kinemend stream` does: text as it arrives goes in, cleaned frames come out as text, a constant number of frames
-   * later. Throws where the options do not fit.
+   * Begins a live stream, as `kinemend stream` does: it takes text as it arrives and returns cleaned frames as text, with a constant delay in
+   * frames. Throws if the options do not fit.
    */
   function stream(options = {}) {
     const id = withText([JSON.stringify(options)], module._kinemend_stream_open);

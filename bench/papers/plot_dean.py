@@ -67,7 +67,7 @@ for (noise, version, _), values in single.items():
 for noise, (left, right) in zip(noises, panels):
     left.set_title(f"Dean 2016, figure 5: one channel of a knee, {noise}", fontsize=9)
     right.set_title(f"figure 6: every method of table I, {noise}", fontsize=9)
-    # Noise would hide what the methods leave.
+    # Noise would hide the remaining errors of the methods.
     truth = single[noise, "truth", ""]
     margin = 0.5 * (max(truth) - min(truth))
     right.set_ylim(min(truth) - margin, max(truth) + margin)

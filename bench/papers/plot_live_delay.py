@@ -12,7 +12,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-# The same file from the same figures, whenever it is drawn.
+# A fixed salt, so that the same figures always give the same file.
 matplotlib.rcParams["svg.hashsalt"] = "kinemend"
 folder = pathlib.Path(sys.argv[1])
 picture = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else folder / "live_delay.svg"

@@ -14,6 +14,6 @@ bl_info = {
 try:
     import bpy  # noqa: F401
 except ModuleNotFoundError:
-    pass  # plain Python, in tests: the modules that know nothing of Blender can be used
+    pass  # plain Python, in tests: modules that do not need Blender still work
 else:
     from .interface import register, unregister  # noqa: F401

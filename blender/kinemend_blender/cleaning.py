@@ -56,7 +56,7 @@ class Job:
             raise RigError("no bone is chosen")
         return set(names)
 
-    # Numbers of frames of the take, from 1; None for all.
+    # The first and last frame number of the take, from 1; None for all frames.
     def _frames(self, settings):
         if not settings.use_range:
             return None

@@ -83,7 +83,7 @@ def _numbers(curve, name, width, kind=np.float32):
     return found
 
 
-# New keys interpolate as the curve's first one does.
+# New keys interpolate like the curve's first one.
 def _copy_kind_of_first(curve, count, added):
     if count == 0:
         return

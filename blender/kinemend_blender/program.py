@@ -79,7 +79,7 @@ class Run:
         messages = self._messages.decode("utf-8", "replace").strip()
         if self.is_killed:
             raise ProgramError("stopped: nothing is changed")
-        # 1 is a warning that was asked to be an error; the output is whole only with 0.
+        # Exit code 1 is a warning treated as an error; the output is complete only with 0.
         if self._process.returncode != 0:
             raise ProgramError(messages.splitlines()[-1] if messages else f"kinemend failed ({self._process.returncode})")
         return self._output, messages.splitlines()

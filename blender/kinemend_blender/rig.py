@@ -197,7 +197,7 @@ class Rig:
             take["observed"] = seen.astype(np.uint8)
         return take
 
-    # Beside the keys of a bone there is no motion to judge.
+    # Outside the keys of a bone there is no motion to judge.
     def _is_keyed(self, part):
         span = part.key_range()
         if span is None:

@@ -88,7 +88,7 @@ def to_euler_near(q, order, near):
 
     locked = level < 1e-6
     if locked.any():
-        # Only the sum or the difference of the outer angles is told.
+        # Only the sum or difference of the outer angles is determined.
         up = np.sign(np.sin(beta))
         outer = np.arctan2(up * r[:, first, second], r[:, second, second])
         rest = _wrapped(outer - (wanted[:, 0] - even * up * wanted[:, 2])) / 2

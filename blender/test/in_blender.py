@@ -61,7 +61,7 @@ class InBlender(unittest.TestCase):
         bpy.context.preferences.filepaths.use_scripts_auto_execute = False
         for addon in ("io_anim_bvh", "io_scene_fbx"):
             addon_utils.enable(addon)
-        # Blender 3.4's importer of BVH opens files in a mode that Python 3.11 has no longer.
+        # Blender 3.4's BVH importer opens files in a mode that Python 3.11 no longer has.
         import io_anim_bvh.import_bvh
         io_anim_bvh.import_bvh.open = lambda path, _mode: open(path)
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="kinemend-test-"))
@@ -156,14 +156,14 @@ class InBlender(unittest.TestCase):
 
     def test_the_program_cleans_the_bvh_to_the_same_motion(self):
         path = self.short_take()
-        # As npz: the digits of the BVH file would round the result to 1e-4 degrees.
+        # npz keeps all digits; the BVH file would round the result to 1e-4 degrees.
         exact = run_program("convert", path, "-", "--to", "npz")
         cleaned = takes.from_npz(run_program("clean", "-", "-o", "-", "-q", "--method", "gaussian", data=exact))
-        # Quaternions: from angles near gimbal lock the importer's matrices in single precision lose digits.
+        # Quaternions, because near gimbal lock the importer's single-precision matrices lose digits.
         armature = self.import_bvh(path, mode="QUATERNION")
         job = self.clean()
         mine, _ = pose_rotations(armature, job.rig.times)
-        # The importer turns y up into z up, and bones along their own y axes.
+        # The importer turns y up to z up, and bones to their own y axes.
         to_file = rotations.normalized((1, -1, 0, 0))
         for b, bone in enumerate(armature.pose.bones):
             along = rotations.multiply(to_file, rotations.normalized(np.array(bone.bone.matrix_local.to_quaternion())))
@@ -234,7 +234,7 @@ class InBlender(unittest.TestCase):
         job = self.clean()
         after = armature.animation_data.action
         times = [[key.co[0] for key in after.fcurves.find(path, index=c).keyframe_points] for c in range(3)]
-        self.assertEqual(times[0], times[2])  # a frame that one curve keys is keyed by all
+        self.assertEqual(times[0], times[2])  # if one curve has a key in a frame, all have
         self.assertNotIn(65.0, times[0])
         self.assertEqual(max(times[0]), 200.0)
         turns, _ = pose_rotations(armature, job.rig.times)
@@ -307,7 +307,7 @@ class InBlender(unittest.TestCase):
         self.clean(method="auto", feet="auto")
         names = [marker.name for marker in bpy.context.scene.timeline_markers]
         self.assertTrue(any(name.startswith("K spike") for name in names), names)
-        self.clean(method="gaussian")  # of the new action: its marks replace the old
+        self.clean(method="gaussian")  # cleans the new action: its marks replace the old
         self.assertFalse(any(name.startswith("K spike") for name in
                              [marker.name for marker in bpy.context.scene.timeline_markers]))
         self.assertIn(b"<html", pathlib.Path(armature.animation_data.action[cleaning.REPORT]).read_bytes()[:2000])

@@ -94,7 +94,7 @@ def steps():
     yield 0.5
     settings = bpy.context.scene.kinemend
 
-    # A program that never answers, so that Escape comes in time.
+    # The program never answers, so that Escape comes in time.
     path = os.environ["PATH"]
     os.environ["PATH"] = silent_program() + os.pathsep + path
     with Within(view):
@@ -163,7 +163,7 @@ class Runner:
         except StopIteration:
             print("in a window: everything held", flush=True)
             code = 0
-        except BaseException:  # Blender would go on without the timer
+        except BaseException:  # Blender would continue without the timer
             traceback.print_exc()
             code = 1
         sys.stdout.flush()

@@ -1,4 +1,4 @@
-# Compiles for 64-bit Windows by MinGW-w64, whose variant with POSIX threads has what <thread> and <mutex> need.
+# Compiles for 64-bit Windows with MinGW-w64, in the variant with POSIX threads that supports <thread> and <mutex>.
 set(CMAKE_SYSTEM_NAME Windows)
 set(CMAKE_SYSTEM_PROCESSOR x86_64)
 set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc-posix)
@@ -13,5 +13,5 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 # of AVX would fault. The assembler writes the unaligned ones, which cost the same on aligned memory. Large objects: many
 # templates make more sections than a small object file can hold.
 set(CMAKE_CXX_FLAGS_INIT "-Wa,-muse-unaligned-vector-move -Wa,-mbig-obj -D_WIN32_WINNT=0x0A00 -DNOMINMAX -DWIN32_LEAN_AND_MEAN")
-# Without the time of the link, so that the same sources give the same bytes.
+# Leaves out the link time, so that the same sources give the same bytes.
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-static -Wl,--no-insert-timestamp")

@@ -24,7 +24,7 @@ def _version():
     return re.search(r"project\(kinemend VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
 
 
-# What PEP 600 allows a module to need of the system.
+# System libraries that PEP 600 allows a module to need.
 ALLOWED = {"libc.so.6", "libm.so.6", "libdl.so.2", "librt.so.1", "libpthread.so.0", "libz.so.1", "libgcc_s.so.1", "libstdc++.so.6"}
 
 

@@ -86,7 +86,7 @@ class FileIsFolder(_SystemError, IsADirectoryError):
     _number = errno.EISDIR
 
 
-# The end of the library's message, as the system words it; `exists already` is the library's own.
+# The end of the library's message in the system's words; `exists already` is the library's own.
 _BY_WORDS: dict[str, type[Error]] = {
     os.strerror(kind._number): kind for kind in (FileNotFound, FileDenied, FileExists, FileIsFolder)
 }

@@ -10,7 +10,7 @@ from ._core import Take
 from .reports import Diagnostic
 
 _Path = str | os.PathLike[str]
-# Where a function needs a take, the path of its file will do.
+# Functions that need a take also accept the path of its file.
 _GivenTake = Take | str | os.PathLike[str]
 
 

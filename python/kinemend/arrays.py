@@ -22,7 +22,7 @@ _Path = str | os.PathLike[str]
 _Doubles = npt.NDArray[np.float64]
 
 NPZ_FORMAT = "kinemend-1"
-# What NumPy and zipfile raise at archives that are none, or hold other arrays.
+# Errors that NumPy and zipfile raise for invalid archives and unsuitable arrays.
 _BROKEN = (
     EOFError,
     KeyError,
@@ -185,7 +185,7 @@ def to_npz(
         arrays.update(_joint_arrays(take))
     else:
         arrays["unit"] = np.str_(take.unit)
-    # The parameters have the names of the functions.
+    # The parameters have the same names as the functions.
     module = globals()
     for wanted, name in ((local_matrices, "local_matrices"), (global_matrices, "global_matrices")):
         if wanted:

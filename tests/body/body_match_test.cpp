@@ -262,7 +262,7 @@ TEST(MatchBody, IsExactForTheSameSkeleton) {
 }
 
 TEST(MatchBody, FindsTheWorldsUpAxisWhereTheRestPoseHasAnother) {
-  // The rest pose of this skeleton stands along z; y is up in the world.
+  // The rest pose of this skeleton is upright along z; y is up in the world.
   const Take clip = walk("stroll");
   Take z_up = turn_axes(clip, Axis::y, Axis::z);
   const Quat back = exp({-pi / 2, 0, 0});

@@ -50,7 +50,7 @@ inline std::size_t track_named(const BodyLayout& layout, std::string_view name) 
                                   layout.names.begin());
 }
 
-// The whole take turned about its vertical, y, and moved.
+// The whole take, rotated about its vertical axis, y, and moved.
 inline Take moved(Take clip, double heading, Vec3 by) {
   const Quat turn = exp({0, heading, 0});
   if (!clip.has_joints()) {

@@ -51,7 +51,8 @@ TEST_F(Commands, CompareFindsATakeEqualToItself) {
 
 TEST_F(Commands, CompareMeasuresAKnownDifference) {
   put(folder / "a.bvh", hand_take());
-  // All joints turned by 30 degrees about their own axis in every frame: the angle is known.
+  // In every frame, all joints are rotated by 30 degrees about their own axis, so the angle is
+  // known.
   ASSERT_EQ(run({"corrupt", "a.bvh", "-o", "b.bvh", "--damage", "bias:bias_deg=30,root"}).code, 0);
   const Json json =
       Json::parse(run({"compare", "a.bvh", "b.bvh", "--json"}).out)["takes"][0]["figures"];

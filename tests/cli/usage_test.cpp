@@ -1,4 +1,4 @@
-// A command line that makes no sense gives one line on standard error, exit code 2, and no output.
+// An invalid command line gives one line on standard error, exit code 2, and no output.
 #include "cli/program.hpp"
 
 namespace kinemend::test {

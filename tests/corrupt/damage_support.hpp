@@ -27,7 +27,7 @@ inline Damaged damaged(const Take& clean, std::string_view name, const OptionVal
 
 inline bool same_bits(Quat a, Quat b) { return std::memcmp(&a, &b, sizeof(Quat)) == 0; }
 
-// Rotation vectors of clean^-1 damaged, of one joint.
+// Rotation vectors of clean^-1 damaged for one joint.
 inline std::vector<Vec3> errors_of(const Take& clean, const Take& other, std::size_t joint) {
   std::vector<Vec3> errors;
   for (std::size_t f = 0; f < clean.frame_count(); ++f) {

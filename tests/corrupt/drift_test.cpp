@@ -1,4 +1,4 @@
-// Tests of the drift of heading and place, by its statistics over many seeds.
+// Tests of the drift of heading and position, by its statistics over many seeds.
 #include "corrupt/drift.hpp"
 
 #include <gmock/gmock.h>

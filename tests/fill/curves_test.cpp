@@ -22,7 +22,7 @@ MATCHER_P(NearTo, tolerance, "") {
   return std::fabs(std::get<0>(arg) - std::get<1>(arg)) <= tolerance;
 }
 
-// SciPy's numbers, made by tools/reference/gap_curves.py.
+// Reference values from SciPy, made by tools/reference/gap_curves.py.
 const std::vector<double>& reference(const std::string& name) {
   static const auto records = [] {
     std::map<std::string, std::vector<double>> result;
@@ -39,7 +39,7 @@ constexpr CurveSettings settings{.frame_rate_hz = 120};
 constexpr std::array curves = {Curve::linear, Curve::cubic, Curve::quintic, Curve::shape_preserving,
                                Curve::hermite};
 
-// Along x.
+// Puts the values along x.
 Track track_along_x(const std::vector<double>& x, std::vector<std::uint8_t> observed) {
   Track track{{}, std::move(observed)};
   for (const double value : x) track.values.push_back({value, 0, 0});
@@ -51,7 +51,7 @@ Track reference_samples() {
   std::vector<std::uint8_t> observed;
   for (std::size_t f = 0; f < values.size(); ++f) {
     observed.push_back(reference("missing")[f] == 0);
-    if (!observed[f]) values[f] = 1e6;  // what stands in a gap is no evidence
+    if (!observed[f]) values[f] = 1e6;  // values in a gap must be ignored
   }
   return track_along_x(values, observed);
 }
@@ -120,7 +120,7 @@ NaturalSpline reference_spline(int half_order) {
   return {half_order, knots, values, 1};
 }
 
-// At the knots and in the gap, as the fixture has them.
+// The values at the knots and in the gap, in the order of the fixture.
 std::vector<double> values_of(const NaturalSpline& spline) {
   std::vector<double> values;
   const auto& missing = reference("missing");
@@ -171,7 +171,7 @@ TEST(NaturalSpline, CrossValidationFindsTheLeastScore) {
 }
 
 TEST(NaturalSpline, EvaluatesInEveryInterval) {
-  // A parabola is left as it is by m = 3, wherever it is asked for and however much it is smoothed.
+  // With m = 3, smoothing leaves a parabola unchanged at every place and strength.
   const std::vector<double> knots = {0, 1, 3, 4, 9, 10};
   std::vector<double> values;
   for (const double x : knots) values.push_back(2 - x + 0.5 * x * x);
@@ -195,7 +195,7 @@ TEST(Curves, MeetTheirEndsInValueAndVelocity) {
     const auto second = [&](std::size_t f) {
       return samples.values[f - 1].x - 2 * samples.values[f].x + samples.values[f + 1].x;
     };
-    // The motion's own second differences are below 0.1; a jump or a kink would show as more.
+    // The motion's own second differences are below 0.1; a jump or kink would exceed 0.3.
     for (const std::size_t f : {99u, 100u, 139u, 140u}) {
       EXPECT_LT(std::fabs(second(f)), 0.3) << static_cast<int>(curve) << " at " << f;
     }
@@ -314,7 +314,7 @@ TEST(PlaceGuess, MovesAGuessToItsEnds) {
         {motion(static_cast<double>(f)) + 3 + 0.05 * static_cast<double>(f), 0, 0});
   }
   place_guess(samples, span, guess, settings);
-  // An offset and a drift are seen at the ends and taken off.
+  // The offset and drift at the ends are removed.
   for (std::size_t f = span.first; f <= span.last; ++f) {
     EXPECT_NEAR(samples.values[f].x, motion(static_cast<double>(f)), 1e-9) << f;
   }
@@ -325,7 +325,7 @@ TEST(PlaceGuess, MeetsValueAndVelocityOfAnyGuess) {
   Track samples = sampled(260, span, [](double f) { return f < 130 ? f : 200 - f; });
   const Guess guess{80, std::vector<Vec3>(100, {4, 0, 0})};
   place_guess(samples, span, guess, settings);
-  // The steps over the ends are those of the samples beside them, up to the fading.
+  // The steps over the ends match those of the neighbouring samples, except for the fading.
   EXPECT_NEAR(samples.values[100].x - samples.values[99].x, 1, 0.35);
   EXPECT_NEAR(samples.values[160].x - samples.values[159].x, -1, 0.35);
 }

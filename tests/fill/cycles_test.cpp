@@ -56,7 +56,7 @@ TEST(Cycles, FillAGapThatIsNearlyACycleLong) {
        {FrameSpan{300, 380}, FrameSpan{250, 370}, FrameSpan{640, 699}, FrameSpan{0, 50}}) {
     Track walk = walk_without(span);
     ASSERT_TRUE(fill_by_cycles(walk, span, cycle_settings, 1));
-    // At the ends of the take nothing holds the drift but the cycle itself.
+    // At the ends of the take, only the cycle itself determines the drift.
     EXPECT_LT(error_of(walk, span), 1e-6) << span.first;
   }
 }

@@ -31,7 +31,7 @@ std::vector<std::size_t> moving_joints(const Take& clip) {
   return joints;
 }
 
-// Three gaps in each of five joints; none where the take is too short for them.
+// Makes three gaps in each of five joints; returns an empty take if the take is too short.
 Take damaged(const Take& clip, double gap_s, std::uint64_t seed) {
   const auto length = static_cast<std::size_t>(std::lround(gap_s * clip.frame_rate_hz));
   if (clip.frame_count() < length + 12) return {};

@@ -73,7 +73,7 @@ TEST(FillJoints, TurnsOnThroughHalfATurnAndMore) {
 }
 
 TEST(FillJoints, PassesThroughGimbalLock) {
-  // ZXY is locked where x is 90 degrees, which is in the middle of the gap.
+  // ZXY is in gimbal lock where x is 90 degrees, in the middle of the gap.
   Take truth = test::chain_clip(2, 200);
   for (std::size_t f = 0; f < 200; ++f) {
     const double t = static_cast<double>(f) - 100;
@@ -109,7 +109,7 @@ TEST(FillJoints, GivesHingesWhatTheirChannelsCanHold) {
   }
 }
 
-// Joint 5 follows from joints 1 to 4, which move without a period.
+// Joint 5 is determined by joints 1 to 4, which move without a period.
 Take follower(std::size_t frames) {
   Take clip = test::chain_clip(6, frames);
   for (std::size_t f = 0; f < frames; ++f) {
@@ -189,7 +189,7 @@ TEST(FillJoints, FillsTheRootsPositionToo) {
 }
 
 TEST(FillJoints, TakesNoCalibrationPoseForMotion) {
-  // Frame 0 is the rest pose; the motion begins elsewhere.
+  // Frame 0 is the rest pose; the motion begins in another pose.
   Take truth = test::moving_chain(6, 300);
   const Quat away = about_x(70 * degree);
   for (std::size_t f = 0; f < 300; ++f) {

@@ -1,5 +1,5 @@
-// How candidates for a gap are judged: weights and expected errors by hand, and the places of
-// trials.
+// Tests of the judgement of candidates for a gap: weights and expected errors calculated by hand,
+// and the places of trials.
 #include "fill/judgement.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ constexpr auto model = CandidateKind::model;
 constexpr auto spline = CandidateKind::spline;
 constexpr auto line = CandidateKind::line;
 
-// Candidates that are off by these along x in every one of three frames.
+// Candidates with these errors along x in each of three frames.
 Eigen::MatrixXd errors(const std::vector<double>& along_x) {
   Proposals proposals;
   for (const double x : along_x) proposals.push_back({{x, 0, 0}, {x, 0, 0}, {x, 0, 0}});
@@ -101,7 +101,7 @@ TEST(Judgement, OneTrialThatWentAstraySaysNothingAgainstTheSpline) {
   const Judgement judgement({model, model, spline, line}, usual, {{usual, usual, usual, astray}, 1},
                             0);
   EXPECT_GT(judgement.weights(clearly_better)[2], 0.5);
-  // But it is told.
+  // The failed trial still raises the expected error.
   EXPECT_GT(judgement.expected_error(std::vector<double>{0, 0, 1, 0}), 4);
 }
 
@@ -119,7 +119,7 @@ TEST(TrialPlaces, AreSeenThroughoutAndLieAboutTheGapAndElsewhere) {
     near += span.first > 300 && span.last < 520;
   }
   EXPECT_GE(near, 6U);
-  // A frame between, so that the gap's end and the trial's are not the same sample.
+  // One frame lies between, so that the gap's end and the trial's end are different samples.
   EXPECT_EQ(spans[0].last, 398U);
 }
 
@@ -132,7 +132,7 @@ TEST(TrialPlaces, AreShorterWhereThereIsNoRoomAndNoneWhereThereIsNone) {
   EXPECT_TRUE(trial_places(std::vector<std::uint8_t>(100, 0), 0, {20, 79}).empty());
 }
 
-// The same as a take in which the span is missing: nothing of what stands in it is known.
+// A hidden span gives the same result as a missing span: its samples are ignored.
 TEST(HiddenSpan, IsAsAGapOfTheTake) {
   const Take clip = synthesize({.motion = "stroll", .duration_s = 4});
   const std::size_t joint = 5;

@@ -1,4 +1,4 @@
-// Laws that every method of filling gaps keeps, for joints and for markers.
+// Properties of every method of filling gaps, for joints and for markers.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -41,10 +41,10 @@ std::vector<Case> cases() {
 
 struct Taken {
   Take truth;
-  std::vector<std::string> names;  // of four tracks: the first two of one segment
+  std::vector<std::string> names;  // of four tracks; the first two belong to one segment
 };
 
-// Markers sway, so that no guess is right by itself.
+// Markers sway, so that no prediction is exact.
 Taken moving(bool joints) {
   if (joints) return {test::moving_chain(6, 500), {"joint1", "joint3", "root", "joint4"}};
   return {marker_take("walk", 5, 0.8), {"LeftLeg_b", "LeftLeg_c", "Head_a", "LeftFoot_a"}};
@@ -90,7 +90,7 @@ void expect_observed_equal(const Take& before, const Take& after) {
   }
 }
 
-// The take as it is seen from elsewhere: markers in another unit too, joints with other signs.
+// Moves the take to another place; markers also get another unit, joints other signs.
 const Quat turn = exp(Vec3{0.4, -1.1, 0.7});
 constexpr double growth = 10;
 void move(Take& clip) {
@@ -122,7 +122,7 @@ double step(const Take& clip, std::size_t track, const std::vector<std::size_t>&
 
 class Laws : public testing::TestWithParam<Case> {
  protected:
-  // Calls the law with a take of the kind that the case is about.
+  // Checks the law on a take of the case's kind.
   template <class Law>
   static void hold(const Law& law) {
     law(moving(GetParam().joints));
@@ -145,7 +145,7 @@ std::vector<Case> cases_of_markers() {
   return all;
 }
 
-// Methods that look for spikes beside a gap.
+// Methods that detect spikes beside a gap.
 std::vector<Case> cases_of_spikes() {
   static const std::set<std::string> able{"auto", "spline", "pchip", "local-regression", "pca"};
   std::vector<Case> all = cases();
@@ -172,8 +172,8 @@ TEST_P(Laws, ObservedSamplesStayToTheBit) {
   });
 }
 
-// For joints, `slerp` and `pchip` meet the ends in value only: the corner that they turn there is
-// at most as large as the largest step of the motion (measured: 0.87 of it).
+// For joints, `slerp` and `pchip` meet the ends in value only: the corner there is at most as large
+// as the largest step of the motion (measured: 0.87 of it).
 TEST_P(Laws, FilledSpanMeetsItsEndsInValueAndVelocity) {
   hold([&](const auto& take) {
     const bool joints = GetParam().joints;
@@ -185,7 +185,7 @@ TEST_P(Laws, FilledSpanMeetsItsEndsInValueAndVelocity) {
       if (outcome.is_position) continue;
       ASSERT_TRUE(outcome.filled) << outcome.reason;
       const auto& [track, first, last] = outcome.gap;
-      // A jump of value or velocity is a second difference that the motion itself never shows.
+      // A jump of value or velocity appears as a second difference larger than any of the motion.
       std::vector<std::size_t> all(take.truth.frame_count() - 2);
       std::iota(all.begin(), all.end(), std::size_t{1});
       const double bound = has_corners ? step(take.truth, track, all)
@@ -269,7 +269,8 @@ TEST_P(Laws, ResultMovesTurnsAndGrowsWithTheTake) {
       if (!outcome.is_position) largest = std::max(largest, rms_error(clip, other, outcome.gap));
     }
     const bool joints = GetParam().joints;
-    // PCHIP keeps the shape of each component by itself; end velocities are made robust likewise.
+    // PCHIP keeps the shape of each component separately; end velocities are also estimated
+    // robustly.
     const bool robust = method() == "hermite" || method() == "pattern" || method() == "cyclic";
     EXPECT_LT(largest, joints ? 1e-4 : method() == "pchip" ? 20.0 : robust ? 0.2 : 1e-4);
     for (std::size_t g = 0; g < report.gaps.size(); ++g) {
@@ -279,7 +280,7 @@ TEST_P(Laws, ResultMovesTurnsAndGrowsWithTheTake) {
   });
 }
 
-// The sample next to a gap has no neighbour on its other side that would show it for a spike.
+// The sample next to a gap has no neighbour on its other side that would reveal it as a spike.
 TEST_P(LawsOfSpikes, ASpikeBesideAGapDoesNotBendTheFilling) {
   const auto law = [&](const auto& truth, const std::string& name, const auto& spike) {
     for (const std::size_t length : {3U, 8U, 12U, GetParam().joints ? 25U : 40U}) {

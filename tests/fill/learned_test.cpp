@@ -1,4 +1,4 @@
-// Tests of gaps that a model is asked to fill, with models that give a fixed answer.
+// Tests of gaps filled by models that give a fixed answer.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ constexpr const char* unknown = "the model does not know them";
 
 const Quat said = exp(Vec3{0.3, -0.2, 0.1});
 
-// A model that gives every missing sample the same rotation, and knows no joint4.
+// A model that gives every missing sample the same rotation and does not know joint4.
 LearnedFilling same_everywhere(const Take& clip) {
   LearnedFilling filling{clip.rotations, {}};
   for (std::size_t i = 0; i < filling.rotations.size(); ++i) {
@@ -112,7 +112,8 @@ TEST(LearnedFilling, StandsInPreviewsWhereThereIsAModel) {
             "recurrent");
 }
 
-// A model sees the doubted sample as missing, and what it then says of it tells that it is a spike.
+// The model gets the suspected sample as missing; its prediction then shows that the sample is a
+// spike.
 TEST(LearnedFilling, IsNotMadeFromASpikeBesideTheGap) {
   constexpr std::size_t frames = 1200, first = 600, last = 620;
   const Take truth = test::moving_chain(6, frames);
@@ -120,7 +121,7 @@ TEST(LearnedFilling, IsNotMadeFromASpikeBesideTheGap) {
   hide(clip, "joint3", first, last);
   const std::size_t joint = track_of(clip, "joint3");
   clip.rotation(first - 1, joint) = clip.rotation(first - 1, joint) * exp(Vec3{1.2, 0, 0});
-  // This model knows the motion, but where a spike leads it astray.
+  // This model predicts the motion correctly, except when it sees the spike.
   FillSettings settings = by_model();
   std::size_t whole_frames = 0;
   settings.models.recurrent = [&](const Take& seen) {
@@ -141,7 +142,7 @@ TEST(LearnedFilling, IsNotMadeFromASpikeBesideTheGap) {
     EXPECT_LT(angle_between(clip.rotation(f, joint), truth.rotation(f, joint)), 1e-6) << f;
 }
 
-// A model that knows the motion but for a turn, which grows over the take.
+// A model that predicts the motion up to a rotation that grows over the take.
 LearnedFill drifting(const Take& truth) {
   return [&truth](const Take& seen) {
     LearnedFilling filling{truth.rotations, {}, true};

@@ -1,4 +1,4 @@
-// Makes gaps in takes that have none, and compares the promised errors with the real ones.
+// Makes gaps in takes without gaps, and compares the expected errors with the real ones.
 #pragma once
 
 #include <algorithm>
@@ -11,24 +11,24 @@
 
 namespace kinemend::fill {
 
-/// One filled gap: what was promised, what became of it, and what a spline would have made.
+/// One filled gap: the expected error, the real error, and the error of a spline.
 struct Kept {
   double promised = 0, error = 0, spline_error = 0;
   double length_s = 0;
-  bool inside = true;  ///< of the take
+  bool inside = true;  ///< whether the gap lies inside the take
 };
 
 struct Figures {
   std::size_t gaps = 0, within_twice = 0, above_ten = 0;
   std::size_t short_gaps = 0, worse_than_spline = 0;
-  double worst = 0;  ///< error over promise
+  double worst = 0;  ///< largest ratio of error to expected error
 
   double share_within_twice() const {
     return static_cast<double>(within_twice) / static_cast<double>(gaps);
   }
 };
 
-/// `least`: a short gap's error that counts at all.
+/// `least` is the smallest error of a short gap that is counted.
 inline Figures figures_of(const std::vector<Kept>& all, double least) {
   Figures figures;
   for (const Kept& kept : all) {
@@ -44,19 +44,19 @@ inline Figures figures_of(const std::vector<Kept>& all, double least) {
   return figures;
 }
 
-/// A length of 1 frame to 1 s, short ones as often as long ones.
+/// Draws a length of 1 frame to 1 s, uniform in its logarithm.
 inline std::size_t random_length(Random& random, double frame_rate_hz) {
   const double longest = std::log(frame_rate_hz);
   return static_cast<std::size_t>(std::lround(std::exp(random.uniform(0, longest))));
 }
 
-/// File units, or degrees.
+/// Distance in file units, or in degrees for joints.
 inline double distance(const Take& a, const Take& b, std::size_t frame, std::size_t track) {
   if (!a.has_joints()) return norm(a.position(frame, track) - b.position(frame, track));
   return angle_between(a.rotation(frame, track), b.rotation(frame, track)) * degrees_per_radian;
 }
 
-/// From one frame to the next: file units, or degrees.
+/// Step from one frame to the next, in file units, or in degrees for joints.
 inline Vec3 step_vector(const Take& clip, std::size_t frame, std::size_t track) {
   if (!clip.has_joints()) return clip.position(frame + 1, track) - clip.position(frame, track);
   return degrees_per_radian *
@@ -71,13 +71,14 @@ inline std::size_t track_of(const Take& clip, const std::string& name) {
   return static_cast<std::size_t>(clip.has_joints() ? clip.skeleton.find(name) : clip.find(name));
 }
 
-/// Frames `first` to `last`, inclusive, of a joint or marker as missing.
+/// Marks frames `first` to `last`, inclusive, of a joint or marker as missing.
 inline void hide(Take& clip, const std::string& name, std::size_t first, std::size_t last) {
   const NamedGap gap{name, first, last};
   mark_gaps(clip, {&gap, 1});
 }
 
-/// With what is no evidence in the gaps of joints; markers have nothing there.
+/// Puts wrong values into the gaps of joints, which filling must ignore; markers have no values
+/// there.
 inline Take spoilt(Take clip) {
   if (!clip.has_joints()) return clip;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
@@ -104,8 +105,7 @@ inline double rms_error(const Take& truth, const Take& filled, const Gap& gap) {
   return std::sqrt(sum / static_cast<double>(gap.length()));
 }
 
-/// Makes one gap in each of some of the tracks, half of them where the track is fast, and fills
-/// them.
+/// Makes one gap in each of some tracks, half of them where the track is fast, and fills them.
 inline std::vector<Kept> make_and_fill(const Take& truth, std::vector<std::size_t> tracks,
                                        std::size_t most, std::uint64_t seed) {
   Random random(seed);
@@ -147,7 +147,7 @@ inline std::vector<Kept> make_and_fill(const Take& truth, std::vector<std::size_
   return all;
 }
 
-/// First frames of three gaps of that length, so many frames from each other and from the ends.
+/// First frames of three gaps of that length, `apart` frames from each other and from the ends.
 inline std::vector<std::size_t> three_starts(Random& random, std::size_t frames, std::size_t length,
                                              std::size_t apart) {
   std::vector<std::size_t> starts;
@@ -157,14 +157,14 @@ inline std::vector<std::size_t> three_starts(Random& random, std::size_t frames,
       return std::max(start, other) - std::min(start, other) > length + apart;
     });
     if (is_free) starts.push_back(start);
-    // Three gaps that leave no room for one another are drawn anew.
+    // If three gaps do not fit, all are drawn again.
     else if (random.chance(0.05))
       starts.clear();
   }
   return starts;
 }
 
-/// Markers that are seen in every frame.
+/// Markers that are observed in every frame.
 inline std::vector<std::size_t> whole_markers(const Take& clip) {
   std::vector<std::size_t> whole;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
@@ -175,7 +175,7 @@ inline std::vector<std::size_t> whole_markers(const Take& clip) {
   return whole;
 }
 
-/// Joints that turn by more than 0.02 radians.
+/// Joints that rotate by more than 0.02 radians.
 inline std::vector<std::size_t> moving_joints(const Take& clip) {
   std::vector<std::size_t> moving;
   for (std::size_t j = 0; j < clip.joint_count(); ++j) {

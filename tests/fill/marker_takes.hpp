@@ -13,9 +13,9 @@
 
 namespace kinemend::fill {
 
-/// A synthetic motion as an optical system sees it: three markers on each of thirteen segments,
-/// centimetres. `names` are the joint's with _a, _b, _c. Each marker sways on its skin by
-/// `sway_cm`, at a pace of its own that no other marker tells of.
+/// A synthetic motion as an optical system records it: three markers on each of thirteen segments,
+/// in centimetres. `names` are those of the joints with _a, _b, _c. Each marker sways on its skin
+/// by `sway_cm`, independently of all other markers.
 inline Take marker_take(const std::string& motion = "walk", double duration_s = 5,
                         double sway_cm = 0) {
   constexpr double frame_rate_hz = 120;

@@ -24,7 +24,7 @@ double largest_error(const Take& truth, const Take& filled) {
 }
 
 TEST(RigidBodyFill, IsExactOnARigidCluster) {
-  // The thigh's three markers and one of the hips' that is fixed to the thigh as well.
+  // The thigh's three markers, and one of the hips' that is also fixed to the thigh.
   const Take walk = marker_take();
   Take truth = walk;
   const auto a = static_cast<std::size_t>(walk.find("LeftUpLeg_a"));
@@ -128,8 +128,8 @@ TEST(AutoFill, PrefersACurveWhereNoOtherMarkerIsSeen) {
   for (const GapOutcome& outcome : report.gaps) EXPECT_EQ(outcome.method, "spline");
 }
 
-// Its companions tell nothing of it, and the gaps are longer than those in which a spline goes
-// first.
+// The companions do not predict the marker, and the gaps are longer than those in which a spline is
+// tried first.
 TEST(AutoFill, TriesASplineAlsoInGapsOfAFifthOfASecond) {
   Take truth = marker_take("walk", 6);
   const auto marker = static_cast<std::size_t>(truth.find("Head_b"));
@@ -167,7 +167,8 @@ TEST(AutoFill, RefusesALongSpanWithoutAnyMarkerAndSaysSo) {
 }
 
 TEST(AutoFill, FillsWhatAnEarlierRoundMadePossible) {
-  // Only two other markers are seen throughout the long gap; the others go missing one at a time.
+  // Only two other markers are observed throughout the long gap; the others are missing one at a
+  // time.
   Take clip = marker_take();
   const Take truth = clip;
   for (std::size_t m = 0; m + 2 < clip.marker_count(); ++m) {
@@ -234,7 +235,7 @@ TEST(MarkerFill, LeavesWhatIsNoPositionAlone) {
   EXPECT_FALSE(clip.is_observed(105, angle));
 }
 
-// Takes that give little to go by.
+// Takes with little evidence for a filling.
 class MeagreTakes : public testing::TestWithParam<std::string> {
  protected:
   static FillSettings settings() {
@@ -254,7 +255,7 @@ class MeagreTakes : public testing::TestWithParam<std::string> {
     }
     return clip;
   }
-  // Fills with and without rules; every result is finite, and what is not filled stays missing.
+  // Fills with and without rules; every result is finite, and unfilled samples stay missing.
   static void check(const Take& damaged) {
     for (const bool fill_all : {false, true}) {
       Take clip = damaged;
@@ -294,7 +295,7 @@ TEST_P(MeagreTakes, AreFilledOrRefusedWithoutHarm) {
       hide(clip, "m0", frames - 1, frames - 1);
       check(clip);
       clip = whole;
-      hide(clip, "m0", 0, frames - 1);  // never seen
+      hide(clip, "m0", 0, frames - 1);  // never observed
       check(clip);
       clip = whole;
       hide(clip, "*", frames / 3, frames / 2);

@@ -1,4 +1,4 @@
-// Tests of gap plans: what a run says of its gaps is read back and applied.
+// Tests of gap plans: a plan written by a run is read back and applied.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ Take markers_with_gaps() {
   hide(clip, "LeftLeg_c", 210, 250);
   hide(clip, "Head_a", 0, 5);
   hide(clip, "LeftFoot_a", 210, 240);
-  // Too long for any that sees nothing else.
+  // This gap is too long for any method, because no marker is observed.
   for (const std::string& name : clip.names) hide(clip, name, 300, 420);
   return clip;
 }
@@ -59,7 +59,7 @@ void expect_same_after_plan(const Take& damaged, const FillSettings& settings) {
     const std::string text = as_json ? plan_json(damaged, made.plan) : plan_csv(damaged, made.plan);
     std::vector<PlannedGap> plan = parse_plan(text, "plan", damaged);
     ASSERT_EQ(plan.size(), report.gaps.size());
-    // The order of rows means nothing.
+    // The order of rows has no effect.
     std::reverse(plan.begin(), plan.end());
     Take applied = damaged;
     const PlannedFill again = fill_with_plan(applied, plan);
@@ -98,7 +98,7 @@ TEST(GapPlan, DoesForEachGapWhatItsRowSays) {
   Take clip = damaged;
   const PlannedFill made = fill_with_plan(clip, parse_plan(text, "plan.csv", damaged));
   ASSERT_EQ(made.plan.size(), 4u);
-  // A method alone, on that gap alone, makes the same of it.
+  // The same method, applied to that gap only, gives the same result.
   for (const auto& [name, method, donor] :
        {std::tuple("LeftLeg_b", "spline", ""), std::tuple("LeftFoot_a", "pattern", "LeftFoot_b")}) {
     Take alone = damaged;
@@ -114,7 +114,7 @@ TEST(GapPlan, DoesForEachGapWhatItsRowSays) {
   }
   EXPECT_FALSE(clip.is_observed(220, track_of(clip, "LeftLeg_c")));
   EXPECT_TRUE(clip.is_observed(2, track_of(clip, "Head_a")));
-  // Gaps without a row stay.
+  // Gaps without a row stay open.
   EXPECT_FALSE(clip.is_observed(350, track_of(clip, "Head_a")));
   for (const GapOutcome& gap : made.report.gaps) {
     EXPECT_EQ(gap.reason, gap.filled ? "" : "the plan refuses it");
@@ -159,7 +159,7 @@ TEST(GapPlan, PreviewsEveryMethodBesideWhatFillsTheGap) {
   EXPECT_GT(seen, 4u);
 }
 
-// The take as the plan fills it once the row has that method.
+// The take filled by the plan after one row gets that method.
 Take filled_with(const Take& damaged, std::vector<PlannedGap> plan, std::size_t row,
                  const std::string& method, GapVerdict verdict) {
   plan[row].method = method;
@@ -196,7 +196,7 @@ TEST(GapPlan, ShowsTheCurvesThatTheRowsMethodsWouldMakeOfMarkers) {
       drawn += i == 41 + 4;
     }
     forced += !curve.preview.filled && curve.values[41 + 4];
-    // The preview shows each frame that the plan may fill.
+    // Every accepted filling has a curve.
     EXPECT_TRUE(!curve.preview.filled || curve.values[41 + 4]) << method;
   }
   EXPECT_GT(drawn, 5u);

@@ -1,4 +1,4 @@
-// Compares the error that a report promises for a filled gap with the error that it has.
+// Compares the errors that the report expects with the real errors of fillings.
 #include <gtest/gtest.h>
 
 #include <numeric>

@@ -9,7 +9,7 @@ namespace kinemend::test {
 namespace {
 
 TEST(CountedMemory, SeesWhatAnActionHeldAtOnce) {
-  // A compiler may leave out an allocation that nobody sees.
+  // Makes the memory visible, because a compiler may omit unused allocations.
   volatile const char* seen = nullptr;
   const auto hold = [&](std::size_t bytes) {
     std::vector<char> block(bytes);

@@ -1,5 +1,5 @@
-// A text file that was cut off in its last line, as by a full disk, is read up to there; other
-// short lines are still errors.
+// A text file cut in its last line, as by a full disk, is read up to the cut; other short lines are
+// still errors.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -35,7 +35,7 @@ std::string bvh_text() {
   return text;
 }
 
-// Rows of a number, a time and two markers.
+// Rows with a number, a time and two markers.
 std::string table_rows(char separator) {
   std::string text;
   for (std::size_t f = 0; f < rows; ++f) {
@@ -105,7 +105,7 @@ TEST(CutFile, OfBvhWithAShortLineIsStillAnError) {
   EXPECT_THAT(read_error(twice), HasSubstr("expected 6 channel values, found 5"));
 }
 
-// The text of a take of 6 channels with these rows.
+// The text of a take with 6 channels and these rows.
 std::string bvh_with_rows(const std::string& rows_text, std::size_t declared) {
   const std::string text = bvh_text();
   std::string head = text.substr(0, text.find("0.01\n") + 5);
@@ -127,7 +127,7 @@ TEST(CutFile, OfBvhThatIsCutInAWordOfTwoNumbersIsWrittenWhole) {
   EXPECT_EQ(write_take(again.take), written);
 }
 
-// Two frames, wrapped over as many lines, are no file of 5 channels.
+// Two frames wrapped over the same number of lines are not read as frames of 5 channels.
 TEST(CutFile, OfBvhWithWrappedFramesIsWrittenReadably) {
   const std::string rows_text = "1 2 3 4 5\n6 1 2 3 4 5 6\n1 2 3 4 5";
   const TakeResult read = read_joints(bvh_with_rows(rows_text + " 6 1 2 3 4\n", 1), "take.bvh");
@@ -158,14 +158,14 @@ TEST(CutFile, OfAmcIsReadUpToTheLastWholeFrame) {
   for (std::size_t length = last + 1; length + 2 < frame.size(); ++length) {
     SCOPED_TRACE(length);
     if (frame[length - 1] == '\n') {
-      // Whole lines: bones are missing, for whatever reason.
+      // A cut at the end of a line: bones are missing for an unknown reason.
       EXPECT_THROW(read_pair(frame.substr(0, length), figure_asf()), Error);
       continue;
     }
     const TakeResult read = read_pair(frame.substr(0, length), figure_asf());
     const std::string left = frame.substr(last, length - last);
     if (read.diagnostics.count("file_cut") == 0) {
-      // Digits of the last number alone are gone, and too few lines tell.
+      // Only digits of the last number are missing, so the line count cannot reveal the cut.
       EXPECT_GT(length + 12, frame.size());
       continue;
     }
@@ -199,7 +199,7 @@ TEST(CutFile, OfMarkersIsReadUpToTheLastWholeNumber) {
         }
       }
       ASSERT_EQ(clip.frame_rate_hz, 100);
-      // A marker that still has its three numbers is used.
+      // A marker with all three numbers is used.
       const std::string left = text.substr(line, length - line);
       const auto cells = std::count(left.begin(), left.end(), format == "csv" ? ',' : '\t');
       EXPECT_TRUE(cells < 5 || clip.is_observed(rows - 1, 0));

@@ -1,4 +1,4 @@
-// Tests of files that are written whole or not at all, and of formats that are recognised by
+// Tests that files are written completely or not at all, and that formats are recognised by
 // content.
 #include <sys/stat.h>
 #include <unistd.h>
@@ -87,7 +87,7 @@ TEST_F(Files, FailuresLeaveNothingBehind) {
       (folder / "none" / "a").string() + ": No such file or directory");
   EXPECT_EQ(message_of([&] { write_file(folder, "x", true); }, ErrorKind::cannot_write),
             folder.string() + ": Is a directory");
-  // The name is too long only when the finished file is to get it.
+  // The name of the finished file is too long; that of the temporary file is not.
   const fs::path long_name = folder / std::string(300, 'n');
   EXPECT_EQ(message_of([&] { write_file(long_name, "x", true); }, ErrorKind::cannot_write),
             long_name.string() + ": File name too long");
@@ -125,7 +125,7 @@ TEST_F(Files, RelativeNamesGoToTheCurrentFolder) {
   EXPECT_EQ(entries(), 1u);
 }
 
-// As messages list them, whatever there is.
+// All formats, as listed in messages.
 std::string format_names() {
   std::string names;
   for (const Format& format : formats())

@@ -16,7 +16,7 @@ ENDINGS = ("bvh", "amc", "c3d", "trc", "tsv", "csv", "fbx", "glb", "gltf")
 def test_a_real_take_has_the_bytes_of_the_program(ending, program):
     if not os.environ.get("KINEMEND_DATA"):
         pytest.skip("KINEMEND_DATA names no folder")
-    # Small takes of many sizes; what the program refuses, the package refuses with the same words.
+    # Small takes of many sizes. If the program refuses a take, the package refuses it with the same words.
     takes = sorted((path for path in DATA.rglob(f"*.{ending}") if 20_000 < path.stat().st_size < 2_000_000),
                    key=lambda path: (path.stat().st_size, path))[::7][:4]
     for number, path in enumerate(takes):

@@ -27,7 +27,7 @@ def test_every_format_has_the_bytes_and_the_report_of_the_program(all_formats, p
     for path in takes:
         result = kinemend.clean(kinemend.read(path), "auto")
         kinemend.write(result.take, program.folder / "ours" / path.name)
-        # The verdict of the program names what is left over.
+        # The program's verdict mentions leftovers, so it differs.
         left_out = ["verdict"] if entries[str(path)]["leftovers"] else []
         assert without(json.loads(result.to_json()), *left_out) == without(entries[str(path)], *left_out), path.name
     for theirs in (program.folder / "theirs").iterdir():
@@ -143,7 +143,7 @@ def test_an_exception_of_progress_ends_the_work(noisy):
 
     with pytest.raises(LookupError, match="cleaning"):
         kinemend.clean(noisy, "auto", progress=refuse)
-    # Nothing is left behind that would disturb the next.
+    # The refused call leaves nothing that disturbs the next one.
     assert kinemend.clean(noisy, "auto").report.method == "auto"
 
 

@@ -55,7 +55,7 @@ def test_what_a_file_holds_is_no_error_of_the_system(tmp_path):
     with pytest.raises(kinemend.Error) as raised:
         kinemend.read(tmp_path / "a.bvh")
     assert not isinstance(raised.value, OSError)
-    # Bytes have a name and no file.
+    # Bytes have a name but no file.
     with pytest.raises(kinemend.Error) as raised:
         kinemend.read(b"no take", name="nowhere.bvh")
     assert not isinstance(raised.value, OSError)

@@ -40,7 +40,7 @@ def test_looking_at_arrays_and_cleaning_copies_none_of_them(noisy):
     views.append(result.take.rotations)
     _, most = tracemalloc.get_traced_memory()
     tracemalloc.stop()
-    # NumPy tells tracemalloc of all that it allocates.
+    # tracemalloc includes NumPy's allocations.
     assert most < 20_000 < long.rotations.nbytes
     assert address(views[-1]) == result.take._addresses()["rotations"]
 

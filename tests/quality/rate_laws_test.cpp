@@ -132,7 +132,7 @@ std::vector<std::string> every_method() {
 #endif
 }
 
-// Among the methods with a model, only `learned` supports markers.
+// Only `learned` supports markers among the methods with a model.
 std::vector<std::string> methods_for_markers() {
   std::vector<std::string> names = method_names();
 #if !defined(KINEMEND_SANITIZED)

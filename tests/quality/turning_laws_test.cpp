@@ -166,7 +166,7 @@ TEST_P(OfAnyMethod, TheErrorDoesNotGrowWithTheLengthOfTheTake) {
   }
 }
 
-// Methods that look ahead. Among the methods with a model, only `learned` supports markers.
+// Methods that look ahead. Only `learned` supports markers among those with a model.
 class OfAnyMethodForMarkers : public OfAnyMethod {};
 
 TEST_P(OfAnyMethodForMarkers, TurnAndStandAnywhere) {

@@ -67,7 +67,7 @@ TEST(Pictures, OfASpectrumHoldThePowerOfASine) {
     power += spectrum.before[k] * spectrum.hertz[1];
     if (spectrum.before[k] > spectrum.before[peak]) peak = k;
   }
-  // The mean square of a sine is half of its amplitude's square; the mean itself is taken off.
+  // The mean square of a sine is half of its squared amplitude; the mean itself is subtracted.
   EXPECT_NEAR(power, 4.5, 0.05);
   EXPECT_NEAR(spectrum.hertz[peak], 10, spectrum.hertz[1]);
   EXPECT_NEAR(spectrum.hertz.back(), 50, 1e-9);

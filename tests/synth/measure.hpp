@@ -44,7 +44,7 @@ inline double least(const std::vector<double>& values) {
   return *std::min_element(values.begin(), values.end());
 }
 
-/// The turn about the joint's x axis in degrees, in [-180, 180): the twist of the rotation about x.
+/// Rotation about the joint's x axis in degrees, in [-180, 180): the twist of the rotation about x.
 inline std::vector<double> turn_about_x(const Take& clip, std::string_view joint) {
   const auto j = static_cast<std::size_t>(clip.skeleton.find(joint));
   std::vector<double> result;

@@ -7,7 +7,7 @@ from figures_tree import GAPS, OUTLIERS, PAGE, SPEC, TOOLS, FiguresTree
 
 
 class CheckFigures(FiguresTree):
-    # The tree as it should be.
+    # The unchanged tree.
 
     def test_a_tree_whose_figures_agree_passes_and_is_not_changed_by_writing(self):
         before = {path: path.read_bytes() for path in self.root.rglob("*") if path.is_file()}

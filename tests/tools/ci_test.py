@@ -8,7 +8,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 COMMANDS = ("make demo", "make test")
 TYPED = re.compile(r"\bmake\b[^;&|]*\s(demo|test)(?![\w-])")
 EXPORTED = re.compile(r"\bexport\b|\b(declare|typeset|local|readonly) -\w*x|\bset -\w*a")
-# A variable that only the script uses is in lower case; one in front of another command ends with it.
+# Variables used only by the script are in lower case; an assignment before a command ends with that command.
 SET = re.compile(r"[A-Z]\w*\+?=(\S*|\"[^\"]*\"|'[^']*')$")
 
 

@@ -18,7 +18,8 @@ from soaking import outputs  # noqa: E402
 from soaking.mutations import BINARY, JSON, mutate  # noqa: E402
 from soaking.program import MOST_STANDARD_ERROR, Program, Result  # noqa: E402
 
-# Does what is asked in the simplest way: refuses words of `batch`, and writes a file of one line for all else, if there is none.
+# A minimal well-behaved program: refuses words of `batch`, and for all else writes a one-line file if it does not
+# exist.
 GOOD = """#!/bin/bash
 words=("$@"); out=
 for ((i = 1; i < $#; i++)); do case "${words[i]}" in -o|--report|--plan-out) out=${words[i+1]}; [ -e "$out" ] || echo 1 > "$out";; esac; done

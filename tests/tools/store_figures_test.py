@@ -62,7 +62,7 @@ class StoreFigures(FiguresTree):
         self.assertEqual((line["file"], line["moved"]), ("lou_outliers.csv", "2"))
         self.assertEqual(line["largest"], "wiener, 20 %: rms_deg 1.08 -> 2.45")
         self.assertEqual(line["reason"], "The hold, which outliers release, is gone")
-        # The ordering that the page states is contradicted now.
+        # The results now contradict the ordering that the page states.
         self.assert_fails("does not hold", arguments=["--write"])
 
     def test_figures_within_the_noise_and_new_files_are_stored_without_reason(self):

@@ -44,7 +44,7 @@ LIBRARIES = {library.name: library for library in (
             "https://emscripten.org", "emscripten"),
 )}
 
-# Header libraries are compiled into every program; `links` are needed beside a file, and installed by its package manager.
+# Header libraries are compiled into every program; `links` are separate and installed by the package manager.
 CORE = ["Eigen", "Spectra", "nlohmann-json", "fast_float", "xxHash"]
 COMMANDS = ["CLI11", "toml++"]
 PAGE = ["three.js", "uPlot"]
@@ -88,7 +88,7 @@ def licences_of(part):
     held = [LIBRARIES[name] for name in PARTS[part]["holds"]]
     sections = [("Kinemend (Apache-2.0)", (ROOT / "LICENSE").read_text())]
     sections += [(f"{library.name} ({library.licence})", licence_text(library)) for library in held]
-    # Debian's files refer to these; the text of Apache-2.0 stands at the top.
+    # Debian's licence files refer to these; the text of Apache-2.0 is at the top.
     for name, mark in (("MPL-2.0", "MPL-2.0"), ("GPL-3", "GPL-3.0")):
         if any(mark in library.licence for library in held) and (COMMON / name).exists():
             sections.append((f"Text of {name}", (COMMON / name).read_text()))

@@ -15,7 +15,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 
 from dist.libraries import LIBRARIES, PARTS, project_version, version_of  # noqa: E402
 
-# How the name of a download shows which part it is.
+# The part that the name of a download indicates.
 NAMES = {r"kinemend_.*\.deb": "kinemend", r"libkinemend-dev_.*\.deb": "libkinemend-dev", r"kinemend-.*\.whl": "wheel",
          r"kinemend-.*-windows-x86_64\.zip": "windows", r"kinemend\.html": "html", r"kinemend-npm-.*\.tgz": "npm",
          r"kinemend_blender-.*\.zip": "blender", r"kinemend-.*-source\.tar\.gz": "source"}

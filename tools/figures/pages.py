@@ -55,7 +55,7 @@ class Page:
         for name in (table.name for table in spec.tables if table.name not in found):
             self.complaints.append(f"{self.spec_name}: the page has no table {name!r}")
         by_name = {table.name: table for table in spec.tables}
-        # From the last to the first, so that the places of those before stay as they are.
+        # From last to first, so that earlier positions stay valid.
         for name, (first, last) in reversed(found.items()):
             if name not in by_name:
                 self.complaints.append(f"{self.name}:{first + 1}: {self.spec_name} has no table {name!r}")

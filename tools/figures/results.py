@@ -129,7 +129,7 @@ def keep_reason(store: Store, moves: list[Move], reason: str) -> None:
             table.writerow(REASONS)
         for name in sorted({move.file for move in moves}):
             of_file = [move for move in moves if move.file == name]
-            # Lines that are new or gone have no size; a figure says more where there is one.
+            # New or removed lines have no size; a figure is more informative if there is one.
             largest = max(of_file, key=lambda move: (move.size.is_finite(), move.size))
             table.writerow([datetime.date.today().isoformat(), current_commit(store.root), name, len(of_file), largest.text,
                             " ".join(reason.split())])

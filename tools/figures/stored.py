@@ -5,7 +5,7 @@ from decimal import Decimal
 from pathlib import Path
 
 NUMBER = re.compile(r"-?\d+(?:,\d{3})*(?:\.\d+)?(?:[eE][-+]?\d+)?")
-# Files beside the figures that hold none.
+# Files beside the figures that hold no figures.
 NO_FIGURES = {"tolerances.csv", "counts.csv", "reasons.csv"}
 
 
@@ -93,7 +93,7 @@ class Tolerances:
         """The difference as a multiple of the allowed one. More than 1 is a move beyond the noise."""
         absolute, relative = self.of.get(name, self.of["*"])
         if name == "speeds.csv":
-            # Machines differ: a time or a rate may be several times as large, or as small.
+            # Machines differ: a time or rate may be several times larger or smaller.
             small, large = sorted([abs(stored), abs(measured)])
             return large / (relative * small) if small else Decimal(0 if not large else 1000)
         allowed = max(absolute, relative * abs(stored)) + Decimal("1e-12")

@@ -91,7 +91,7 @@ class Scene:
         return json.dumps(text, indent=indent).encode()
 
 
-# What the numbers mean.
+# Decoding of accessors.
 
 def numbers(scene, index):
     a = scene.json["accessors"][index]
@@ -140,7 +140,7 @@ def sample(times, values, interpolation, t, turns):
         return value(0)
     if t >= times[-1] - 1e-6:
         return value(count - 1)
-    # A frame that is a key but for rounding is the key.
+    # A frame that equals a key up to rounding uses the key.
     i = int(np.searchsorted(times, t + 1e-6, side="right") - 1)
     length = times[i + 1] - times[i]
     s = max(0.0, (t - times[i]) / length)
@@ -297,7 +297,7 @@ def good_scenes(rng):
     scene.animate(animation, 4, "rotation", [0, 4 / 30, 11 / 30], spline, "CUBICSPLINE")
     add("posed", scene, 30.0, 13)
 
-    # Keys on no frames.
+    # Keys between frames.
     scene = figure(skin=False)
     animation = scene.animation("by hand")
     scene.animate(animation, 1, "rotation", [0, 0.1234, 0.3217], quaternions(rng, 3))

@@ -68,7 +68,7 @@ def _batch(program, seeds, rng, folder, _):
         for name, data in _takes(folder / "out").items():
             if expected.get(name) != data:
                 found.append(f"{name} is not whole after a kill")
-    # Those of another machine may still be written to: a batch removes temporary files after an hour.
+    # A batch removes temporary files only after an hour, because another machine may still write them; this ages them.
     for name in _temporaries(folder / "out"):
         os.utime(folder / "out" / name, (time.time() - 7200,) * 2)
     again = program.run(words, folder)

@@ -10,7 +10,7 @@ import time
 from .program import signal_to
 
 MOST_RESIDENT_KB = 256 << 10
-PATIENCE = 20  # seconds that a start or an end may take
+PATIENCE = 20  # seconds allowed for a start or an end
 
 
 class Stream:
@@ -44,7 +44,7 @@ class Stream:
         return 0
 
     def _runs(self):
-        # Leaves the process to be waited for, with its figures.
+        # Does not reap the process, so that its statistics stay available.
         return os.waitid(os.P_PID, self.process.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None
 
     def settled(self, quiet=0.4):
@@ -145,7 +145,7 @@ def _laws(stream, received, *, numbered, exact, garbage):
             found.append(f"frames {first} to {last} were sent, and others came out: {sorted(set(numbers) ^ set(range(first, last + 1)))[:9]}")
         if numbers and not first <= numbers[0] <= numbers[-1] <= last:
             found.append(f"frames {numbers[0]} to {numbers[-1]} came out, and {first} to {last} were sent")
-        # A frame that came too late has its place taken by an interpolated one.
+        # An interpolated frame replaces a late one.
         if counts.get("in") == len(received):
             found += _moved(received, roots)
     elif made > garbage:
@@ -184,7 +184,7 @@ def _udp(program, seeds, rng, folder):
             for i, (number, frame) in enumerate(plan if port else []):
                 out.sendto(b"%d " % number + frame + b"\n" * rng.randrange(2), ("127.0.0.1", port))
                 if rng.random() < 0.1:
-                    out.sendto(b"%d " % number + frame, ("127.0.0.1", port))  # the same once more
+                    out.sendto(b"%d " % number + frame, ("127.0.0.1", port))  # the same frame again
                 if rng.random() < 0.15:
                     out.sendto(_garbage(rng, frame, b"%d" % (number + rng.randint(-3, 3))), ("127.0.0.1", port))
                     garbage += 1

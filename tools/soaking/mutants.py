@@ -7,7 +7,7 @@ from .mutations import mutate
 from .program import odd_characters
 from .seeds import FIXTURES, TAKE_FORMATS, fixtures
 
-# What is mutated, and how often among a hundred trials.
+# Mutated inputs and their frequency per hundred trials.
 CASES = {"take": 48, "gaps": 8, "contacts": 7, "plan": 9, "config": 8, "model": 7, "noise": 4, "list": 4, "words": 5}
 OUTPUTS = ("bvh", "csv", "trc", "tsv", "c3d", "glb", "amc")
 METHODS = ("auto", "median", "butterworth", "gaussian", "one-euro", "kalman", "hampel", "weighted-mean", "wiener")
@@ -143,7 +143,7 @@ def run(program, seeds, rng, folder, index):
     before = {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
     result = program.run([os_word(word) for word in words], folder)
     found = program.broken_laws(result)
-    if case != "words":  # which may ask for a take on standard output
+    if case != "words":  # words may ask for a take on standard output
         found += odd_characters(result.out, "standard output")
     if "--json" in words and result.code == 0 and (problem := outputs.CHECKS[".json"](result.out)):
         found.append(f"standard output {problem}")

@@ -29,7 +29,7 @@ def _lines(data):
 
 def _table(data):
     for number, line in _lines(data):
-        # The names of markers are free, and so are the words of headings: what counts are rows that begin with a number.
+        # Marker names and headings are free text, so only rows that begin with a number are checked.
         cells = re.split(rb"[\t,;]", line)
         if NUMBER.fullmatch(cells[0].strip()) and (found := _row(cells, number)):
             return found
@@ -42,7 +42,7 @@ def _bvh(data):
         return ""
     before = data.count(b"\n", 0, begin)
     for number, line in _lines(data[begin:]):
-        # A frame is a line of numbers alone: text behind the motion is kept as it was.
+        # A frame is a line of numbers only; text after the motion is kept unchanged.
         words = re.split(rb"[\s,]+", line.strip())
         if all(NUMBER.fullmatch(w) or NOT_FINITE.fullmatch(w) for w in words) and (found := _row(words, before + number)):
             return found

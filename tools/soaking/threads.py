@@ -38,7 +38,7 @@ def run(program, seeds, rng, folder, index):
         found += program.broken_laws(runs[-1])
         written = (folder / out).read_bytes() if out and (folder / out).is_file() else b""
         results.append((runs[-1].code, written if out else runs[-1].out))
-        # A method that does not know this kind of take is refused, each time alike.
+        # A method that does not support this kind of take is refused equally each time.
         if runs[-1].code not in (0, 2):
             found.append(f"{name}: exit code {runs[-1].code}: {last_line(runs[-1].err)}")
     if results[0] != results[1] or results[2] != results[3]:

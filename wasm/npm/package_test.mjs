@@ -1,8 +1,8 @@
-// The npm package, installed from its archive: in Node and in a browser it makes the bytes of the program, and its types compile.
+// Tests the npm package, installed from its archive: in Node and in a browser it writes the program's bytes, and its types compile.
 //
 //   node package_test.mjs PROGRAM CHROMIUM ARCHIVE TAKES       (the working folder holds playwright-core and typescript)
 //
-// NODE=path runs the part for Node by another node as well, such as one of `npm install node@18`.
+// NODE=path also runs the part for Node with another node, such as one of `npm install node@18`.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -24,7 +24,7 @@ writeFileSync(join(folder, 'walk.bvh'), take);
 const options = { method: 'butterworth', cutoff_hz: 6 };
 execFileSync(program, ['clean', 'walk.bvh', '--method', 'butterworth', '--cutoff-hz', '6', '-o', 'wanted.bvh'], { cwd: folder, stdio: 'ignore' });
 const wanted = readFileSync(join(folder, 'wanted.bvh'));
-// Live: as a sender gives it, in pieces that end anywhere.
+// Live streams arrive in pieces that end anywhere.
 const marked = `MARKERS 100 A,B\n${Array.from({ length: 60 }, (_, f) => (f % 20 === 7 ? `${f},0,0,,,` : `${f + Math.sin(f * f)},0,0,5,${f},1`)).join('\n')}\n`;
 writeFileSync(join(folder, 'markers.txt'), marked);
 const streams = [['walk.bvh', {}], ['walk.bvh', { method: 'one-euro', min_cutoff_hz: 2, format: 'jsonl' }], ['walk.bvh', { method: 'butterworth', feet: true }],
@@ -34,7 +34,7 @@ const streamed = streams.map(([input, asked]) => ({ input, asked, output: execFi
   { cwd: folder, input: readFileSync(join(folder, input)), stdio: ['pipe', 'pipe', 'ignore'], maxBuffer: 2 ** 26 }).toString() }));
 writeFileSync(join(folder, 'streamed.json'), JSON.stringify(streamed));
 
-// Node: in a process of its own, which may be another version.
+// Node runs in a separate process, which may be another version.
 writeFileSync(join(folder, 'in_node.mjs'), `
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -68,7 +68,7 @@ for (const { input, asked, output } of JSON.parse(readFileSync('streamed.json', 
   assert.ok(delay >= 0 && live.messages.length > 0, live.messages.join());
   assert.throws(() => live.push('1 2 3\\n'), /closed/);
 }
-// Two at a time, by a skeleton that is kept; and what is refused.
+// Two streams at a time, with a kept skeleton; then refused input.
 kinemend.putFile('suit.bvh', take);
 const frames = take.toString().split('\\n').slice(-30).join('\\n');
 const [one, other] = [kinemend.stream({ skeleton: 'suit.bvh' }), kinemend.stream({ skeleton: 'suit.bvh', method: 'kalman' })];
@@ -93,7 +93,7 @@ execFileSync('node', [join(process.cwd(), 'node_modules/typescript/bin/tsc'), '-
   { cwd: folder, stdio: 'inherit' });
 console.log('ok types');
 
-// A browser, from a server that knows types of files and nothing else.
+// Tests in a browser, with a server that knows only file types.
 const types = { '.mjs': 'text/javascript', '.wasm': 'application/wasm', '.html': 'text/html' };
 writeFileSync(join(folder, 'index.html'), '<!doctype html><title>package</title>');
 const server = createServer((request, reply) => {

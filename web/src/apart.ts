@@ -1,15 +1,15 @@
-// How far two bodies are put apart, so that they never overlap.
+// Computes the distance between two bodies at which they never overlap.
 
 import type { Take } from './take';
 
-/** Frames that are looked at, evenly over the take. Chosen by hand. */
+/** Number of frames to check, evenly over the take. Chosen by hand. */
 const mostLookedAt = 1000;
-/** So many points, farther from the middle by a body height than all others, are strays: they may overlap. */
+/** Number of stray points: points farther from the middle than all others by a body height may overlap. */
 const mostStrays = 2;
-/** Between the two bodies, as a share of their height. */
+/** Gap between the two bodies, as a share of their height. */
 const space = 0.15;
 
-/** The middle of the body in a pose: the root joint, or the mean of the markers; null where nothing is seen. */
+/** The middle of the body in a pose: the root joint, or the mean of the markers; null if nothing is visible. */
 export function middleOf(take: Take, pose: ArrayLike<number>): [number, number, number] | null {
   if (take.isJoints) return take.told > 0 ? [pose[0], pose[1], pose[2]] : null;
   const sum: [number, number, number] = [0, 0, 0];
@@ -22,7 +22,7 @@ export function middleOf(take: Take, pose: ArrayLike<number>): [number, number, 
   return seen > 0 ? [sum[0] / seen, sum[1] / seen, sum[2] / seen] : null;
 }
 
-/** How far points of these poses are from a middle. */
+/** The largest distance of the points of these poses from a middle, without strays. */
 function reach(take: Take, poses: Float32Array[], [x, y, z]: [number, number, number]): number {
   const ways: number[] = [];
   for (const pose of poses) {
@@ -39,7 +39,7 @@ function reach(take: Take, poses: Float32Array[], [x, y, z]: [number, number, nu
   return ways[ways.length - 1] ?? 0;
 }
 
-/** The distance at which a plane between the two bodies touches neither in any frame, whichever way it stands. */
+/** The distance at which a plane between the two bodies, in any orientation, touches neither in any frame. */
 export function distanceApart(take: Take): number {
   const poses = take.takes.map(() => new Float32Array(3 * take.points));
   const every = Math.max(1, Math.ceil(take.told / mostLookedAt));

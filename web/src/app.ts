@@ -1,4 +1,4 @@
-// The page that needs no program: takes that are dropped on it are read, cleaned and saved by the module in it.
+// The page without a program: its module reads, cleans and saves the takes dropped on it.
 
 import 'uplot/dist/uPlot.min.css';
 import './style.css';
@@ -11,7 +11,7 @@ import { themeButton } from './theme';
 import { startView, type ViewPage, type ViewStart } from './view';
 import { WorkerTransport, type NamedBytes } from './worker_transport';
 
-/** Files that are no takes but belong to one. */
+/** Files that belong to a take but are not takes. */
 const beside = /\.(asf|bin|png|jpe?g|contacts)$/i;
 const endings = '.bvh,.amc,.asf,.c3d,.trc,.tsv,.csv,.npz,.fbx,.glb,.gltf,.bin';
 
@@ -49,7 +49,7 @@ class App {
     engine.ready.then(() => this.say(''), (error: unknown) => cannotStart(error));
   }
 
-  /** What the page does while no take is open. */
+  /** Shows the work that the page does while no take is open. */
   private say(words: string): void { if (this.transport === null) this.status.textContent = words; }
 
   private welcome(): void {
@@ -64,7 +64,7 @@ class App {
     this.page.dataset.ready = 'waiting';
   }
 
-  /** The example take of the page (web/make_app.mjs), with its feet held, side by side with what it was and in motion. */
+  /** Opens the example take of the page (web/make_app.mjs) with held feet, beside the original and playing. */
   private async openExample(): Promise<void> {
     this.example ??= await bytesOf('example');
     if (this.example === null) return;

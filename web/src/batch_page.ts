@@ -25,7 +25,7 @@ export interface Batch {
 function repaired(row: Row): number {
   return (row.figures?.frames_repaired ?? 0) / Math.max(1, row.frames ?? 1);
 }
-/** Larger is worse. */
+/** Rank of a row; the largest most needs review. */
 function badness(row: Row): number {
   return (row.status === 'failed' ? 1e9 : 0) + 1e3 * (row.warnings?.length ?? 0) + repaired(row);
 }
@@ -42,7 +42,7 @@ const filters: [string, string, (row: Row) => boolean][] = [
 function line({ row, page, picture }: Batch['rows'][number]): HTMLTableRowElement {
   const link = page === '' ? element('span', {}, row.name) : element('a', { href: page.split('/').map(encodeURIComponent).join('/') }, row.name);
   const name = element('th', { scope: 'row' }, link);
-  // Drawn as a picture nothing in it runs.
+  // Scripts in a picture do not run.
   if (picture) name.append(element('img', { class: 'poses', src: `data:image/svg+xml,${encodeURIComponent(picture)}`, alt: `poses of ${row.name}`, loading: 'lazy' }));
   const made = element('tr', {}, name);
   const share = element('td', { class: 'share' });

@@ -22,7 +22,7 @@ const axes: Record<string, three.Vector3> = {
 };
 const trail_s = 0.5;
 
-/** Balls and, between them, bones of one take. */
+/** Spheres for the points of one take, and bones between them. */
 class Figure {
   readonly group = new three.Group();
   readonly pose: Float32Array;
@@ -96,10 +96,10 @@ class Figure {
   }
 }
 
-/** Making one takes long and a browser allows few: all bodies of the page share this one. */
+/** Creating a renderer is slow and browsers allow few, so all bodies of the page share this one. */
 let renderer: three.WebGLRenderer | null = null;
 
-/** The renderer; null where the browser has no WebGL. */
+/** Returns the renderer; null if the browser has no WebGL. */
 export function makeRenderer(): three.WebGLRenderer | null {
   try {
     return renderer ??= new three.WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
@@ -108,7 +108,7 @@ export function makeRenderer(): three.WebGLRenderer | null {
   }
 }
 
-/** Compiles what draws bodies while nobody waits for one; the materials are those of `Body`. */
+/** Compiles the shaders for bodies in advance; the materials are those of `Body`. */
 export async function warmRenderer(): Promise<void> {
   const made = makeRenderer();
   if (made === null) return;
@@ -137,11 +137,11 @@ export class Body {
   private readonly gizmo: SVGSVGElement;
   private centre = new three.Vector3();
   private readonly unseen = element('p', { class: 'unseen', hidden: true }, 'Every marker is missing in this frame.');
-  /** The name of what the mouse points at. */
+  /** The name of the point at the mouse. */
   private readonly tip = element('p', { class: 'tip', hidden: true });
   private waiting = false;
   private ended = false;
-  /** How far the two bodies are apart where they are; computed when it is needed. */
+  /** The distance between the two bodies side by side; computed when needed. */
   private distance: number | null = null;
 
   constructor(private readonly holder: HTMLElement, private readonly take: Take, private readonly player: Player, renderer: three.WebGLRenderer) {
@@ -199,7 +199,7 @@ export class Body {
     return `end of ${names[parent]}`;
   }
 
-  /** Names what is nearest to the mouse. */
+  /** Shows the name of the point nearest to the mouse. */
   private point(event: PointerEvent): void {
     const reach = 14;
     const { left, top, width, height } = this.holder.getBoundingClientRect();
@@ -222,7 +222,7 @@ export class Body {
     this.tip.hidden = named === '';
     if (named === '') return;
     this.tip.textContent = named;
-    // Beside the mouse, on the side with more space.
+    // Places the name beside the mouse, on the side with more space.
     this.tip.style.transform = `translate(${x}px, ${y}px) translate(${x > width / 2 ? 'calc(-100% - 12px)' : '12px'}, ${y > height / 2 ? '-100%' : '0'})`;
   }
 
@@ -232,13 +232,13 @@ export class Body {
     return !this.take.data.two || this.options[figure.which];
   }
 
-  /** The distance between the two bodies; 0 where they are in the same place. */
+  /** The distance between the two bodies; 0 if they are in the same place. */
   private get apart(): number {
     if (!this.options.apart || !this.take.data.two) return 0;
     return this.distance ??= distanceApart(this.take);
   }
 
-  /** Puts the two bodies side by side, as they are seen from the camera: on either side of a plane through it. */
+  /** Puts the two bodies side by side in the camera's view, on either side of a plane through it. */
   private place(): void {
     const up = new three.Vector3(0, 1, 0).applyQuaternion(this.camera.quaternion);
     const right = this.centre.clone().sub(this.camera.position).cross(up).normalize();
@@ -247,7 +247,7 @@ export class Body {
     for (const line of this.trails.children) line.position.copy((line.userData as { figure: Figure }).figure.group.position);
   }
 
-  /** Side by side or in one place; the camera goes as far away as both need. */
+  /** Shows the bodies side by side or in one place; the camera moves back as far as both need. */
   setApart(on: boolean): void {
     const before = this.ball().radius;
     this.options.apart = on;
@@ -285,7 +285,7 @@ export class Body {
     return ball;
   }
 
-  /** Colours, also after a change of the theme. */
+  /** Sets the colours, also after a change of theme. */
   paint(): void {
     for (const figure of this.figures) figure.paint();
     (this.soles.material as three.MeshBasicMaterial).color.set(colour('held'));
@@ -321,7 +321,7 @@ export class Body {
       orbit: this.ahead.clone().multiplyScalar(0.8).addScaledVector(this.across, 0.6).addScaledVector(this.up, 0.22),
       front: this.ahead.clone(),
       side: this.across.clone(),
-      // A little off: for a camera that looks straight down, up is undefined.
+      // Slightly tilted, because up is undefined for a camera that looks straight down.
       top: this.up.clone().addScaledVector(this.ahead, 0.001),
     }[view].normalize();
     this.controls.target.copy(target);
@@ -332,7 +332,7 @@ export class Body {
     this.draw();
   }
 
-  /** To where the body is now. */
+  /** Moves the camera to the body's current place. */
   recentre(): void {
     const way = this.ball().center.sub(this.controls.target);
     this.camera.position.add(way);
@@ -364,7 +364,7 @@ export class Body {
     this.draw();
   }
 
-  /** A disc below each foot in ground contact. */
+  /** Draws a disc below each foot in ground contact. */
   private stand(): void {
     const frame = this.player.shown * this.take.data.step;
     const turn = new three.Quaternion().setFromUnitVectors(axes.y, this.up);
@@ -383,7 +383,7 @@ export class Body {
     this.soles.instanceMatrix.needsUpdate = true;
   }
 
-  /** Paths of the chosen tracks, half a second to either side. */
+  /** Draws paths of the chosen tracks, half a second to either side. */
   private trace(): void {
     for (const line of this.trails.children) (line as three.Line).geometry.dispose();
     this.trails.clear();
@@ -412,7 +412,7 @@ export class Body {
     }
   }
 
-  /** On the next turn of the screen. */
+  /** Draws at the next screen refresh. */
   draw(): void {
     if (this.waiting) return;
     this.waiting = true;
@@ -438,7 +438,7 @@ export class Body {
       };
       add('line', { x1: 0, y1: 0, x2: 17 * seen.x, y2: -17 * seen.y });
       const [x, y] = [23 * seen.x, -23 * seen.y];
-      // The name is left out where it would cover the centre or another name.
+      // The name is omitted if it would cover the centre or another name.
       if (Math.hypot(seen.x, seen.y) < 0.15 || named.some((at) => Math.hypot(at[0] - x, at[1] - y) < 10)) continue;
       named.push([x, y]);
       add('text', { x, y }, name.toUpperCase());
@@ -458,7 +458,7 @@ export class Body {
     this.draw();
   }
 
-  /** Before another body takes its place. */
+  /** Call it before another body takes its place. */
   dispose(): void {
     this.ended = true;
     this.controls.dispose();
@@ -469,7 +469,7 @@ export class Body {
     });
   }
 
-  /** Where a point of a body is in the picture, -1 to 1; for tests. */
+  /** The position of a point of a body in the picture, -1 to 1; for tests. */
   seen(point: number, figure = this.main): [number, number] | null {
     const place = figure.at(point)?.add(figure.group.position) ?? null;
     if (place === null) return null;

@@ -1,8 +1,8 @@
-// Takes apart what src/report/page/codec.cpp put together.
+// Unpacks the data written by src/report/page/codec.cpp.
 
 import { Slices } from './slices';
 
-/** The bytes of an element of the page as they were packed; the element is empty afterwards. */
+/** Returns the packed bytes of an element of the page and empties the element. */
 export function packedBytesOf(holder: HTMLElement): Uint8Array {
   const text = atob(holder.textContent ?? '');
   holder.textContent = '';
@@ -11,7 +11,7 @@ export function packedBytesOf(holder: HTMLElement): Uint8Array {
   return packed;
 }
 
-/** The bytes of an element of the page; null where it is not there. */
+/** The bytes of an element of the page; null if it does not exist. */
 export async function bytesOf(name: string): Promise<Uint8Array | null> {
   const holder = document.getElementById(`data-${name}`);
   if (holder === null) return null;
@@ -25,10 +25,10 @@ export async function jsonOf<T>(name: string, parts: Parts = bytesOf): Promise<T
   return bytes === null ? null : (JSON.parse(new TextDecoder().decode(bytes)) as T);
 }
 
-/** Data of a page by name: those in its elements, or those of an answer (served.ts). */
+/** Data of a page by name, from its elements or from an answer (served.ts). */
 export type Parts = (name: string) => Promise<Uint8Array | null>;
 
-/** Multiples of the quantum of one channel, a number a frame. */
+/** Multiples of one channel's quantum, one number per frame. */
 export interface Samples {
   before: Int32Array;
   after: Int32Array | null;
@@ -97,7 +97,7 @@ function readSecond(reader: Reader, samples: Int32Array, stride: number): void {
   const remainders = reader.remainders(samples.length - Math.ceil(samples.length / stride));
   let next = 0;
   for (let f = 0; f < samples.length; ++f) {
-    // What stands there is the line between the frames of the first part.
+    // These samples already hold the straight line between the frames of the first part.
     if (f % stride !== 0) samples[f] = (remainders[next++] + (prediction === 0 ? 0 : samples[f])) | 0;
   }
 }
@@ -115,7 +115,7 @@ async function readPart(bytes: Uint8Array, all: Samples[], stride: number, read:
       continue;
     }
     const [first, other] = reader.byte() === 1 ? [channel.before, channel.after] : [channel.after, channel.before];
-    // The difference is what is told of the other.
+    // The second take is stored as a difference, so its prediction is a difference too.
     for (let f = 0; f < other.length; ++f) other[f] = (other[f] - first[f]) | 0;
     read(reader, first, stride);
     read(reader, other, stride);

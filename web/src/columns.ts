@@ -1,7 +1,6 @@
-// What the columns of tables and the figures of a report mean, in plain words with their units. The only place of the page that knows names of
-// figures and columns of reports.
+// Describes the columns of tables and figures of a report in plain words with units. Only this file of the page knows their names.
 
-/** Columns that no unit follows: counts, and those whose name states it. */
+/** Columns without a unit: counts, and those whose name states it. */
 const withoutUnit = /filled|refused|count|frames|gap|spikes|frozen|bridged|swaps|flips|percent|samples|above_6_hz|_s$|_s2$|_hz$|_deg$|_cm$|missing/;
 
 /** `{unit}` is the unit of the tracks, `{track}` a joint or marker. */
@@ -59,16 +58,16 @@ const feetFigures: Record<string, [label: string, unit: string, meaning: string]
 export function isFeetFigure(name: string): boolean { return name in feetFigures; }
 export function feetFigure(name: string): [label: string, unit: string, meaning: string] { return feetFigures[name]; }
 
-/** What the heading of a column says on hover; empty for one that is not known. */
+/** The tooltip of a column heading; empty for an unknown column. */
 export function meaningOf(column: string, noun: string, unit: string | null): string {
   return (meanings[column] ?? '').replaceAll('{track}', noun).replaceAll('{unit}', unit === 'deg' ? 'degrees' : unit || 'units of the file');
 }
 
-/** "deg", "mm/s": the unit that the heading of a column shows after its name; empty: none. */
+/** The unit shown after a column's heading, such as "deg" or "mm/s"; empty if there is none. */
 export function unitOf(column: string, unit: string | null): string {
   if (!unit || withoutUnit.test(column)) return '';
   return /^(peak_speed|velocity)/.test(column) ? `${unit}/s` : unit;
 }
 
-/** The columns by which a table is sorted first, the worst on top: the first that it has. */
+/** The initial sort column, worst rows on top: the first of these that the table has. */
 export const worstFirst = ['rms_change', 'geodesic_rms_deg', 'rms_distance', 'noise', 'gaps', 'filled frames'];

@@ -19,17 +19,17 @@ interface Line {
   dash?: number[];
 }
 
-/** Of a longer take a panel is drawn at a time, so that the page listens between them. Chosen by hand, not swept. */
+/** Longer takes are drawn one panel at a time, so that the page stays responsive. Chosen by hand, not swept. */
 const framesAtOnce = 10_000;
 /** Numbers that change faster cannot be read. */
 const restOfLegend_ms = 100;
 const axisColours = ['axis-1', 'axis-2', 'axis-3'];
 const superscript = '\u00b2';
 
-/** The plotting library hides the points of a line that is switched off, so that there must be some; the style sheet hides them all. */
+/** The plotting library hides the points of a hidden line, so that there must be some; the style sheet hides them all. */
 const hiddenPoints: uPlot.Cursor.Points = { show: () => element('i') };
 
-/** Power that is only rounding error is left out: the logarithmic axis would span thirty decades for it, and never finish its ticks. */
+/** Power at the level of rounding errors is left out, because the logarithmic axis would span thirty decades and never finish its ticks. */
 function aboveRounding(density: number[]): Values {
   const least = Math.max(1e-15, 1e-12 * Math.max(...density));
   return density.map((value) => (value > least ? value : null));
@@ -38,7 +38,7 @@ function aboveRounding(density: number[]): Values {
 /** Ticks are at whole frames. */
 export const frameSteps = [1, 2, 5].flatMap((digit) => Array.from({ length: 9 }, (_, power) => digit * 10 ** power)).sort((a, b) => a - b);
 
-/** Short enough for its place beside the panel. */
+/** Shortens a number to fit beside the panel. */
 function tickText(tick: number): string {
   const rounded = Number(tick.toPrecision(10));
   return Math.abs(rounded) >= 1e5 ? `${(rounded / 1000).toLocaleString('en-US')}k` : rounded.toLocaleString('en-US', { maximumFractionDigits: 6 });
@@ -92,7 +92,7 @@ export class Curves {
   private isStarted = false;
   private isZooming = false;
   private turn = 0;
-  /** Until all panels are there. */
+  /** Resolves when all panels are drawn. */
   whole: Promise<void> = Promise.resolve();
 
   constructor(private readonly holder: HTMLElement, private readonly take: Take, private readonly player: Player) {
@@ -104,7 +104,7 @@ export class Curves {
     new ResizeObserver(() => this.resize()).observe(holder);
   }
 
-  /** After the rest of a long take is loaded. */
+  /** Call it after the rest of a long take is loaded. */
   forget(): void {
     this.signals.clear();
     this.rebuild();
@@ -195,7 +195,7 @@ export class Curves {
     }
   }
 
-  /** Each adds one panel. */
+  /** Each function adds one panel. */
   private panelsOf(track: number): (() => void)[] {
     const order: Kind[] = ['values', 'difference', 'speed', 'acceleration', 'spectrum'];
     const kinds = order.filter((kind) => this.kinds.has(kind) && (kind !== 'difference' || this.take.data.two));
@@ -203,7 +203,7 @@ export class Curves {
     return [() => { isEmpty = this.addWords(track); }, ...kinds.map((kind) => () => { if (!isEmpty) this.addKind(track, kind); })];
   }
 
-  /** Says why there is nothing to draw; returns whether that is so. */
+  /** Shows why there is nothing to draw; returns whether that is so. */
   private addWords(track: number): boolean {
     const signal = this.signal(track);
     const name = this.take.nameOf(track);
@@ -293,7 +293,7 @@ export class Curves {
     queueMicrotask(() => queueMicrotask(() => { this.isZooming = false; }));
   }
 
-  /** Moves the time line over the curves: drawing all curves again for each frame would take too long. */
+  /** Moves the time line over the curves, because redrawing all curves for each frame would take too long. */
   private cursorIn(plot: uPlot): void {
     const line = plot.over.querySelector<HTMLElement>('.time-cursor');
     if (line === null) return;
@@ -307,7 +307,7 @@ export class Curves {
     if (this.player.playing && now - this.told < restOfLegend_ms) return;
     this.told = now;
     for (const plot of this.plots) {
-      // The legend shows the values at the mouse, else at the current time.
+      // The legend shows the values at the mouse, or else at the current time.
       queueMicrotask(() => { if ((plot.cursor.left ?? -1) < 0) plot.setLegend({ idx: this.player.shown }, false); });
     }
   }

@@ -2,7 +2,7 @@
 
 type Attributes = Record<string, string | number | boolean | undefined>;
 
-/** A name among other words: a name that is written from right to left does not turn them around. */
+/** A name among other words, isolated so that a right-to-left name does not reverse them. */
 export function isolated(name: string): string {
   return `\u2068${name}\u2069`;
 }
@@ -27,7 +27,7 @@ export function button(label: string, title: string, act: () => void, pressed?: 
   return made;
 }
 
-/** A button that stays down. */
+/** A toggle button. */
 export function toggle(label: string, title: string, on: boolean, act: (on: boolean) => void): HTMLButtonElement {
   const made: HTMLButtonElement = button(label, title, () => {
     const now = made.getAttribute('aria-pressed') !== 'true';
@@ -44,18 +44,18 @@ export function choice(label: string, options: [string, string][], value: string
   return made;
 }
 
-/** Headings of columns, with what they mean on hover. */
+/** Headings of columns with tooltips. */
 export function headings(columns: [text: string, meaning: string][]): HTMLTableCellElement[] {
   return columns.map(([text, title]) => element('th', { scope: 'col', title }, text));
 }
 
-/** Says what a canvas shows to those who do not see it. */
+/** Describes a canvas to screen readers. */
 export function describeCanvas(canvas: HTMLCanvasElement | null, text: string): void {
   canvas?.setAttribute('role', 'img');
   canvas?.setAttribute('aria-label', text);
 }
 
-/** A colour of the style sheet, as it is in the present theme. */
+/** A colour of the style sheet in the current theme. */
 export function colour(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 }

@@ -1,14 +1,14 @@
-// Makes the workers that hold the module for JavaScript. The first one unpacks and compiles it; later ones are given it compiled.
+// Makes the workers that hold the JavaScript module. The first one unpacks and compiles it; later ones get it compiled.
 
 import type { FromWorker, ToWorker } from './worker_transport';
 
 export class Engine {
-  /** Settles when the module is compiled; fails where it cannot be. */
+  /** Resolves when the module is compiled; rejects if it cannot be. */
   readonly ready: Promise<void>;
   private module: WebAssembly.Module | null = null;
   private first: Worker | null;
 
-  /** `packed`: the module as the page holds it (web/make_app.mjs); `size`: its bytes. */
+  /** `packed` is the module as stored in the page (web/make_app.mjs); `size` is its unpacked size in bytes. */
   constructor(private readonly make: () => Worker, private packed: string, private readonly size: number) {
     const worker = this.begun();
     this.first = worker;
@@ -22,7 +22,7 @@ export class Engine {
     this.ready.catch(() => undefined);
   }
 
-  /** A worker for one take, with the module in it or on its way. Messages to it wait for the module. */
+  /** A worker for one take; the module may still be loading, and messages wait for it. */
   worker(): Worker {
     const made = this.first ?? this.begun();
     this.first = null;

@@ -5,7 +5,7 @@ import { counted, element, figure, grouped, words } from './dom';
 import type { Contact, FeetFigures, ReportDocument, TakeEntry } from './report';
 import type { Take } from './take';
 
-/** A name, what it is, and what it means on hover. */
+/** A name, its value, and its tooltip. */
 type Fact = [name: string, value: string, meaning?: string];
 
 function pairs(rows: Fact[]): HTMLElement {
@@ -18,14 +18,14 @@ function box(title: string, ...parts: Node[]): HTMLElement {
   return element('section', { class: 'box' }, element('h2', {}, title), ...parts);
 }
 
-/** How long feet stand in these frames; overlapping contacts of heel and toe count once. */
+/** Number of frames in which a foot stands; overlapping contacts of heel and toe are counted once. */
 function standing(contacts: Contact[]): number {
   const frames = new Set<number>();
   for (const { first_frame, last_frame } of contacts) for (let f = first_frame; f <= last_frame; ++f) frames.add(f);
   return frames.size;
 }
 
-/** Why a contact was left as it is, in short; src/feet/judge.cpp has the reasons. */
+/** Short reason why a contact was not changed (src/feet/judge.cpp). */
 function kindOf({ reason }: Contact): string {
   if (reason?.startsWith('stands still')) return 'stand still already';
   if (reason?.endsWith('intended')) return 'slide on purpose';
@@ -33,7 +33,7 @@ function kindOf({ reason }: Contact): string {
   return `left: ${reason ?? ''}`;
 }
 
-/** What was measured of feet, and what was done to them. */
+/** Measurements of feet, and the changes to them. */
 function feetFacts(entry: TakeEntry): Fact[] {
   const rows: Fact[] = Object.entries(entry.figures).filter(([name, value]) => isFeetFigure(name) && value !== null).map(([name, value]) => {
     const [label, unit, meaning] = feetFigure(name);

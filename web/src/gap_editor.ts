@@ -10,20 +10,20 @@ const mostRows = 300;
 
 export class GapEditor {
   readonly element = element('div');
-  /** Whether gaps are filled by this plan. */
+  /** True if gaps are filled by this plan. */
   edited = false;
-  /** Whether every method is tried on every gap. */
+  /** True if every method is tried on every gap. */
   preview = false;
   private plan: GapPlan = { schema: '', gaps: [] };
   private readonly body = element('tbody');
   private readonly words = element('p', { class: 'empty' });
   private readonly looked: GapPreview;
   private take: Take | null = null;
-  /** The first row that is shown, and what shows others. */
+  /** The first visible row, and the buttons for other rows. */
   private from = 0;
   private readonly pages = element('span', { class: 'controls', hidden: true });
 
-  /** `curves`: asks the server for the curves of every method over a gap; null where a later request replaced this one. */
+  /** `curves` requests the curves of every method for a gap; null if a later request replaced this one. */
   constructor(private readonly session: Session, private readonly isJoints: boolean, private readonly goTo: (track: string, frame: number) => void,
     private readonly again: () => void, private readonly curves: (plan: string, row: number) => Promise<GapCurves | null>) {
     this.looked = new GapPreview((gap, method, isForced) => this.setMethod(gap, method, isForced), () => this.body.querySelector<HTMLElement>('[data-gap=curves]')?.focus());
@@ -59,7 +59,7 @@ export class GapEditor {
     else void this.look(row);
   }
 
-  /** Shows rows further on. */
+  /** Shows further rows. */
   private turn(by: number): void {
     this.from += by;
     this.list();
@@ -72,16 +72,16 @@ export class GapEditor {
     const end = Math.min(gaps.length, this.from + mostRows);
     this.pages.hidden = gaps.length <= mostRows;
     this.words.textContent = gaps.length === 0 ? 'The take has no gaps.' : this.pages.hidden ? '' : `gaps ${grouped(this.from + 1)} to ${grouped(end)} of ${grouped(gaps.length)}`;
-    // The control with the focus keeps it.
+    // The focused control keeps the focus.
     const focused = (document.activeElement as HTMLElement | null)?.dataset;
     this.body.replaceChildren(...gaps.slice(this.from, end).map((gap, i) => this.row(gap, this.from + i)));
     if (focused?.gap !== undefined) this.body.querySelector<HTMLElement>(`[data-gap="${focused.gap}"][data-row="${focused.row}"]`)?.focus();
   }
 
-  /** Also after a change of the theme. */
+  /** Redraws, also after a change of theme. */
   redraw(): void { this.looked.redraw(); }
 
-  /** The curves of every method over the gap of a row. */
+  /** Requests the curves of every method for the gap of a row. */
   private async look(row: number): Promise<void> {
     const gap = this.plan.gaps[row];
     this.looked.wait(gap);
@@ -109,7 +109,7 @@ export class GapEditor {
     const where = button(gap.name, 'go to this gap', () => this.goTo(gap.name, gap.first_frame));
     const verdict = choice(`verdict of ${gap.name}, frames ${gap.first_frame} to ${gap.last_frame}`, [['fill', 'fill'], ['force', 'force'], ['refuse', 'refuse']], gap.verdict, (value) => {
       gap.verdict = value;
-      // The person refuses it now, not the rules.
+      // The user refuses it now, not the rules.
       if (value === 'refuse') gap.reason = '';
       this.change();
     });
@@ -129,7 +129,7 @@ export class GapEditor {
     return made;
   }
 
-  /** "spline (differs by 0.4 mm)" where it was tried. */
+  /** "spline (differs by 0.4 mm)" if it was tried. */
   private told(gap: PlannedGap, method: string): string {
     const shown = gap.previews?.find((one) => one.method === method);
     if (!shown || (method === gap.method && shown.filled)) return method;

@@ -21,7 +21,7 @@ export class GapPreview {
   private gap: PlannedGap | null = null;
   private take: Take | null = null;
 
-  /** `choose`: fills the gap by a method, with the verdict `force` where its rules refuse. */
+  /** `choose` fills the gap with a method, with the verdict `force` if its rules refuse. */
   constructor(private readonly choose: (gap: PlannedGap, method: string, isForced: boolean) => void, close: () => void) {
     const closing = button('Close', 'close the comparison', () => {
       this.hide();
@@ -40,7 +40,7 @@ export class GapPreview {
     this.clear();
   }
 
-  /** Until the curves arrive; those of the same gap stay. */
+  /** Shows that curves are awaited; curves of the same gap stay. */
   wait(gap: PlannedGap): void {
     const isSame = this.gap !== null && this.gap.name === gap.name && this.gap.quantity === gap.quantity && this.gap.first_frame === gap.first_frame;
     if (!isSame) this.clear();
@@ -71,7 +71,7 @@ export class GapPreview {
 
   private stroke(place: number): string { return `method-${(place % 10) + 1}`; }
 
-  /** The buttons; the one with the focus keeps it. */
+  /** Draws the buttons; a focused one keeps the focus. */
   private mark(): void {
     const { gap, curves } = this;
     if (gap === null || curves === null) return;
@@ -124,7 +124,7 @@ export class GapPreview {
     }
   }
 
-  /** Also after a change of the theme. */
+  /** Redraws, also after a change of theme. */
   redraw(): void {
     const { gap, curves, take } = this;
     if (gap === null || curves === null || take === null) return;

@@ -5,29 +5,29 @@ import { button, element } from './dom';
 import type { Player } from './player';
 import type { Take } from './take';
 
-/** What is shown now; null before there is anything. */
+/** The content now shown; null before there is any. */
 export interface Sight {
   take: Take;
   player: Player;
 }
 
 export interface LineForm {
-  /** Of the whole of a line that is no comment. */
+  /** Pattern of a whole line that is not a comment. */
   line: RegExp;
-  /** In words, for a line of another form. */
+  /** Message for a line of another form. */
   expected: string;
-  /** Of the text field. */
+  /** Label of the text field. */
   label: string;
-  /** Which groups of `line` are the first and the last frame. */
+  /** The groups of `line` that are the first and the last frame. */
   first: number;
   last: number;
-  /** A line of so many parts, the groups of `line`. */
+  /** Makes a line from its parts, the groups of `line`. */
   joined: (parts: string[]) => string;
 }
 
 export class LineEditor {
   readonly element = element('div');
-  /** Whether runs use these lines. */
+  /** True if runs use these lines. */
   edited = false;
   protected readonly area: HTMLTextAreaElement;
   protected readonly words = element('p', { class: 'status', role: 'status' });
@@ -54,7 +54,7 @@ export class LineEditor {
     this.again();
   }
 
-  /** Replaces the text by lines that are fetched. */
+  /** Replaces the text with fetched lines. */
   protected async load(fetched: Promise<Answer>): Promise<void> {
     try {
       const reply = await fetched;

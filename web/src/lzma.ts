@@ -1,5 +1,5 @@
-// Unpacks a file of `xz --format=lzma`, which is a quarter smaller than what browsers unpack themselves. The format is that of
-// Igor Pavlov's LZMA specification; names are those of its section on the decoder.
+// Unpacks files of `xz --format=lzma`, which are a quarter smaller than the formats that browsers unpack. Names follow the decoder section of Igor
+// Pavlov's LZMA specification.
 
 const bitsOfModel = 11;
 const half = 1 << (bitsOfModel - 1);
@@ -42,7 +42,7 @@ class Range {
     return result;
   }
 
-  /** Bits of equal chance, the highest first. */
+  /** Reads bits of equal probability, highest first. */
   direct(count: number): number {
     let result = 0;
     for (let i = 0; i < count; ++i) {
@@ -61,7 +61,7 @@ class Range {
     return node - (1 << bits);
   }
 
-  /** The lowest bit first. */
+  /** Reads bits, lowest first. */
   reverseTree(probabilities: Uint16Array, from: number, bits: number): number {
     let node = 1;
     let result = 0;
@@ -110,7 +110,7 @@ class Distances {
   }
 }
 
-/** The `size` bytes that were packed. Throws where `packed` is damaged. */
+/** Returns the `size` unpacked bytes. Throws if `packed` is damaged. */
 export function unpackedLzma(packed: Uint8Array, size: number): Uint8Array {
   const properties = packed[0];
   if (packed.length < headBytes + 5 || properties >= 225) throw new Error('packed bytes have no LZMA header');
@@ -145,7 +145,7 @@ export function unpackedLzma(packed: Uint8Array, size: number): Uint8Array {
     state = state < 4 ? 0 : state < 10 ? state - 3 : state - 6;
   };
 
-  /** Takes a distance that was used before; false: one byte of it was copied. */
+  /** Uses an earlier distance again; returns false if only one byte was copied. */
   const repeated = (position: number): boolean => {
     if (range.bit(isNotFirst, state) === 0) {
       if (range.bit(isLongRepeat, state * positionStates + position) !== 0) return true;

@@ -34,7 +34,7 @@ export class MissingEditor extends LineEditor {
       const reply = await fetched;
       if (reply.ok && this.area.value === '') this.area.value = await reply.text();
     } catch {
-      // The run reports it.
+      // The run reports this error.
     }
   }
 

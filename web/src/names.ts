@@ -1,6 +1,6 @@
 // Short names of joints or markers for places with little space. The full name is shown on hover.
 
-/** Longer names lose their middle. */
+/** Maximum length; longer names lose their middle. */
 const longest = 18;
 const ellipsis = '\u2026';
 
@@ -24,7 +24,7 @@ function withoutMiddle(name: string): string {
   return letters.slice(0, longest - 1 - end).join('') + ellipsis + letters.slice(-end).join('');
 }
 
-/** For each name a shorter one. Two names that differ are never shortened to the same. */
+/** A shorter name for each name. Different names are never shortened to the same one. */
 export function shortNames(names: string[]): string[] {
   const prefix = commonPrefix(names);
   const without = names.map((name) => name.slice(prefix.length));

@@ -1,4 +1,4 @@
-// A control of one option, with its refusal beside it.
+// A control for one option, with its error beside it.
 
 import { choice, element, toggle } from './dom';
 
@@ -15,12 +15,12 @@ export interface Option {
   maximum?: number;
 }
 
-/** A label, a control, and what is wrong with its value. */
+/** A label, a control, and its error. */
 export function field(label: string, title: string, control: HTMLElement): HTMLElement {
   return element('label', { class: 'field', title }, element('span', {}, label), control, element('span', { class: 'problem', role: 'alert' }));
 }
 
-/** Says beside a control why its value is not used; an empty text takes that back. False: it has no place for words. */
+/** Shows beside a control why its value is not used; an empty text removes the message. Returns false if there is no place for it. */
 export function showProblem(control: HTMLElement, text: string): boolean {
   const words = control.closest('.field')?.querySelector('.problem');
   if (!words) return false;
@@ -43,13 +43,13 @@ export function labelOf({ name, unit }: Option): string {
 }
 
 export interface OptionActs {
-  /** The value; undefined where it is the default. */
+  /** The value; undefined for the default. */
   change: (value: Value | undefined) => void;
-  /** The label of a control whose value is not allowed; null: it is allowed now. */
+  /** Called with the label of a control whose value is invalid; null: it is valid again. */
   refuse: (label: string | null) => void;
 }
 
-/** `given`: the value that it has now. */
+/** `given` is the current value. */
 export function optionControl(option: Option, given: Value | undefined, { change, refuse }: OptionActs, label = ''): HTMLElement {
   const told = label || labelOf(option);
   const now = given ?? option.default;

@@ -1,4 +1,4 @@
-// Starts the page: a batch, a take with controls, or a report, as the data in it says.
+// Starts the page: a batch, a take with controls, or a report, depending on its data.
 
 import 'uplot/dist/uPlot.min.css';
 import './style.css';

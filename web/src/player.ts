@@ -1,9 +1,9 @@
-// The time that all parts of the page share: the cursor, what is zoomed to, what is chosen.
+// The shared state of the page: current time, zoom and selection.
 
 export type Listener = () => void;
 
 export class Player {
-  /** Of the frames that are told; between two while playing. */
+  /** Position in the stored frames; between two of them while playing. */
   frame = 0;
   playing = false;
   speed = 1;
@@ -27,14 +27,14 @@ export class Player {
   onChoice(listener: Listener): void { this.changed.push(listener); }
   private tell(listeners: Listener[]): void { for (const listener of listeners) listener(); }
 
-  /** The frame that is shown. */
+  /** The visible frame. */
   get shown(): number { return Math.max(0, Math.min(this.frames - 1, Math.floor(this.frame + 1e-6))); }
 
   seek(frame: number): void {
     this.frame = Math.max(0, Math.min(Math.max(0, this.frames - 1), frame));
     this.tell(this.moved);
   }
-  /** To a frame that may lie out of what is in view. */
+  /** Goes to a frame, which may be out of view. */
   jump(frame: number): void {
     this.seek(Math.round(frame));
     if (this.frame >= this.from && this.frame <= this.to) return;

@@ -1,4 +1,4 @@
-// What the page reads: kinemend.report/1 (docs/report.md), and what src/report/page/take_json.cpp writes.
+// The data of the page: kinemend.report/1 (docs/report.md), and the output of src/report/page/take_json.cpp.
 
 export interface Finding {
   kind: string;

@@ -3,7 +3,7 @@
 const controls = 'button, select, input, a[href]';
 const page = 10;
 
-/** `rows`: what a row is, "tr" or "li". Keys that lead nowhere are left to the page. */
+/** `rows` is the tag of a row, "tr" or "li". Keys without a target are left to the page. */
 export function oneTabStop(holder: HTMLElement, rows: 'tr' | 'li'): void {
   let current: HTMLElement | null = null;
 
@@ -21,7 +21,7 @@ export function oneTabStop(holder: HTMLElement, rows: 'tr' | 'li'): void {
 
   const cellOf = (one: HTMLElement): number => one.closest<HTMLTableCellElement>('td, th')?.cellIndex ?? 0;
 
-  /** Where a key leads from a control; null: nowhere. */
+  /** The control that a key leads to; null if there is none. */
   const target = (from: HTMLElement, event: KeyboardEvent): HTMLElement | null => {
     const shown = all();
     const y = shown.findIndex((row) => row.includes(from));

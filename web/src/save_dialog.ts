@@ -1,14 +1,14 @@
-// Asks where to save, and before an existing file is replaced.
+// Asks where to save, and confirms before an existing file is replaced.
 
 import { button, element } from './dom';
 import type { ViewTransport } from './view_transport';
 
-/** What the server says of a request to save. */
+/** The server's answer to a save request. */
 export interface Saved {
   written?: string[];
   command_line?: string;
   error?: string;
-  /** Files that exist already: they are replaced only when that is confirmed. */
+  /** Existing files, which are replaced only after confirmation. */
   existing?: string[];
 }
 
@@ -20,7 +20,7 @@ export class SaveDialog {
   private readonly accept = element('button', { type: 'submit', 'data-action': 'accept' }, 'Save');
   private mayReplace = false;
 
-  /** `ask` sends the request and tells what came of it; `done` is told of success; `transport` says where files go. */
+  /** `ask` sends the request and returns the answer; `done` is called on success; `transport` states where files go. */
   constructor(private readonly ask: (file: string, replace: boolean) => Promise<Saved>, private readonly done: (saved: Saved) => void,
     private readonly transport: ViewTransport) {
     const form = element('form', {}, element('h2', { id: 'save-title' }, 'Save as'),
@@ -34,18 +34,18 @@ export class SaveDialog {
     this.element.append(form);
   }
 
-  /** `proposed`: a path; its folder is kept. */
+  /** `proposed` is a path whose folder is kept. */
   open(proposed: string): void {
     const [, folder, file] = /^(.*[\\/])?([^\\/]*)$/.exec(proposed) ?? [];
     this.place.textContent = this.transport.placeOf(folder);
     this.name.value = file ?? '';
     this.forget();
     this.element.showModal();
-    // Typing replaces the name and leaves its ending.
+    // Typing replaces the name but keeps its extension.
     this.name.setSelectionRange(0, Math.max(0, this.name.value.lastIndexOf('.')));
   }
 
-  /** Another name: what was confirmed was of the one before. */
+  /** A new name needs a new confirmation. */
   private forget(): void {
     this.mayReplace = false;
     this.words.textContent = '';

@@ -1,9 +1,9 @@
-// What the page of `kinemend view` reads from its server: the session, the parts of a result, gap plans, curves of one gap.
+// Data that the `kinemend view` page reads from its server: the session, the parts of a result, gap plans, curves of one gap.
 
 import type { Parts } from './codec';
 import type { Option, Value } from './option_control';
 
-/** What the page of `kinemend view` holds before there is a take: cli/view_session.cpp writes it. */
+/** The page's data before there is a take, written by cli/view_session.cpp. */
 export interface Session {
   input: string;
   other: string;
@@ -14,26 +14,26 @@ export interface Session {
   plan: string;
   gaps: string;
   with_gaps: boolean;
-  /** The method of the program, where neither a flag nor a preset names one. */
+  /** The default method if neither a flag nor a preset names one. */
   default_method: string;
-  /** What recorded the take, where no flag says another. */
+  /** The source of the take if no flag names one. */
   source: string;
   controls: ViewControls;
 }
 
-/** What the program lets the page set, with defaults and ranges: cli/view_controls.cpp writes it. */
+/** Settings that the page may change, with defaults and ranges, written by cli/view_controls.cpp. */
 export interface ViewControls {
   flags: Record<'clean' | 'fill', Option[]>;
   methods: { name: string; summary: string; options: Option[] }[];
   fill_methods: { name: string; summary: string; joints: boolean; markers: boolean }[];
-  /** `values`: what a preset sets of the controls; `options`: of the options of methods. */
+  /** `values` are a preset's values of the controls; `options` are those of method options. */
   presets: { name: string; summary: string; values: Record<string, Value>; options: Record<string, Record<string, Value>> }[];
 }
 
-/** Why methods cannot clean the take, by name. */
+/** Why each method cannot clean the take, by name. */
 export type WhyNot = Record<string, string>;
 
-/** As `kinemend.gap-plan/1` has it (docs/methods/gap-plan.md). */
+/** A row in the form of `kinemend.gap-plan/1` (docs/methods/gap-plan.md). */
 export interface PlannedGap {
   name: string;
   quantity: string;
@@ -56,7 +56,7 @@ export interface GapPlan {
   gaps: PlannedGap[];
 }
 
-/** As cli/view_session.cpp writes it; frames count from 0. */
+/** Curves as written by cli/view_session.cpp; frames are counted from 0. */
 export interface GapCurves {
   first: number;
   last: number;
@@ -64,7 +64,7 @@ export interface GapCurves {
   curves: { method: string; filled: boolean; reason: string; distance: number | null; expected_error: number | null; values: (number | null)[][] }[];
 }
 
-/** The parts of a result, as `joined` of src/report/page/document.hpp puts them together. */
+/** The parts of a result, as combined by `joined` of src/report/page/document.hpp. */
 export function partsOf(answer: ArrayBuffer): Parts {
   const bytes = new Uint8Array(answer);
   let at = bytes.indexOf(10) + 1;

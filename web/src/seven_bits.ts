@@ -1,4 +1,4 @@
-// Reads bytes from text of seven bits a character, as web/seven_bits.mjs writes them.
+// Reads bytes from text with seven bits per character, as web/seven_bits.mjs writes them.
 
 export function sevenBitBytes(text: string): Uint8Array {
   const bytes = new Uint8Array(Math.floor((7 * text.length) / 8));

@@ -2,7 +2,7 @@
 
 type Values = (number | null)[];
 
-/** Length of the way from each frame to the next, times the rate; null where a sample is missing. */
+/** Path length from each frame to the next times the rate; null if a sample is missing. */
 function lengths(vectors: (number[] | null)[], rate: number): Values {
   return vectors.map((v) => (v === null ? null : Math.hypot(...v) * rate));
 }
@@ -21,15 +21,15 @@ function steps(axes: Values[]): (number[] | null)[] {
   });
 }
 
-/** Of a path: units a second. One value a frame, the last repeated. */
+/** Speed along a path, units per second. One value per frame; the last is repeated. */
 export function speedOf(axes: Values[], rate: number): Values {
   return sameLength(lengths(steps(axes), rate), axes[0]?.length ?? 0);
 }
-/** Units a second squared. */
+/** Acceleration, units per second squared. */
 export function accelerationOf(axes: Values[], rate: number): Values {
   return accelerationOfSteps(steps(axes), rate, axes[0]?.length ?? 0);
 }
-/** The same of turns from frame to frame as rotation vectors. */
+/** The same for rotations, from rotation vectors between frames. */
 export function turningSpeed(turns: (number[] | null)[], rate: number, frames: number): Values {
   return sameLength(lengths(turns, rate), frames);
 }
@@ -46,7 +46,7 @@ function sameLength(values: Values, frames: number): Values {
   return result;
 }
 
-/** In place; the length is a power of two. */
+/** Fourier transform in place; the length is a power of two. */
 function transform(re: Float64Array, im: Float64Array): void {
   const n = re.length;
   for (let i = 1, j = 0; i < n; ++i) {
@@ -83,7 +83,7 @@ export interface Spectrum {
 }
 
 /** Power density of all axes together by Welch's method (Hann windows of up to `longest` samples that
- * overlap by half, each without its mean), units squared a hertz. Windows with gaps are left out. */
+ * overlap by half, each without its mean), units squared per hertz. Windows with gaps are left out. */
 export function spectrumOf(axes: Values[], rate: number, longest = 1024): Spectrum {
   const frames = axes[0]?.length ?? 0;
   let size = 8;

@@ -1,4 +1,4 @@
-// Long work of the page in slices: between two of them the browser draws and listens.
+// Splits long work of the page into slices, between which the browser draws and handles events.
 
 /** Half of a frame at 60 Hz. */
 const sliceMs = 8;
@@ -7,7 +7,7 @@ const { port1, port2 } = new MessageChannel();
 const waiting: (() => void)[] = [];
 port1.onmessage = () => waiting.shift()?.();
 
-/** Until the browser has done what waits. A page in the background is not slowed down, as it is by timers. */
+/** Waits until the browser has handled pending work. Unlike with timers, a page in the background is not slowed down. */
 export function pause(): Promise<void> {
   return new Promise((done) => {
     waiting.push(done);
@@ -18,7 +18,7 @@ export function pause(): Promise<void> {
 export class Slices {
   private end = performance.now() + sliceMs;
 
-  /** To be awaited between parts of the work; returns at once while the slice lasts. */
+  /** Await it between parts of the work; it returns at once while the slice lasts. */
   async rest(): Promise<void> {
     if (performance.now() < this.end) return;
     await pause();

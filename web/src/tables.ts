@@ -28,7 +28,7 @@ export class TrackTable {
   constructor(holder: HTMLElement, private readonly take: Take, private readonly player: Player, entry: TakeEntry) {
     const tracks = entry.tracks.length > 0 || entry.findings.length === 0 ? entry.tracks : countedRows(take.data.names, entry.findings);
     const given = new Map(tracks.map((row) => [String(row.name), row]));
-    // Two markers may have the same name: their place tells them apart.
+    // Two markers may have the same name; their index distinguishes them.
     const inOrder = tracks.length === take.data.names.length;
     const columns = tracks.length > 0 ? Object.keys(tracks[0]).filter((key) => key !== 'name') : [];
     const noun = take.isJoints ? 'joint' : 'marker';

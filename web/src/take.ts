@@ -28,7 +28,7 @@ export function turnBetween(a: Quat, b: Quat): [number, number, number] {
   return [x * scale, y * scale, z * scale];
 }
 
-/** Puts `p`, turned by `q`, and added to the point at `from`, at `to`. */
+/** Writes `p`, rotated by `q` and added to the point at `from`, to `to`. */
 function addTurned(q: Quat, p: ArrayLike<number>, result: Float32Array, from: number, to: number): void {
   const [w, x, y, z] = q;
   const tx = 2 * (y * p[2] - z * p[1]);
@@ -39,7 +39,7 @@ function addTurned(q: Quat, p: ArrayLike<number>, result: Float32Array, from: nu
   result[to + 2] = result[from + 2] + p[2] + w * tz + x * ty - y * tx;
 }
 
-/** For each frame whether a track has a sample; null: all have. */
+/** Whether each track has a sample, by frame; null: all have. */
 function masks(gaps: Gap3[], frames: number, step: number): Map<number, Uint8Array> {
   const result = new Map<number, Uint8Array>();
   for (const [track, first, last] of gaps) {
@@ -52,7 +52,7 @@ function masks(gaps: Gap3[], frames: number, step: number): Map<number, Uint8Arr
 type Gap3 = Gaps['own'][number];
 
 export class Take {
-  /** Frames that are told; frame i of them is frame i * step of the take. */
+  /** Number of frames stored in the page; stored frame i is frame i * step of the take. */
   readonly told: number;
   readonly points: number;
   whole: boolean;
@@ -95,7 +95,7 @@ export class Take {
     return take;
   }
 
-  /** The frames between, of a long take. */
+  /** Loads the stored frames between those of the first part; only long takes have them. */
   async loadRest(): Promise<void> {
     const bytes = this.whole ? null : await this.parts('second');
     if (bytes !== null) await readSecondPart(bytes, this.samples, this.data.stride);
@@ -108,16 +108,16 @@ export class Take {
   get takes(): Which[] {
     return this.data.two ? ['before', 'after'] : ['before'];
   }
-  /** Which of the two is shown where there is one. */
+  /** The cleaned take, or the only one. */
   get last(): Which {
     return this.data.two ? 'after' : 'before';
   }
   get rate(): number {
     return this.data.rate / this.data.step;
   }
-  /** The name of a track, as the file spells it. */
+  /** The name of a track, as spelled in the file. */
   nameOf(track: number): string { return this.data.names[track] || `(no name, ${track + 1})`; }
-  /** The same for places with little space; different names stay different. */
+  /** A short name for places with little space; different names stay different. */
   shortName(track: number): string { return this.short[track] || this.nameOf(track); }
   /** The tracks that a finding names: one, or several with commas between them. */
   tracksOf(name: string | null): number[] {
@@ -125,7 +125,7 @@ export class Take {
     return whole >= 0 ? [whole] : (name ?? '').split(', ').map((one) => this.data.names.indexOf(one)).filter((track) => track >= 0);
   }
 
-  /** How far apart the two takes are in a frame, in the mean over all points that both have. */
+  /** Mean distance of the two takes in a frame, over all points that both have. */
   distance(frame: number): number {
     if (!this.data.two) return 0;
     const before = this.pose(frame, 'before'), after = this.pose(frame, 'after');
@@ -139,11 +139,11 @@ export class Take {
     return count > 0 ? sum / count : 0;
   }
 
-  /** The number that the file gives to a frame that is told. */
+  /** The file's number of a stored frame. */
   number(frame: number): number {
     return frame * this.data.step + this.data.first_frame;
   }
-  /** The frame that is told and nearest to a number of the file. */
+  /** The stored frame nearest to a frame number of the file. */
   frameOf(number: number): number {
     const frame = Math.round((number - this.data.first_frame) / this.data.step);
     return Math.max(0, Math.min(this.told - 1, frame));
@@ -165,9 +165,9 @@ export class Take {
     return this.missing.get(`${which} positions`)?.get(track)?.[frame] === 1;
   }
 
-  /** The first frame in which a point is seen; the first of all where none ever is. */
+  /** The first frame in which a point is observed; 0 if there is none. */
   firstSeen(): number { return Math.max(0, this.findSeen()); }
-  /** Whether anything is seen in any frame. */
+  /** Whether any point is observed in any frame. */
   get isEverSeen(): boolean { return this.findSeen() >= 0; }
 
   private findSeen(): number {
@@ -181,7 +181,7 @@ export class Take {
     return -1;
   }
 
-  /** The axes a joint is turned about; empty for one that never turns. */
+  /** The axes a joint rotates about; empty for one that never rotates. */
   order(joint: number): string {
     return this.data.skeleton?.orders[joint] ?? '';
   }
@@ -200,7 +200,7 @@ export class Take {
     for (let f = 0; f < this.told; ++f) result[4 * f] = 1;
     [...this.order(joint)].forEach((axis, a) => {
       const [samples, quantum] = this.channel(this.rotationChannels[joint] + a, which);
-      // A turn about one axis mixes w with that axis, and the two others.
+      // A rotation about one axis mixes w with that axis, and the two others.
       const i = 1 + axisOf[axis], j = 1 + (i % 3), k = 1 + (j % 3);
       for (let f = 0, at = 0; f < this.told; ++f, at += 4) {
         const half = samples[f] * quantum * halfDegree;
@@ -247,7 +247,7 @@ export class Take {
     return [this.value(channel, frame, which), this.value(channel + 1, frame, which), this.value(channel + 2, frame, which)];
   }
 
-  /** Positions of all joints and end sites, or of all markers; x of one that is missing is NaN. */
+  /** Positions of all joints and end sites, or of all markers; x of a missing one is NaN. */
   pose(frame: number, which: Which, result = new Float32Array(3 * this.points)): Float32Array {
     const skeleton = this.data.skeleton;
     if (this.told === 0) return result.fill(NaN);
@@ -275,7 +275,7 @@ export class Take {
     return result;
   }
 
-  /** Where a track is in each frame: x, y and z, null where it is missing. */
+  /** Positions of a track by frame: x, y and z, null where missing. */
   path(track: number, which: Which): (number | null)[][] {
     const axes: (number | null)[][] = [[], [], []];
     const isRoot = this.isJoints && track === 0;

@@ -124,7 +124,7 @@ function listenToKeys(player: Player, take: Take, timeline: Timeline, body: Body
   }, { signal });
 }
 
-/** A page of one take that is shown. */
+/** The shown page of one take. */
 export interface Shown {
   take: Take;
   player: Player;
@@ -135,7 +135,7 @@ export interface Shown {
   dispose(): void;
 }
 
-/** Time, zoom, choice and camera stay when the same take is shown again. */
+/** Time, zoom, selection and camera are kept when the same take is shown again. */
 function lookAsBefore(now: Shown, before: Shown): void {
   if (before.take.told !== now.take.told || before.take.data.names.length !== now.take.data.names.length) return;
   now.player.speed = before.player.speed;
@@ -149,7 +149,7 @@ function lookAsBefore(now: Shown, before: Shown): void {
   }
 }
 
-/** Warnings as findings, at the frames that their words name, else over the whole take. */
+/** Warnings as findings, at the frames named in their text, or over the whole take. */
 function warningsOf(entry: TakeEntry, names: string[]): Finding[] {
   const last = entry.first_frame + Math.max(0, entry.frames - 1);
   return entry.frames === 0 ? [] : entry.warnings.map((reason) => {
@@ -168,13 +168,13 @@ export interface Around {
   panel?: HTMLElement[];
   /** The page that this one replaces. */
   before?: Shown | null;
-  /** Called when light and dark change. */
+  /** Called when the theme changes. */
   onTheme?: () => void;
-  /** Whether another result is awaited by now. This one is then not shown: an error says so. */
+  /** Returns whether a newer result is awaited; then this one is not shown, and an error says so. */
   isOver?: () => boolean;
 }
 
-/** The caller says that the page is ready, where it still is the latest. */
+/** The caller reports that the page is ready if it still is the latest. */
 export async function showTake(page: HTMLElement, document_: ReportDocument, take: Take, { panel = [], before = null, onTheme, isOver = () => false }: Around = {}): Promise<Shown> {
   const ended = new AbortController();
   const entry = document_.takes[0];
@@ -192,7 +192,7 @@ export async function showTake(page: HTMLElement, document_: ReportDocument, tak
   });
   await pause();
   if (isOver()) throw new Error('another result replaces this one');
-  // The canvas of the body leaves the page before: from here on nothing is awaited until this page is the one that is shown.
+  // The canvas of the body leaves its old page first: from here on, nothing is awaited until this page is shown.
   const [bodySection, body] = addBody(take, player);
   const transport = element('div', { class: 'transport' });
   addTransport(transport, take, player);

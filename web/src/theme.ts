@@ -1,4 +1,4 @@
-// Light and dark: the system's setting, until the person chooses.
+// Light and dark: the system's setting, until the user chooses.
 
 import { button } from './dom';
 
@@ -9,7 +9,7 @@ export function isDark(): boolean {
   return chosen === undefined ? dark.matches : chosen === 'dark';
 }
 
-/** `signal` ends it. */
+/** Aborting `signal` ends it. */
 export function themeButton(onChange: () => void, signal?: AbortSignal): HTMLButtonElement {
   const made: HTMLButtonElement = button('', 'switch between light and dark', () => {
     document.documentElement.dataset.theme = isDark() ? 'light' : 'dark';

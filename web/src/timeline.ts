@@ -1,4 +1,4 @@
-// Everything found and changed over time, with a lane for each kind, and the same as a list.
+// Everything found and changed over time, as lanes by kind and as a list.
 
 import { button, colour, counted, element, figure, isolated, words } from './dom';
 import type { Player } from './player';
@@ -10,7 +10,7 @@ import { rankOf, worstFrame, worstOf } from './worst';
 const laneHeight = 18;
 const mostListed = 200;
 
-/** With a take the names of its tracks are short. */
+/** A given take supplies short track names. */
 export function textOf(finding: Finding, take?: Take): string {
   const frames = finding.first_frame === finding.last_frame ? `frame ${finding.first_frame}` : `frames ${finding.first_frame} to ${finding.last_frame}`;
   const parts = [`${words(finding.kind)} ${words(finding.verdict)}`.trim()];
@@ -25,7 +25,7 @@ export function textOf(finding: Finding, take?: Take): string {
 
 export class Timeline {
   selected = -1;
-  /** Of the canvas: asking the browser for it is slow. */
+  /** Width of the canvas, cached because querying the browser is slow. */
   private width = 1;
   readonly shown: Finding[];
   private readonly kinds: string[];
@@ -104,7 +104,7 @@ export class Timeline {
     this.draw();
   }
 
-  /** Warnings and spans that were only smoothed are drawn here, too, but are not findings. */
+  /** Counts findings; drawn warnings and spans that were only smoothed are not findings. */
   private counts(): string {
     const count = (kind: string): number => this.all.filter((one) => one.kind === kind).length;
     const warnings = count('warning');
@@ -228,7 +228,7 @@ export class Timeline {
     this.drawCursor();
   }
 
-  /** Drawn apart from the bars, of which there may be thousands. */
+  /** Drawn separately from the bars, of which there may be thousands. */
   private drawCursor(): void {
     const x = this.x(this.player.shown);
     this.cursor.hidden = !(x >= 0 && x <= this.width);

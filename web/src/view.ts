@@ -1,4 +1,4 @@
-// The page that `kinemend view` serves: the page of a take, with controls that run it anew.
+// The page that `kinemend view` serves: the page of a take, with controls that rerun the program.
 
 import { jsonOf, type Parts } from './codec';
 import { button, choice, counted, element } from './dom';
@@ -15,7 +15,7 @@ import { showTake, type Shown } from './take_page';
 import { themeButton } from './theme';
 import { serverTransport, type ViewTransport } from './view_transport';
 
-/** What a run is asked for, as the server reads it. */
+/** A run request in the form that the server reads. */
 interface Asked {
   command: 'clean' | 'fill';
   flags: Record<string, Value>;
@@ -26,10 +26,10 @@ interface Asked {
 }
 
 const restMs = 150;
-/** How often a run that takes long says how far it is. */
+/** Interval of progress reports of long runs, ms. */
 const tellMs = 600;
 
-/** Says what the server is doing, until the function that it returns is called. */
+/** Shows what the server is doing until the returned function is called. */
 function tellProgress(transport: ViewTransport, say: (words: string) => void): () => void {
   const timer = window.setInterval(() => {
     void transport.ask('progress').then((reply) => reply.json()).then(({ stage, done }: { stage: string; done: number }) => {
@@ -51,7 +51,7 @@ async function dataOf(parts: Parts): Promise<[ReportDocument, Take]> {
   return [report, await Take.load(take, parts)];
 }
 
-/** Before there is a result: the take's name, and what the server is doing. */
+/** Shown before there is a result: the take's name and the server's progress. */
 function emptyPage(page: HTMLElement, session: Session, ...parts: HTMLElement[]): void {
   const name = session.input.split(/[\\/]/).pop() ?? session.input;
   page.replaceChildren(element('header', {}, element('div', {}, element('h1', {}, name)), themeButton(() => undefined)), ...parts);
@@ -64,11 +64,11 @@ class Controls {
   private readonly general: Record<'clean' | 'fill', Record<string, Value>> = { clean: {}, fill: {} };
   private preset: ViewControls['presets'][number] | null = null;
   private method: string;
-  /** Labels of controls whose values are not allowed, by "clean.strength". */
+  /** Labels of controls whose values are invalid, by "clean.strength". */
   private readonly refused = new Map<string, string>();
   private readonly options: Record<string, Record<string, Value>> = {};
   private readonly status = element('p', { class: 'status', role: 'status' }, 'reading\u2026');
-  /** The same where the page is empty still. */
+  /** Shows the status while the page is still empty. */
   private readonly first = element('section', {}, element('p', { class: 'empty' }, 'The take is being read and cleaned. The result appears here.'));
   private readonly line = element('code', { class: 'line', tabindex: '0' });
   private readonly rows = { clean: element('div', { class: 'fields' }), fill: element('div', { class: 'fields' }) };
@@ -147,7 +147,7 @@ class Controls {
     });
     return field(label, title, made);
   }
-  /** A control of a flag of the program; `own`: what is otherwise here. */
+  /** A control for a flag of the program; `own` overrides parts of the flag's option. */
   private option(command: 'clean' | 'fill', label: string, name: string, own: Partial<Option> = {}): HTMLElement {
     const flag = this.session.controls.flags[command].find((one) => one.name === name);
     if (flag === undefined) throw new Error(`the program has no flag ${name}`);
@@ -158,13 +158,13 @@ class Controls {
       refuse: (told) => this.refuse(`${command}.${name}`, told),
     }, label);
   }
-  /** Nothing is run for a value that is not allowed, and nothing says that it was. */
+  /** Records that a control has an invalid value, which stops runs; `label` null: the value is valid again. */
   private refuse(name: string, label: string | null): void {
     if (label === null) this.refused.delete(name);
     else this.refused.set(name, label);
     this.sayRefused();
   }
-  /** Whether a value of the controls that are shown is not used. */
+  /** Shows which visible controls have invalid values; returns whether any has. */
   private sayRefused(): boolean {
     const names = [...this.refused].filter(([name]) => name.startsWith(`${this.command}.`)).map(([, label]) => label);
     if (names.length === 0) return false;
@@ -187,14 +187,14 @@ class Controls {
     this.draw();
     this.later();
   }
-  /** The method that is used where none is chosen. */
+  /** The method used if none is chosen. */
   private get presetMethod(): string { return String(this.preset?.values.method ?? this.session.default_method); }
 
   private fillMethods(): string[] {
     return this.session.controls.fill_methods.filter((one) => (this.isJoints ? one.joints : one.markers)).map(({ name }) => name);
   }
 
-  /** Also after another preset is chosen: its values are the defaults of the controls. */
+  /** Also called after another preset is chosen, whose values are the defaults of the controls. */
   private addClean(): void {
     const method = choice('method', this.session.controls.methods.map(({ name }) => [name, name]), this.method, (value) => {
       this.method = value;
@@ -236,12 +236,12 @@ class Controls {
       element('ul', {}, ...reasons.map(([name, reason]) => element('li', {}, element('b', {}, name), `: ${reason}`))));
   }
 
-  /** Those of the method. */
+  /** Draws the controls of the method's options. */
   private drawOptions(): void {
     const chosen = this.session.controls.methods.find(({ name }) => name === this.method);
     const own = (this.options[this.method] ??= {});
     const set = this.preset?.options[this.method] ?? {};
-    // The controls of the method before are gone, with what was typed in them.
+    // The controls of the previous method are gone, with their values.
     for (const method of this.session.controls.methods) for (const { name } of method.options) this.refused.delete(`clean.${name}`);
     this.optionRow.replaceChildren(element('p', { class: 'empty' }, chosen?.summary ?? ''), ...(chosen?.options ?? []).map((option) => optionControl(
       { ...option, default: set[option.name] ?? option.default }, own[option.name], {
@@ -296,13 +296,13 @@ class Controls {
     return told as GapCurves;
   }
 
-  /** A plan of the gaps before does not fit the gaps there are now. */
+  /** A plan for earlier gaps does not fit the current ones. */
   private afterMarking(): void {
     this.gaps.edited = false;
     this.later();
   }
 
-  /** Runs when nothing has been changed for a moment; a run that is under way is stopped. */
+  /** Runs after a short pause in changes; stops the current run. */
   later(): void {
     if (this.sayRefused()) return;
     window.clearTimeout(this.timer);
@@ -316,7 +316,7 @@ class Controls {
     this.status.classList.add('error');
     this.page.dataset.ready = 'error';
     this.page.dataset.runs = String(this.turn);
-    // Where the message names an option, it is also said beside its control.
+    // If the message names an option, it is also shown beside its control.
     const flag = /--([a-z][a-z-]*)/.exec(text)?.[1].replace(/-/g, '_');
     const control = flag === undefined ? null : this.rows[this.command].querySelector<HTMLElement>(`[data-flag="${flag}"]`);
     if (control !== null) showProblem(control, text);
@@ -370,7 +370,7 @@ class Controls {
     if (this.shown === null) this.first.replaceChildren(element('p', { class: 'empty' }, 'The run was stopped. Change a control to run again.'));
   }
 
-  /** Another take replaces this one. */
+  /** Call it before another take replaces this one. */
   dispose(): void {
     window.clearTimeout(this.timer);
     ++this.turn;
@@ -442,14 +442,14 @@ export interface ViewPage {
   dispose(): void;
 }
 
-/** How a page begins. `flags`: of `clean`; `onFirst`: told of the first result. */
+/** How a page starts. `flags` are those of `clean`; `onFirst` is called with the first result. */
 export interface ViewStart {
   flags?: Record<string, Value>;
   onFirst?: (shown: Shown) => void;
 }
 
 export function startView(page: HTMLElement, session: Session, transport: ViewTransport = serverTransport, start: ViewStart = {}): ViewPage {
-  // A run of a page that is closed is stopped.
+  // Closing a page stops its run.
   window.addEventListener('pagehide', () => transport.leave());
   if (session.other === '') return new Controls(page, session, transport, start);
   void showComparison(page, session);

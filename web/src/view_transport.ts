@@ -1,21 +1,21 @@
-// How the page of `kinemend view` asks for work: of the program that serves it, or of a worker in the same page (worker_transport.ts).
+// How the `kinemend view` page requests work: from the program that serves it, or from a worker in the same page (worker_transport.ts).
 
-/** What this tab calls itself: a run stops the one before it of the same tab. */
+/** The tab's own name: a run stops the earlier one of the same tab. */
 const tab = Array.from(crypto.getRandomValues(new Uint32Array(4)), (word) => word.toString(16)).join('-');
 
-/** What the page reads of an answer: a `Response` has it. */
+/** The part of an answer that the page reads; a `Response` has it. */
 export type Answer = Pick<Response, 'ok' | 'status' | 'json' | 'text' | 'arrayBuffer'>;
 
 export interface ViewTransport {
-  /** Answers as cli/view_session.hpp says: `action` is run, curves, save, contacts, gaps or progress. */
+  /** Answers as described in cli/view_session.hpp: `action` is run, curves, save, contacts, gaps or progress. */
   ask(action: string, asked?: object): Promise<Answer>;
-  /** Ends the run that is under way; its request is answered with 409. */
+  /** Ends the current run; its request is answered with 409. */
   stop(): void;
-  /** The page is closed. */
+  /** Call it when the page is closed. */
   leave(): void;
-  /** Says where a file goes that is saved beside `folder` (the folder of the file that was proposed; may be missing). */
+  /** States where a file saved beside `folder` goes (the folder of the proposed file; may be missing). */
   placeOf(folder: string | undefined): string;
-  /** Says why no answer comes. */
+  /** States why no answer comes. */
   inWords(error: unknown): string;
 }
 

@@ -1,4 +1,4 @@
-// Runs in a worker: unpacks the module for JavaScript, and answers requests about one take.
+// Runs in a worker: unpacks the JavaScript module, and answers requests about one take.
 
 import { load } from 'kinemend';
 import { unpackedLzma } from './lzma';
@@ -35,7 +35,7 @@ async function begin(told: { module: WebAssembly.Module } | { packed: string; si
   return kinemend;
 }
 
-/** Takes are cleaned sooner by code that has run before; a take that is here already does not wait for it. */
+/** Code that has run before cleans faster; a take that has already arrived does not wait for this. */
 function warmUp(kinemend: Kinemend): void {
   if (isOpened) return;
   isWarmingUp = true;
@@ -67,7 +67,7 @@ function answer(kinemend: Kinemend, id: number, action: string, asked: string): 
   const files: NamedBytes[] = [];
   if (action === 'save' && status === 200) {
     for (const name of JSON.parse(new TextDecoder().decode(body)).written as string[]) files.push({ name, bytes: kinemend.readFile(name) });
-    // What was saved is the person's: it can be saved again under the same name.
+    // Saved files belong to the user and can be saved again under the same name.
     kinemend.removeFile(files[files.length - 1].name);
   }
   tell({ id, status, body, files }, [body.buffer, ...files.map(({ bytes }) => bytes.buffer)]);

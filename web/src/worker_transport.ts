@@ -1,4 +1,4 @@
-// Answers the requests of the page by the module for JavaScript, in a worker of the same page: nothing is sent anywhere.
+// Answers the page's requests with the JavaScript module, in a worker of the same page: nothing is sent anywhere.
 
 import type { Session } from './served';
 import type { Engine } from './engine';
@@ -9,15 +9,15 @@ export interface NamedBytes {
   bytes: Uint8Array;
 }
 
-/** What the page tells the worker: the module, packed or compiled; the files; then requests. */
+/** Messages from the page to the worker: the module, packed or compiled; the files; then requests. */
 export type ToWorker = { packed: string; size: number } | { module: WebAssembly.Module } | { files: File[]; take: string } | { id: number; action: string; body: string };
-/** What the worker tells the page: the module that it has unpacked, or why it could not; then of its take. `files`: those that a request to save has written. */
+/** Messages from the worker: the unpacked module or why unpacking failed; then about its take. A save request wrote `files`. */
 export type FromWorker = { module: WebAssembly.Module } | { broken: string } | { session: Session } | { problem: string } | { stage: string; done: number }
   | { id: number; status: number; body: Uint8Array; files: NamedBytes[] };
 
 const stopped = { error: 'stopped' };
 
-/** An answer whose bytes are those that the worker has handed over: a `Response` would copy them. */
+/** An answer that uses the worker's bytes; a `Response` would copy them. */
 function answerOf(status: number, body: Uint8Array): Answer {
   const text = (): string => new TextDecoder().decode(body);
   return {
@@ -37,7 +37,7 @@ export class WorkerTransport implements ViewTransport {
   private told = { stage: '', done: 0 };
   private next = 0;
 
-  /** `files`: the take and what it needs; the worker reads them. `save` gets each file that was written. */
+  /** `files` are the take and its side files; the worker reads them. `save` is called with each written file. */
   constructor(private readonly engine: Engine, private readonly take: string, private readonly files: File[], private readonly save: (file: NamedBytes) => void) {}
 
   /** Reads the take. */
@@ -51,7 +51,7 @@ export class WorkerTransport implements ViewTransport {
   ask(action: string, asked: object = {}): Promise<Answer> {
     if (action === 'progress') return Promise.resolve(answerInJson(200, this.told));
     const long = action === 'run' || action === 'curves';
-    // A worker cannot be told anything while it works: a run that another replaces ends with its worker.
+    // A busy worker cannot receive messages, so a replaced run ends with its worker.
     if (action === 'run' && [...this.waiting.values()].some((request) => request.long)) this.stop();
     const id = ++this.next;
     return new Promise((answer) => {
@@ -102,7 +102,7 @@ export class WorkerTransport implements ViewTransport {
     }
   }
 
-  /** The page downloads it; side files are there for later workers as well. */
+  /** The page downloads the file; later workers get side files too. */
   private keep(file: NamedBytes): void {
     if (/\.(contacts|plan\.csv|gaps\.csv)$/.test(file.name)) {
       const before = this.files.findIndex(({ name }) => name === file.name);

@@ -1,9 +1,9 @@
-// Where a report opens: at the worst finding, in the frame where the most is wrong or was changed.
+// Selects where a report opens: at the worst finding, in the frame with the largest error or change.
 
 import type { Finding } from './report';
 import type { Take } from './take';
 
-/** Kinds of findings, the worst first; other kinds follow before noise. The order of the lanes, too. */
+/** Kinds of findings, worst first; other kinds come before noise. It is also the order of the lanes. */
 const order = ['warning', 'gap', 'spike', 'swap', 'frozen', 'bridged', 'slide', 'sink', 'length', 'euler_flip', 'repeated_frames', 'zero_frames', 'noise'];
 
 export function rankOf(kind: string): number {
@@ -11,12 +11,12 @@ export function rankOf(kind: string): number {
   return place < 0 ? order.length - 1.5 : place;
 }
 
-/** Long spans are looked at in so many frames. Chosen by hand. */
+/** Number of frames checked in long spans. Chosen by hand. */
 const mostLookedAt = 400;
 
 /**
- * The worst of them: of the kind of the highest rank the one that is largest, or longest where no amounts are told; a refused one is worse than
- * one that was repaired. Warnings count only where there is nothing else, since most are about the whole take.
+ * The worst finding: among those of the worst kind, refused ones first, then the largest amount, then the longest. Warnings are used only if there
+ * is nothing else, because most are about the whole take.
  */
 export function worstOf(findings: Finding[]): Finding | null {
   const known = findings.filter(({ kind }) => kind !== 'warning');
@@ -31,12 +31,12 @@ export function worstOf(findings: Finding[]): Finding | null {
   }, first) ?? null;
 }
 
-/** The told frame of a finding in which the two takes are farthest apart; its middle, where there is one take or nothing was changed. */
+/** The stored frame of a finding in which the two takes are farthest apart, or its middle if there is one take or no change. */
 export function worstFrame(take: Take, finding: Finding): number {
   const first = take.frameOf(finding.first_frame), last = take.frameOf(finding.last_frame);
   let worst = Math.floor((first + last) / 2), most = 0;
   if (!take.data.two || last - first < 1) return worst;
-  // Of a long take the frames between are not there yet.
+  // The remaining frames of a long take may not be loaded yet.
   const every = Math.max(take.whole ? 1 : take.data.stride, Math.ceil((last - first) / mostLookedAt));
   for (let f = first; f <= last; f += every) {
     const way = take.distance(f);

@@ -1,5 +1,5 @@
-// How fast kinemend.html is: until it shows itself and its module runs, from a drop to the drawn result, and the longest time that its own
-// thread is busy at a stretch. Prints medians; the takes are made in FOLDER.
+// Measures the speed of kinemend.html: until it is shown and its module runs, from a drop to the drawn result, and the longest time that its own
+// thread is busy without a break. Prints medians; the takes are made in FOLDER.
 //
 //   node app_speed.mjs PROGRAM CHROMIUM APP FOLDER [TRIES]       (the working folder holds playwright-core)
 import { execFileSync } from 'node:child_process';
@@ -30,7 +30,7 @@ async function until(page, test, argument) {
   }
 }
 
-/** Times of one opened page, ms: when it is shown, when the module runs, and those of each take that is dropped `pause` later, one after another. */
+/** Times of one opened page, ms: until it is shown, until the module runs, and for each take. The first take is dropped after `pause` ms. */
 async function measured(names, pause) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 900 } });
   await page.addInitScript(watchStalls);

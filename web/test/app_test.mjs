@@ -1,5 +1,5 @@
-// kinemend.html in a browser, opened as a file: takes are dropped, cleaned and saved, what is saved is compared with the program's output
-// byte for byte, and no request leaves.
+// Tests kinemend.html in a browser, opened as a file: drops, cleans and saves takes, compares the saved files with the program's output byte for
+// byte, and checks that the page sends no request.
 //
 //   node app_test.mjs PROGRAM CHROMIUM APP OUTPUT TAKES [MORE]       (the working folder holds playwright-core)
 //
@@ -36,7 +36,7 @@ page.on('pageerror', (error) => problems.push(String(error)));
 await page.addInitScript(watchStalls);
 await page.goto(pathToFileURL(app).href);
 
-/** As page.waitForFunction, which the policy of the page forbids. */
+/** Same as page.waitForFunction, which the page's policy forbids. */
 async function until(test, argument, { timeout = 60000 } = {}) {
   for (const end = performance.now() + timeout; ;) {
     if (await page.evaluate(test, argument)) return;
@@ -47,7 +47,7 @@ async function until(test, argument, { timeout = 60000 } = {}) {
 
 await until(() => document.getElementById('page').dataset.ready !== undefined);
 
-/** Drops files of a folder on the page, as a person does. */
+/** Drops files of a folder on the page, as a user does. */
 async function drop(names, folder = output) {
   const files = names.map((name) => ({ name, text: readFileSync(join(folder, name)).toString('base64') }));
   await page.evaluate((all) => {
@@ -67,7 +67,7 @@ async function settled(name, wanted = 'true') {
   assert.equal(await page.evaluate(() => document.getElementById('page').dataset.ready), wanted, `${name}: ${words}`);
 }
 
-/** Saves the result under the name that is proposed. */
+/** Saves the result under the proposed name. */
 async function saved() {
   await page.click('[data-action=save]');
   const [download] = await Promise.all([page.waitForEvent('download', { timeout: 120000 }), page.click('[data-action=accept]')]);
@@ -88,7 +88,7 @@ async function cleaned(name, folder = output, beside = []) {
   return [file, readFileSync(mine)];
 }
 
-/** The motion where the file is packed: zlib packs a few arrays of an FBX file in other words there. */
+/** The motion of packed files, because zlib packs a few arrays of an FBX file differently there. */
 function unpacked(bytes) {
   if (!bytes.subarray(0, 18).equals(Buffer.from('Kaydara FBX Binary'))) return bytes;
   writeFileSync(join(output, 'unpacked.fbx'), bytes);

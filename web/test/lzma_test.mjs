@@ -1,4 +1,5 @@
-// The text that holds the module, there and back; and the unpacker of the app against xz: texts, noise, empty and long repeats come back, damaged bytes are refused or end.
+// Tests that the text that holds the module decodes to the same bytes, and the app's unpacker against xz: texts, noise, empty files and long repeats
+// are restored; for damaged bytes it throws or ends.
 //
 //   node lzma_test.mjs ESBUILD FOLDER
 import assert from 'node:assert/strict';

@@ -1,5 +1,5 @@
-// The report page in a browser: opened, played, scrubbed, searched, zoomed, as a person would. Screenshots of every state are left in
-// the output folder, to be looked at.
+// Tests the report page in a browser: opens, plays, scrubs, searches and zooms as a user would. Screenshots of every state are left in the output
+// folder for inspection.
 //
 //   node page_test.mjs PROGRAM CHROMIUM OUTPUT TAKES       (NODE_PATH or the working folder holds playwright-core)
 import assert from 'node:assert/strict';
@@ -43,16 +43,16 @@ function makePages() {
   } catch (error) {
     assert.equal(error.status, 3);
   }
-  // Markers with a gap that is filled and one that is refused.
+  // Markers with a filled gap and a refused one.
   fourMarkers(join(output, 'markers.trc'));
-  // Nothing is seen in the first five frames.
+  // Nothing is visible in the first five frames.
   writeFileSync(join(output, 'late.trc'), readFileSync(join(output, 'markers.trc'), 'utf8').split('\n')
     .map((line) => (/^[1-5]\t/.test(line) ? line.split('\t').map((cell, i) => (i < 2 ? cell : '')).join('\t') : line)).join('\n'));
   kinemend('check', 'late.trc', '--report', 'late.html', '--force');
   kinemend('fill', 'markers.trc', '-o', 'filled.trc', '--report', 'fill.html', '--force');
   markers(join(output, 'unseen.trc'), ['A', 'B'], 20, () => null);
   kinemend('check', 'unseen.trc', '--report', 'unseen.html', '--force');
-  // A rod of three markers that turns, and a fourth marker that comes and goes.
+  // A rod of three markers that rotates, and a fourth marker that comes and goes.
   markers(join(output, 'rod.trc'), ['Hip', 'Knee', 'Ankle', 'Far'], 120, (f, m) => (m === 3 ? [5 * f, 900, 3000 - 20 * f] : [300 * m * Math.cos(f / 20), 900 + 300 * m * Math.sin(f / 20), 0]));
   kinemend('check', 'rod.trc', '--report', 'rod.html', '--force');
   manyJoints(join(output, 'many.bvh'), 400, 120);
@@ -66,7 +66,7 @@ function makePages() {
   markers(join(output, 'two.trc'), ['A:Head', 'A:Hip', 'A:Foot', 'B:Head', 'B:Hip', 'B:Foot'], 200, (f, m) => [3000 * Math.floor(m / 3) * Math.cos(f / 40) + 40 * f + 200 * Math.sin(2.1 * f + m), 1700 - 800 * (m % 3), 3000 * Math.floor(m / 3) * Math.sin(f / 40)]);
   kinemend('compare', 'two.trc', 'two.trc', '--report', 'markers_compared.html', '--force');
   kinemend('clean', 'two.trc', '-o', 'two.clean.trc', '--method', 'gaussian', '--report', 'two.html', '--force');
-  // An hour, of which every eighth frame comes first.
+  // An hour, of which every eighth frame is loaded first.
   arm('hour.bvh', 432000, { rate: 120, turn: 0.01 });
   kinemend('clean', 'hour.bvh', '--dry-run', '--method', 'gaussian', '--report', 'hour.html', '--force');
 }
@@ -90,7 +90,7 @@ async function open(name, options = {}) {
   assert.equal(await page.evaluate(() => window.broken), undefined);
   return page;
 }
-/** A picture to look at; drawing a whole page takes seconds, so there are none unless SCREENSHOTS is set. */
+/** Takes a screenshot for inspection; drawing a whole page takes seconds, so it does nothing unless SCREENSHOTS is set. */
 const shot = async (page, name) => {
   if (!process.env.SCREENSHOTS) return;
   await page.waitForTimeout(150);
@@ -165,7 +165,7 @@ step('the page opens at the worst finding, which is marked, in the frame where t
   assert.match(await page.textContent('.findings [aria-current]'), /spike/);
   const row = await page.locator('tr.chosen').boundingBox(), table = await page.locator('.tracks .scroll').boundingBox();
   assert.ok(row.y >= table.y && row.y + row.height <= table.y + table.height + 1, 'the chosen row is out of sight');
-  // Smoothing lasts the whole take: what counts is the frame in which it did the most.
+  // Smoothing lasts the whole take, so the frame with the largest change is used.
   const smoothed = await open('wide.html');
   const ways = await smoothed.evaluate(() => {
     const { take, player } = window.kinemend;
@@ -279,7 +279,7 @@ step('the keyboard alone does it all', async () => {
   await page.keyboard.press(' ');
   await page.keyboard.press('3');
   assert.ok((await inView(page)) > 0.99, 'the top view shows no body');
-  // Everything that can be pressed is reached by the tabulator, and shows where the focus is.
+  // The Tab key reaches every control.
   await page.evaluate(() => document.activeElement?.blur());
   const reached = new Set();
   for (let i = 0; i < 25; ++i) {
@@ -331,7 +331,7 @@ step('markers that keep their distance are linked, and named where the mouse is'
   await shot(page, 'linked');
   await page.mouse.move(2, 2);
   assert.equal(await page.isVisible('.tip'), false);
-  // A joint, and what a name holds is text.
+  // Markup in a name is shown as text.
   const strangeOne = await open('fill.html');
   const at = await strangeOne.evaluate(() => window.kinemend.body.seen(0));
   const view = await strangeOne.locator('.view').boundingBox();
@@ -383,7 +383,7 @@ step('a table is one stop of the tabulator, and arrow keys lead through it', asy
   const chosen = await focused();
   await page.keyboard.press('Enter');
   assert.ok((await page.$$eval('tr.chosen th', (cells) => cells.map((cell) => cell.textContent))).includes(chosen));
-  // Where the table has nothing beside it the arrows step through frames.
+  // The row has no control to the right, so the arrow key steps through frames.
   const before = await frame(page);
   await page.keyboard.press('ArrowRight');
   assert.equal(await frame(page), before + 1);

@@ -1,12 +1,12 @@
-// A screenshot of a page.
+// Takes a screenshot of a page.
 //
 //   node picture.mjs CHROMIUM PAGE.html PICTURE.png [light|dark] [KEY...]       (the working folder holds playwright-core)
 import { createRequire } from 'node:module';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 
-// A page is a file or an address; a KEY with a = sets a control of `kinemend view`, `gap=N` compares the curves of a gap, one with a ? opens the
-// details of that name. `hide=before` takes one of the two bodies away, `part=body` takes the picture of that section alone.
+// A page is a file or an address. A KEY with a = sets a control of `kinemend view`, `gap=N` compares the curves of a gap, and one with a ? opens the
+// details of that name. `hide=before` hides one of the two bodies, and `part=body` captures only that section.
 
 const { chromium } = createRequire(join(process.cwd(), 'package.json'))('playwright-core');
 const [executablePath, html, picture, colorScheme = 'light', ...keys] = process.argv.slice(2);

@@ -1,5 +1,5 @@
-// How fast pages are: opened, played, and in `kinemend view` after a change of method. Prints a table; the best of several tries, as a
-// machine that does other things too makes them slower and never faster.
+// Measures the speed of pages: opened, played, and in `kinemend view` after a change of method. Prints a table with the best of several tries,
+// because other work on the machine makes them slower and never faster.
 //
 //   node speed.mjs PROGRAM CHROMIUM FOLDER       (the working folder holds playwright-core; takes and pages are made in FOLDER)
 import { execFileSync, spawn } from 'node:child_process';
@@ -20,14 +20,14 @@ const take = (name, seconds) => {
 
 const browser = await chromium.launch({ executablePath, args: launchArgs });
 
-/** Processor time that the page's own thread has taken, s: what else the machine does is not in it. */
+/** Processor time of the page's own thread, s; excludes other load. */
 async function meter(page) {
   const session = await page.context().newCDPSession(page);
   await session.send('Performance.enable', { timeDomain: 'threadTicks' });
   return async () => (await session.send('Performance.getMetrics')).metrics.find(({ name }) => name === 'TaskDuration').value;
 }
 
-/** Seconds until the body is seen and until all frames are there, and of processor time. */
+/** Seconds until the body is visible and until all frames are loaded, processor time in seconds, and time per frame in ms. */
 async function opened(name) {
   const page = await browser.newPage({ viewport: { width: 1100, height: 900 } });
   const taken = await meter(page);
@@ -43,7 +43,7 @@ async function opened(name) {
   return [first, whole, processor, frame];
 }
 
-/** What the page itself does for a frame while it plays: pose, body, trails, cursors; ms. The screen comes on top. */
+/** The page's own time per played frame, ms: pose, body, trails and cursors. The time of the screen is additional. */
 function frameOf(page) {
   return page.evaluate(async () => {
     const { player } = window.kinemend;
@@ -77,7 +77,7 @@ const address = await new Promise((resolve) => {
     if (told.includes('\nCtrl-C')) resolve(told.split('\n')[0]);
   });
 });
-/** Until the program has answered, asked by this script; s. */
+/** Time until the program answers this script, s. */
 async function answered(flags) {
   const begun = performance.now();
   const reply = await fetch(`${address}run`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ command: 'clean', flags }) });

@@ -1,11 +1,11 @@
-// What the tests in a browser share: the browser, takes that are made, and contrast.
+// Shared by the browser tests: the browser, synthetic takes, and contrast.
 import { writeFileSync } from 'node:fs';
 
 export const launchArgs = ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'];
 
 export const strange = '"\'<script>window.broken=1</script>&\u202e\u00e9\u{1f600}';
 
-/** Two joints in closed form: a forearm that turns about Z by 9 degrees a frame at the end of an arm of 30. */
+/** Two joints in closed form: a forearm that rotates about Z by 9 degrees per frame at the end of an arm of 30. */
 export function arm(path, frames, { rate = 100, turn = 9 } = {}) {
   const rows = Array.from({ length: frames }, (_, f) => `1 2 3 0 0 0 ${turn * f} 0 0`);
   writeFileSync(path, `HIERARCHY\nROOT ${strange}\n{\n  OFFSET 0 0 0\n  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n`
@@ -13,7 +13,7 @@ export function arm(path, frames, { rate = 100, turn = 9 } = {}) {
     + `MOTION\nFrames: ${frames}\nFrame Time: ${1 / rate}\n${rows.join('\n')}\n`);
 }
 
-/** So many joints, in chains of twenty around the root. */
+/** `count` joints, in chains of twenty around the root. */
 export function manyJoints(path, count, frames) {
   const lines = ['HIERARCHY', 'ROOT Root', '{', 'OFFSET 0 0 0', 'CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation'];
   for (let made = 1; made < count;) {
@@ -28,7 +28,7 @@ export function manyJoints(path, count, frames) {
   writeFileSync(path, `${lines.join('\n')}\n}\nMOTION\nFrames: ${frames}\nFrame Time: 0.0083333\n${Array.from({ length: frames }, (_, f) => row(f)).join('\n')}\n`);
 }
 
-/** A TRC file; `at(frame, marker)` says x, y and z, or null for a sample that is missing. */
+/** A TRC file; `at(frame, marker)` returns x, y and z, or null for a missing sample. */
 export function markers(path, names, frames, at) {
   const rows = Array.from({ length: frames }, (_, f) => {
     const cells = names.map((_name, m) => at(f, m)?.map((value) => value.toFixed(3)).join('\t') ?? '\t\t');
@@ -38,12 +38,12 @@ export function markers(path, names, frames, at) {
     + `100\t100\t${frames}\t${names.length}\tmm\t100\t1\t${frames}\nFrame#\tTime\t${names.join('\t\t\t')}\t\t\n\t\t${names.map((_, m) => `X${m + 1}\tY${m + 1}\tZ${m + 1}`).join('\t')}\n\n${rows.join('\n')}\n`);
 }
 
-/** Four markers on a wavy way: the second is missing for eight frames, the third for 220. */
+/** Four markers on a wavy path: the second is missing for eight frames, the third for 220. */
 export function fourMarkers(path) {
   markers(path, ['<b>A</b>', 'B', 'C', 'D'], 300, (f, m) => ((m === 1 && f >= 100 && f < 108) || (m === 2 && f >= 40 && f < 260) ? null : [100 * Math.sin(f / 30 + m), 900 + 100 * m, 3 * f]));
 }
 
-/** Texts that are seen and stand out from what is behind them by less than WCAG 2 asks for (AA): what and by how much. */
+/** Visible texts with less contrast than WCAG 2 (AA) requires, with their contrast. */
 export function faintTexts(page) {
   return page.evaluate(() => {
     const parts = (text) => {
@@ -82,8 +82,8 @@ export function faintTexts(page) {
 }
 
 /**
- * Runs in a page before all else: window.watched tells the longest time that the page's thread was busy at a stretch, ms, and when the page
- * was ready, ms after it was opened, or after a file was last chosen.
+ * Runs in a page before all other scripts. window.watched returns the longest time that the page's thread was busy without a break, ms, and when
+ * the page was ready, ms after it was opened or a file was last chosen.
  */
 export function watchStalls() {
   const watched = { ready: [], drawn: 0, last: performance.now(), most: 0, from: 0 };

@@ -1,5 +1,5 @@
-// `kinemend view` in a browser: a method is changed, contacts and gaps are edited, the take is saved, and what was saved is compared with
-// what the command line makes.
+// Tests `kinemend view` in a browser: changes the method, edits contacts and gaps, saves the take, and compares the saved files with those of the
+// command line.
 //
 //   node view_test.mjs PROGRAM CHROMIUM OUTPUT TAKES       (the working folder holds playwright-core)
 import assert from 'node:assert/strict';
@@ -21,12 +21,12 @@ const bytes = (name) => readFileSync(join(output, name));
 writeFileSync(join(output, 'walk.bvh'), readFileSync(join(takes, 'noisy_walk.bvh')));
 
 fourMarkers(join(output, 'markers.trc'));
-// So many gaps that to fill them takes a while.
+// Enough gaps that filling them takes a while.
 markers(join(output, 'gaps.trc'), Array.from({ length: 40 }, (_, m) => `M${m}`), 1500, (f, m) => ((f + 37 * m) % 101 < 30 && f > 50 && f < 1450 ? null
   : [300 * Math.cos(m) + f / 5 + Math.sin(f * 1.7 + m), 900 + 10 * m + 30 * Math.sin(f / 20 + m), 300 * Math.sin(m)]));
 
 const servers = [];
-/** Starts the program; its address. */
+/** Starts the program and returns its address. */
 async function serve(...words) {
   const child = spawn(program, ['view', '--no-open', ...words], { cwd: output });
   servers.push(child);
@@ -42,7 +42,7 @@ async function serve(...words) {
   });
 }
 
-/** Status of a request that is no page's. */
+/** Status of a request that the page never sends. */
 function status(address, { path, method = 'GET', headers = {}, body } = {}) {
   const url = new URL(address);
   return new Promise((resolve, reject) => {
@@ -58,7 +58,7 @@ function status(address, { path, method = 'GET', headers = {}, body } = {}) {
 const only = process.env.STEPS ? new RegExp(process.env.STEPS) : /./;
 const browser = await chromium.launch({ executablePath, args: launchArgs });
 const pages = [];
-/** How long what is waited for may take, in milliseconds: machines that test are busy with other work. */
+/** Timeout in milliseconds; test machines are busy with other work. */
 const patience = 120000;
 async function open(address, options = {}) {
   const page = await browser.newPage({ viewport: { width: 1100, height: 900 }, ...options });
@@ -76,11 +76,11 @@ async function ready(page) {
 async function after(page, change) {
   const before = await page.getAttribute('#page', 'data-runs');
   await change();
-  // The page's own rules forbid what waitForFunction needs.
+  // The page's policy forbids waitForFunction.
   await page.waitForSelector(`#page[data-runs]:not([data-runs="${before}"]):not([data-ready="running"])`);
   assert.equal(await page.getAttribute('#page', 'data-ready'), 'true', await page.textContent('.view-controls .status'));
 }
-/** Saves under the name that is proposed, or another. */
+/** Saves under the proposed name, or another. */
 async function save(page, written, name) {
   await page.click('[data-action=save]');
   await page.waitForSelector('dialog[open]');
@@ -89,7 +89,7 @@ async function save(page, written, name) {
   await page.waitForSelector(`.saved:has-text("saved ${written}")`);
   assert.equal(await page.locator('dialog[open]').count(), 0);
 }
-/** A picture to look at; drawing a whole page takes seconds, so there are none unless SCREENSHOTS is set. */
+/** Takes a screenshot for inspection; drawing a whole page takes seconds, so it does nothing unless SCREENSHOTS is set. */
 const shot = async (page, name) => {
   if (!process.env.SCREENSHOTS) return;
   await page.waitForTimeout(200);
@@ -130,7 +130,7 @@ step('a method is changed, and what is saved has the bytes of the command line',
   runShown(await page.textContent('.line'), 'walk.clean.bvh', 'shown.bvh');
   assert.deepEqual(bytes('shown.bvh'), bytes('cli.bvh'));
   await shot(page, 'butterworth');
-  // What this page has saved it may replace.
+  // The page may replace files that it saved.
   await save(page, 'walk.clean.bvh');
   await save(page, 'other name.bvh', 'other name.bvh');
   assert.deepEqual(bytes('other name.bvh'), bytes('cli.bvh'));
@@ -148,7 +148,7 @@ step('Save as asks for a name, and before it replaces a file', async () => {
   await page.waitForSelector('.save .problem:has-text("walk.clean.bvh: exists already")');
   assert.equal(await page.textContent('[data-action=accept]'), 'Replace');
   await shot(page, 'save');
-  // Another name was not confirmed.
+  // The new name was not confirmed.
   await page.fill('dialog input', 'walk.bvh');
   assert.equal(await page.textContent('[data-action=accept]'), 'Save');
   await page.click('[data-action=accept]');
@@ -179,7 +179,7 @@ step('a value out of range is refused beside its field, with the range, and noth
     assert.ok((await page.textContent('.view-controls .status')).startsWith(`not used: ${label}.`));
     assert.equal(await page.getAttribute('#page', 'data-ready'), 'error');
     assert.equal(await page.textContent('.line'), line);
-    // Nothing is saved with another value than the one that is seen.
+    // Nothing is saved while the visible value is invalid.
     await page.click('[data-action=save]');
     await page.click('[data-action=accept]');
     await page.waitForSelector('.save .problem:has-text("not allowed")');
@@ -204,7 +204,7 @@ step('a preset sets the controls, and what is saved has the bytes of --preset', 
   await save(page, 'preset.bvh');
   kinemend('clean', 'walk.bvh', '--preset', 'biomech', '-o', 'cli_preset.bvh');
   assert.deepEqual(bytes('preset.bvh'), bytes('cli_preset.bvh'));
-  // What is changed goes over the preset.
+  // Changed values override the preset.
   await after(page, () => page.fill('[data-flag=cutoff_hz]:visible', '10'));
   await save(page, 'preset.bvh');
   kinemend('clean', 'walk.bvh', '--preset', 'biomech', '--cutoff-hz', '10', '-o', 'cli_preset10.bvh');
@@ -318,7 +318,7 @@ step('gaps are looked at, refused and given another method, and the plan is save
   await shot(page, 'curves');
   const unnamed = await page.$$eval('canvas', (all) => all.filter((one) => !one.getAttribute('aria-label') || !one.getAttribute('role')).length);
   assert.equal(unnamed, 0, 'a canvas without a name');
-  // The table is one stop of the tabulator; arrow keys lead through it.
+  // The table is one tab stop; arrow keys move through it.
   assert.equal(await page.$$eval('.editor tbody button, .editor tbody select', (all) => all.filter((one) => one.tabIndex >= 0).length), 1);
   await page.locator('[data-gap=name]').nth(0).focus();
   for (const [key, gap, row] of [['ArrowRight', 'verdict', '0'], ['ArrowRight', 'method', '0'], ['ArrowRight', 'curves', '0'], ['ArrowDown', 'curves', '1'], ['ArrowLeft', 'method', '1'], ['Control+ArrowUp', 'method', '0'], ['Home', 'name', '0']]) {
@@ -328,7 +328,7 @@ step('gaps are looked at, refused and given another method, and the plan is save
   await after(page, () => page.click('.gap-methods [data-method=cyclic]'));
   assert.equal(await page.locator('[data-gap=method]').nth(0).inputValue(), 'cyclic');
   await page.waitForSelector('.gap-methods [data-method=cyclic][aria-pressed=true]');
-  // By keyboard: the focus stays where it is while all is drawn anew.
+  // With the keyboard: the focus stays while everything is redrawn.
   await page.focus('.gap-methods [data-method=pchip]');
   await after(page, () => page.keyboard.press('Enter'));
   assert.equal(await page.evaluate(() => document.activeElement?.dataset.method), 'pchip');
@@ -344,7 +344,7 @@ step('gaps are looked at, refused and given another method, and the plan is save
   await after(page, () => page.locator('[data-gap=verdict]').nth(0).selectOption('refuse'));
   assert.match(await page.textContent('.verdict'), /1 filled, 1 refused/);
   assert.equal(await page.evaluate(() => document.activeElement?.dataset.gap), 'verdict', 'the focus is lost');
-  // What the rules refuse is drawn, too, and taken by force.
+  // Refused methods are drawn too and can be forced.
   await page.locator('[data-gap=curves]').nth(1).click();
   await page.waitForSelector('.gap-methods [data-method=spline][data-filled=false]');
   await after(page, () => page.click('.gap-methods [data-method=spline]'));
@@ -363,7 +363,7 @@ step('a click on a curve takes its method', async () => {
   const over = page.locator('.gap-plots .u-over').nth(0);
   await over.scrollIntoViewIfNeeded();
   const box = await over.boundingBox();
-  // Somewhere on the way down through the middle of the gap there is a curve.
+  // Somewhere along the middle of the gap there is a curve.
   let chosen = false;
   for (let y = 4; y < box.height && !chosen; y += 8) {
     const runs = await page.getAttribute('#page', 'data-runs');
@@ -397,14 +397,14 @@ step('samples are marked as missing, filled and saved as the file that clean and
   await save(page, 'walk.gaps.csv, marked.bvh');
   kinemend('fill', 'walk.bvh', '--gaps', 'walk.gaps.csv', '-o', 'cli_marked.bvh');
   assert.deepEqual(bytes('marked.bvh'), bytes('cli_marked.bvh'));
-  // A side file that somebody else has made stays.
+  // A side file from elsewhere is kept.
   const other = await serve('walk.bvh', '-o', 'marked2.bvh');
   assert.equal(await status(other.address, { path: `${new URL(other.address).pathname}save`, method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ command: 'fill', flags: {}, gaps: 'Head,1,2\n' }) }), 409);
   assert.equal(existsSync(join(output, 'marked2.bvh')), false);
   assert.match(bytes('walk.gaps.csv').toString(), /LeftForeArm/);
 });
 
-/** Asks as a page would; status, milliseconds. */
+/** Sends a request as a page does; returns status and milliseconds. */
 async function asked(address, action, body) {
   const begun = Date.now();
   const code = await status(address, { path: `${new URL(address).pathname}${action}`, method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(body) });
@@ -427,7 +427,7 @@ step('fills that are overtaken, and those of a tab that is closed, are given up'
   console.log(`  to fill takes ${long} ms; given up ${late} ms after the next was asked for`);
   assert.ok(late < 0.6 * long, `${late} of ${long} ms`);
   assert.equal((await second).code, 200);
-  // Curves beside it, and a tab that goes.
+  // Requests curves during the run, then closes a tab.
   const plan = JSON.stringify({ schema: 'kinemend.gap-plan/1', gaps: [] });
   assert.equal((await asked(address, 'curves', { ...fill, plan, row: 0 })).code, 400);
   const third = asked(address, 'run', fill);
@@ -522,7 +522,7 @@ step('all texts have enough contrast', async () => {
     await page.fill('[data-flag=range]:visible', '9999:');
     await page.waitForSelector('#page[data-ready="error"]');
     assert.deepEqual(await faintTexts(page), [], colorScheme);
-    // In a window that is narrow nothing is cut off.
+    // Nothing is cut off in a narrow window.
     if (colorScheme === 'dark') {
       await page.setViewportSize({ width: 360, height: 740 });
       await page.waitForTimeout(100);
@@ -582,7 +582,7 @@ step('requests of others are refused', async () => {
     assert.equal(await status(address, { path: run, method: 'POST', headers: json, body: JSON.stringify({ command: 'clean', flags }) }), 400, JSON.stringify(flags));
   assert.equal(await status(address, { path: run, method: 'POST', headers: json, body: 'x' }), 400);
   assert.equal(await status(address, { path: run, method: 'POST', headers: json, body }), 200);
-  // Paths in a request are not looked at.
+  // Paths in a request are ignored.
   for (const path of ['contacts', 'gaps', 'plan', 'output', 'input', 'cleaned'])
     assert.equal(await status(address, { path: run, method: 'POST', headers: json, body: JSON.stringify({ command: 'clean', flags: {}, [`${path}_path`]: '/etc/passwd', tab: '../../x' }) }), 200, path);
   assert.deepEqual(readdirSync(output).sort(), files, 'something was written');

@@ -26,7 +26,7 @@ inline TakeResult read_pair(std::string amc, std::string asf, const ReadOptions&
 }
 inline Take read_figure() { return read_pair(figure_amc(), figure_asf()).take; }
 
-/// An ASF of the root and bones in a chain, `bone_lines` between begin and end of each.
+/// An ASF with the root and a chain of bones, each described by one of `bone_lines`.
 inline std::string chain_asf(const std::vector<std::string>& bone_lines,
                              const std::string& units = "", const std::string& root = "") {
   std::string asf = ":units\n" + units + ":root\n" +

@@ -50,7 +50,7 @@ std::string noise() {
   return bytes;
 }
 
-// One after the other, or all on the root.
+// Bones in a chain, or all attached to the root.
 std::string many_bones(int count, bool in_a_chain) {
   std::string bones = ":root\norder tx\n:bonedata\n", hierarchy = ":hierarchy\nbegin\n";
   for (int i = 0; i < count; ++i) {

@@ -17,7 +17,7 @@ struct BoneEnds {
   Vec3 begin, end;
 };
 
-// The positions that tools/reference/acclaim_figure.py computes, by frame and bone.
+// Reference positions of tools/reference/acclaim_figure.py, by frame and bone.
 std::map<std::pair<std::size_t, std::string>, BoneEnds> figure_positions() {
   std::map<std::pair<std::size_t, std::string>, BoneEnds> positions;
   std::ifstream file(acclaim_fixture("amc/figure_positions.csv"));
@@ -185,7 +185,7 @@ class SkeletonFolder : public testing::Test {
     write_file(folder_ / name, bytes, true);
     return folder_ / name;
   }
-  // The file whose unit of length was taken.
+  // The file whose unit of length was used.
   std::string chosen(const std::filesystem::path& amc, const ReadOptions& options = {}) {
     return std::filesystem::path(read_joints(amc, options).take.source.facts.at(0).text)
         .filename()

@@ -1,5 +1,5 @@
-// Real AMC files come back to the byte, and their joints stand where BVH and C3D files of the same
-// takes put them.
+// Real AMC files are written back byte for byte, and their joints are at the positions in BVH and
+// C3D files of the same takes.
 
 #include "acclaim.hpp"
 #include "kinemend/experimental/kinematics.hpp"
@@ -41,7 +41,7 @@ TEST(RealAmc, EveryTakeIsValidAndComesBackToTheByte) {
     if (bytes.find("nan") == bytes.npos) {
       EXPECT_TRUE(written == bytes);
     } else {
-      // Held values take the place of what is no number, once.
+      // The writer replaces NaN by the held value; a second round trip changes nothing.
       EXPECT_EQ(written.find("nan"), written.npos);
       EXPECT_TRUE(write_take(read_joints(written, path.string()).take, "amc") == written);
     }
@@ -74,8 +74,8 @@ TEST(RealAmc, GapsAreFoundWhereAProgramWroteNan) {
   EXPECT_FALSE(result.take.is_observed(1, fingers));
 }
 
-// The same take from BVH, whose first frame is a T-pose and whose file lacks the bones that lead to
-// the neck, the collar bones, the thumbs and the fingers.
+// The BVH of the same take begins with a T-pose and lacks the bones that lead to the neck, the
+// collar bones, the thumbs and the fingers.
 TEST(RealAmc, JointsStandWhereTheBvhOfTheSameTakePutsThem) {
   const Take amc = read_joints(takes / "cmu/amc/35/35_01.amc").take;
   const Take bvh = read_joints(takes / "cmu/bvh/35_01.bvh").take;
@@ -96,8 +96,8 @@ TEST(RealAmc, JointsStandWhereTheBvhOfTheSameTakePutsThem) {
   }
 }
 
-// The C3D of the take holds the joints as the program that wrote the AMC had them, in millimetres,
-// z up, rounded to its scale of 0.16 mm. Its feet turn about three axes, of which the AMC has two.
+// The C3D of the take holds the joints of the program that wrote the AMC, in millimetres, z up,
+// rounded to its scale of 0.16 mm. Its feet rotate about three axes, of which the AMC has two.
 TEST(RealAmc, JointsStandWhereTheC3dOfTheSameTakePutsThem) {
   const Take amc = read_joints(takes / "cmu/amc/05/05_13.amc").take;
   const auto c3d = read_take(takes / "cmu/c3d/05_13.c3d").take;
@@ -123,7 +123,7 @@ TEST(RealAmc, JointsStandWhereTheC3dOfTheSameTakePutsThem) {
   }
 }
 
-// Takes turned a little at all joints: what is written reads back, and no angle leaps where the
+// Takes with a small rotation at all joints read back correctly, and no angle jumps where the
 // source's does not.
 TEST(RealAmc, ChangedTakesReadBack) {
   const auto paths = files_with(".amc");

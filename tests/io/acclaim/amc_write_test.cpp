@@ -31,7 +31,7 @@ Take written_and_read(const Take& clip) {
   return again;
 }
 
-// Positions by name; the joints between are those that ASF needs and the other format does not.
+// Compares positions by name; joints that only ASF needs are ignored.
 void expect_same_positions(const Take& clip, const Take& again, double relative,
                            std::vector<std::string> names = {}) {
   ASSERT_EQ(clip.frame_count(), again.frame_count());

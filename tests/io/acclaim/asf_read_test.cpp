@@ -34,7 +34,7 @@ TEST(AsfReader, TurnsAboutFixedAxesAreAProductInReverse) {
   const auto order = [&](const char* name) {
     return to_string(skeleton.rotation_order(static_cast<std::size_t>(skeleton.find(name))));
   };
-  EXPECT_EQ(order("root"), "XYZ");  // order TX RZ TZ RY TY RX
+  EXPECT_EQ(order("root"), "XYZ");  // the file says: order TX RZ TZ RY TY RX
   EXPECT_EQ(order("thigh"), "ZYX");
   EXPECT_EQ(order("shin"), "X");
   EXPECT_EQ(order("foot"), "ZX");

@@ -1,4 +1,4 @@
-// A bad BVH file is refused with one line that names the place.
+// A bad BVH file is refused with a one-line message that names the position.
 #include <map>
 
 #include "io/motion/motion_lines.hpp"
@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-// One line a file: where it is wrong, and what.
+// The expected message for each file: the line and the error.
 const std::map<std::string, std::string>& expected_messages() {
   static const std::map<std::string, std::string> messages{
       {"all_nan.bvh", "19: every channel value is not finite"},
@@ -112,8 +112,7 @@ TEST(BadBvh, AFileThatCannotBeOpenedIsNamed) {
             std::string(KINEMEND_TEST_FIXTURES) + ": Is a directory");
 }
 
-// Which line is to blame, by the layout of the lines alone: digits give the number of values a
-// line.
+// Finds the erroneous line from the layout alone: each digit is the number of values in a line.
 std::string blame(const std::string& values_per_line, std::size_t channels,
                   std::optional<std::size_t> declared = {}) {
   std::string text;

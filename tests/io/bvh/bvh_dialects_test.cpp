@@ -27,7 +27,7 @@ TEST(BvhReader, ReadsNamesOffsetsChannelsAndMotion) {
   EXPECT_EQ(clip.skeleton.end_sites[0].offset, (Vec3{0, 20, 0}));
   EXPECT_EQ(clip.frame_rate_hz, 120);
   ASSERT_EQ(clip.frame_count(), 3u);
-  // Positions replace the offset.
+  // Position channels replace the offset.
   EXPECT_EQ(clip.root_position(1), (Vec3{1.1, 92.1, -3.4}));
   EXPECT_LT(angle_between(clip.rotation(1, 0), rotation_of({11, -21, 31}, "ZXY")), 1e-14);
   EXPECT_LT(angle_between(clip.rotation(2, 1), rotation_of({5.7, 6.45, -7.325}, "ZXY")), 1e-14);
@@ -193,7 +193,7 @@ TEST(BvhReader, SamplesThatAreNoNumberAreHeldAndUnobserved) {
   const Take clip = read_good("gaps.bvh"), plain = read_good("plain.bvh");
   clip.validate();
   EXPECT_EQ(clip.observed, (std::vector<std::uint8_t>{0, 1, 1, 0, 1, 0}));
-  // The start takes what comes next, all else what came before.
+  // Missing samples at the start get the next value, all others the previous one.
   EXPECT_EQ(clip.rotation(0, 0), plain.rotation(1, 0));
   EXPECT_EQ(clip.rotation(1, 1), plain.rotation(0, 1));
   EXPECT_EQ(clip.rotation(2, 1), plain.rotation(0, 1));
@@ -236,7 +236,7 @@ TEST(BvhReader, FrameTimesMeanTheRateTheyWereRoundedFrom) {
                                                   {"0.0083417", 119.88}};
   for (const auto& [text, rate] : times)
     EXPECT_EQ(rate_from_frame_time(std::strtod(text, nullptr), text), rate) << text;
-  // Nine digits or more mean what they say.
+  // A frame time with nine digits or more is used exactly.
   EXPECT_NEAR(rate_from_frame_time(1 / 119.95, "0.008336807"), 120, 1e-12);
   EXPECT_NEAR(rate_from_frame_time(1 / 119.95, "0.0083368070029179"), 119.95, 1e-9);
   EXPECT_NEAR(rate_from_frame_time(0.0114, "0.0114"), 87.719298, 1e-6);

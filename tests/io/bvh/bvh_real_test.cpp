@@ -1,4 +1,4 @@
-// Real BVH files come back to the byte, and changed ones read back without jumps.
+// Real BVH files are written back byte for byte, and changed ones read back without jumps.
 #include <cmath>
 #include <set>
 
@@ -39,8 +39,8 @@ TEST(RealBvh, EveryTakeIsValidAndComesBackToTheByte) {
   EXPECT_GT(takes, 400u);
 }
 
-// Every 20th take, turned a little at all joints: what is written reads back, stays near the
-// source's own angles where the source does not wrap, and jumps nowhere.
+// Every 20th take, with a small rotation at all joints, reads back correctly, stays near the
+// source's angles where the source does not wrap, and has no jumps.
 TEST(RealBvh, ChangedTakesReadBackAndJumpNowhere) {
   const std::vector<fs::path> paths = real_takes();
   std::size_t takes = 0;
@@ -61,8 +61,8 @@ TEST(RealBvh, ChangedTakesReadBackAndJumpNowhere) {
         const double turn =
             angle_between(clip.rotation(f - 1, j), clip.rotation(f, j)) * degrees_per_radian;
         for (const Channel channel : clip.skeleton.channels[j]) {
-          // A jump is a step of an angle that the rotation does not make; near gimbal lock angles
-          // do swing.
+          // A jump is a step of an angle without such a rotation; near gimbal lock, angles may
+          // change fast.
           const double step = std::fabs(after[f][c] - after[f - 1][c]);
           if (is_rotation(channel) && turn < 30) {
             ASSERT_LT(step, 200) << "frame " << f << ", joint " << clip.skeleton.names[j];

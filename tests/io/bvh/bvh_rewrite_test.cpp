@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-// Words of a text with the place of each, white space in between left out.
+// The words of a text and their positions, without white space.
 std::vector<std::string> words_of(const std::string& text) {
   std::vector<std::string> words;
   bool inside = false;
@@ -22,7 +22,7 @@ std::vector<std::string> words_of(const std::string& text) {
   return words;
 }
 
-// White space as it is, each word as one letter.
+// The white space of a text, with each word replaced by one letter.
 std::string blanks_of(const std::string& text) {
   std::string blanks;
   for (const char c : text) {
@@ -110,7 +110,7 @@ TEST(BvhRewriter, ChangedSamplesReadBackAsWritten) {
       if (clip.skeleton.rotation_order(i % clip.joint_count()).count != 3) continue;
       EXPECT_LT(angle_between(again.rotations[i], clip.rotations[i]), 2e-6) << i;
     }
-    // Axes without a channel keep the offset.
+    // Axes without a position channel keep the offset.
     for (std::size_t f = 0; f < clip.frame_count(); ++f) {
       const bool all_axes =
           std::count_if(clip.skeleton.channels[0].begin(), clip.skeleton.channels[0].end(),
@@ -126,7 +126,7 @@ TEST(BvhRewriter, WritesNoExponentsAndAsManyDecimalsAsTheSource) {
   Take clip = read_joints(fixture("good/plain.bvh")).take;
   clip.rotation(1, 1) = rotation_of({1e-7, 12.34567, -0.00004}, "ZXY");
   EXPECT_NE(write_take(clip).find(" 0.0000 12.3457 0.0000\n"), std::string::npos);
-  // Four decimals where the source is coarser.
+  // A changed value gets four decimals if the source has fewer.
   Take coarse = read_joints(fixture("good/coarse.bvh")).take;
   coarse.rotation(1, 1) = rotation_of({5.5, 6, -7.125}, "ZXY");
   EXPECT_NE(write_take(coarse).find(" 5.5000 6 -7.1250\n"), std::string::npos);
@@ -180,7 +180,8 @@ TEST(BvhRewriter, AFullyChangedTrackIsContinuousWhereTheSourceWraps) {
 }
 
 TEST(BvhRewriter, SmallChangesStayOnTheSourcesBranch) {
-  // A source on the second branch, many turns away, that a fresh decomposition would not find.
+  // The source uses the second branch, many rotations away, which a new decomposition would not
+  // find.
   std::vector<std::array<double, 3>> angles;
   for (int f = 0; f < 100; ++f) angles.push_back({730 + 0.5 * f, 120 - 0.1 * f, -400 + 0.2 * f});
   Take clip = read_text(spinner_text(angles));
@@ -198,7 +199,7 @@ TEST(BvhRewriter, ARepairAmidKeptFramesMovesNoJumpOfTheSource) {
   for (int f = 0; f < 60; ++f) angles.push_back({wrapped(150 + 2.0 * f), 10, 5});
   const std::string text = spinner_text(angles);
   Take clip = read_text(text);
-  // The source wraps between frames 14 and 15; frames 13 to 17 are nudged.
+  // The source wraps between frames 14 and 15; frames 13 to 17 get a small change.
   for (std::size_t f = 13; f < 18; ++f)
     clip.rotation(f, 0) = clip.rotation(f, 0) * exp({0, 0.001, 0.001});
   const auto before = rows_of(text, 3), after = rows_of(write_take(clip), 3);
@@ -228,7 +229,7 @@ TEST(BvhRewriter, NothingJumpsNearGimbalLock) {
   Take clip = read_text(spinner_text(angles));
   for (Quat& q : clip.rotations) q = q * exp({1e-4, 1e-4, 1e-4});
   const auto rows = rows_of(write_take(clip), 3);
-  // Near the poles the outer angles turn against each other, but never by a flip.
+  // Near the poles the outer angles change in opposite directions, but never flip.
   EXPECT_LT(largest_step(rows), 90);
   const Take again = read_text(write_take(clip));
   expect_same_motion(clip, again, 1e-5);

@@ -1,4 +1,4 @@
-// Tests of BVH in a plain layout: what is written reads back the same.
+// Tests of BVH in a plain layout: a written file reads back the same.
 #include <cmath>
 #include <limits>
 
@@ -13,14 +13,14 @@ namespace {
 
 using namespace test;
 
-// A valid clip of random shape: tree, channels, rates and motion. Angles stay clear of what the
-// channels cannot reach.
+// A random valid clip: tree, channels, rates and motion. Angles avoid rotations that the channels
+// cannot represent.
 Take random_clip(Random& random) {
   Take clip;
   const std::size_t joints = 1 + random.below(12), frames = random.below(20);
   std::vector<RotationOrder> orders;
   for (std::size_t j = 0; j < joints; ++j) {
-    // A parent on the path that is open, so that joints are depth first.
+    // Chooses the parent on the current path, so that joints are in depth-first order.
     std::int32_t parent = static_cast<std::int32_t>(j) - 1;
     while (parent > 0 && random.chance(0.3))
       parent = clip.skeleton.parents[static_cast<std::size_t>(parent)];
@@ -128,7 +128,7 @@ TEST(BvhWriter, AnglesContinueTheFrameBefore) {
   const RotationOrder order = parse_rotation_order("ZXY");
   clip.skeleton.add_joint("spinner", -1, {}, make_channels(true, order));
   clip.frame_rate_hz = 120;
-  // Two turns about the first axis, the middle one up to 88 degrees.
+  // Two rotations about the first axis, the middle one up to 88 degrees.
   for (int f = 0; f < 500; ++f) {
     clip.positions.push_back({});
     clip.rotations.push_back(rotation_of({1.44 * f, 88 * std::sin(f * 0.01), 0.3 * f}, "ZXY"));

@@ -1,4 +1,4 @@
-// Tests of conversions of C3D files: what they keep, change, and name as lost.
+// Tests of conversions of C3D files: kept, changed and reported parts.
 #include "c3d_law.hpp"
 
 namespace kinemend {
@@ -31,7 +31,8 @@ TEST(C3dConversions, TurnTheAxesOfTheScreen) {
   EXPECT_EQ(screen(written(turn_axes(up_x, Axis::x, Axis::z)), "X_SCREEN"), "+X");
 }
 
-// Data of force plates has the units of analog channels; model outputs have units of their own.
+// Measurements of plates have the units of analog channels; values computed by a model have their
+// own.
 TEST(C3dConversions, ScaleLengthsOnly) {
   const Take clip = read_good_c3d("laboratory");
   const Take metres = written(scale_lengths(clip, 0.001, "m"));

@@ -1,4 +1,4 @@
-// The law of conversions of C3D files: they keep everything in the file that they do not concern.
+// Conversions of C3D files keep everything in the file that they do not concern.
 #pragma once
 
 #include <array>
@@ -13,18 +13,18 @@
 
 namespace kinemend::test {
 
-/// A conversion, and what it may change.
+/// A conversion and its allowed changes.
 struct C3dConversion {
   const char* title;
   std::function<Take(const Take&)> convert;
-  double factor = 1;                                                      ///< of lengths
-  std::array<Vec3, 3> axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  ///< where they went
+  double factor = 1;                                                      ///< factor of lengths
+  std::array<Vec3, 3> axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  ///< new axes
   bool resamples = false;
   bool same_bytes = false;
   Vec3 shift{};  ///< added last
 };
 
-/// Moves a take as `convert --floor-at-zero --face-forward` does.
+/// Moves a take like `convert --floor-at-zero --face-forward`.
 inline Take turned_and_shifted(Take clip, Quat turn, Vec3 shift) {
   TakeChange change;
   change.axes = {rotate(turn, {1, 0, 0}), rotate(turn, {0, 1, 0}), rotate(turn, {0, 0, 1})};
@@ -42,7 +42,7 @@ inline Take without_layout(Take clip) {
   return clip;
 }
 
-/// Returns conversions of every kind. Analog rates are seldom a multiple of the last two rates.
+/// Conversions of every kind. Analog rates are seldom a multiple of one of the rates.
 inline std::vector<C3dConversion> c3d_conversions(const Take& clip) {
   const double rate = clip.frame_rate_hz;
   const auto fps = [](double to) { return [to](const Take& take) { return resample(take, to); }; };
@@ -92,7 +92,8 @@ inline std::vector<C3dConversion> c3d_conversions(const Take& clip) {
            0.01 * Vec3{shift.x, shift.z, -shift.y}}};
 }
 
-/// Parameters that any new file says anew, and those that a conversion of the kind concerns.
+/// Returns whether a parameter may differ: any new file states it anew, or the conversion concerns
+/// it.
 inline bool may_differ(const std::string& group, const std::string& name,
                        const C3dConversion& conversion) {
   static const std::set<std::string> written{"POINT:FRAMES",
@@ -136,7 +137,7 @@ inline void expect_same_parameters(const C3dParameters& before, const C3dParamet
   for (const C3dParameter& entry : before.entries) {
     const std::string group = group_name(before, entry);
     if (group.empty() || may_differ(group, entry.name, conversion)) continue;
-    if (before.find(group, entry.name) != &entry) continue;  // one of two of that name
+    if (before.find(group, entry.name) != &entry) continue;  // one of two with that name
     if (losses.count("analog_lost") > 0 && is_in(group, {"ANALOG", "FORCE_PLATFORM"})) continue;
     if (losses.count("rotations_lost") > 0 && is_in(group, {"ROTATION", "DATA_BLOCKS"})) continue;
     if (losses.count("data_blocks_lost") > 0 && is_in(group, {"DATA_BLOCKS"})) continue;
@@ -155,7 +156,7 @@ inline Vec3 moved(Vec3 v, const C3dConversion& conversion) {
   return conversion.factor * (v.x * axes[0] + v.y * axes[1] + v.z * axes[2]) + conversion.shift;
 }
 
-/// Corners go with the points; the origin of a plate lies along its own axes.
+/// Corners move with the points; the origin of a plate is along its own axes.
 inline void expect_plates_to_follow(const C3dParameters& before, const C3dParameters& after,
                                     const C3dConversion& conversion) {
   const auto corners = before.numbers("FORCE_PLATFORM", "CORNERS");
@@ -172,7 +173,8 @@ inline void expect_plates_to_follow(const C3dParameters& before, const C3dParame
     ASSERT_NEAR(origin_now[i], conversion.factor * origin[i], 1e-6 * (1 + std::fabs(origin[i])));
 }
 
-/// The same values at the same rate, from the first on; what is cut or repeated is named.
+/// The values at the same rate are equal from the first one on; cut or repeated values are
+/// reported.
 inline void expect_same_analog(const Take& before, const Take& after, const Diagnostics& losses) {
   const C3dAnalog was = analog_of(before), is = analog_of(after);
   if (losses.count("analog_lost") > 0) {
@@ -188,7 +190,7 @@ inline void expect_same_analog(const Take& before, const Take& after, const Diag
   for (std::size_t i = 0; i < is.values.size(); ++i) {
     const double wanted =
         i < was.values.size() ? was.values[i] : was.values[was.values.size() - width + i % width];
-    // To the last bit, but for a VAX real below all that others have.
+    // The values are exact, except VAX reals smaller than the range of other encodings.
     ASSERT_NEAR(is.values[i], wanted, 1e-36) << "analog value " << i;
   }
 }
@@ -197,7 +199,7 @@ inline double moment_s(const Take& clip, std::size_t event) {
   return clip.events[event].time_s - static_cast<double>(clip.first_frame - 1) / clip.frame_rate_hz;
 }
 
-/// Events keep label, context and their moment of the motion.
+/// Events keep their label, their context and their position in the motion.
 inline void expect_same_events(const Take& before, const Take& after) {
   ASSERT_EQ(after.events.size(), before.events.size());
   for (std::size_t i = 0; i < before.events.size(); ++i) {
@@ -207,7 +209,7 @@ inline void expect_same_events(const Take& before, const Take& after) {
   }
 }
 
-/// Positions follow, all else that stands among the points stays; nothing is missing that was not.
+/// Positions are converted, other values among the points are kept, and no sample becomes missing.
 inline void expect_points_to_follow(const Take& before, const Take& after,
                                     const C3dConversion& conversion) {
   ASSERT_EQ(after.names, before.names);
@@ -223,14 +225,14 @@ inline void expect_points_to_follow(const Take& before, const Take& after,
     ASSERT_LE(norm(is - wanted), 2e-7 * norm(wanted)) << "sample " << i;
     if (!follows) continue;
     const double residual = conversion.factor * static_cast<double>(before.residuals[i]);
-    // Far from the origin residuals have coarser steps.
+    // Far from the origin, residuals have larger steps.
     const bool is_far = !(conversion.shift == Vec3{});
     const double steps = is_far ? document_of(after).layout.scale : 0;
     ASSERT_NEAR(after.residuals[i], residual, 1e-5 * std::fabs(residual) + steps) << "sample " << i;
   }
 }
 
-/// The law for one file: what a conversion does not concern comes through, or is named.
+/// Checks one file: everything that a conversion does not concern is kept or reported.
 inline void expect_lawful_conversions(const std::string& bytes) {
   const Take before = read_c3d_bytes(bytes).clip;
   for (const C3dConversion& conversion : c3d_conversions(before)) {

@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-// A line of tests/fixtures/c3d/expected, which the fixtures' script writes.
+// A line of tests/fixtures/c3d/expected, which the script for the fixtures writes.
 using Row = std::vector<std::string>;
 
 std::vector<Row> expected_rows(const std::string& name) {
@@ -25,7 +25,7 @@ std::vector<Row> expected_rows(const std::string& name) {
   return rows;
 }
 
-// Cell `i`; empty where the row is shorter.
+// Cell `i`; empty if the row is shorter.
 std::string cell(const Row& row, std::size_t i) { return i < row.size() ? row[i] : ""; }
 
 void expect_sample(const Take& clip, const Row& row) {
@@ -158,7 +158,7 @@ TEST(C3dReader, TellsWhatElseAFileHolds) {
   EXPECT_EQ(fact_of(clip, "analog"), "2 channels at 100 Hz");
   EXPECT_EQ(fact_of(clip, "events"), "2");
   EXPECT_EQ(fact_of(clip, "force plates"), "1 (type 2)");
-  // 0x0A and 0x7F: all seven bits, and no more for the sentinel of a missing point.
+  // 0x0A and 0x7F set all seven bits; the sentinel of a missing point adds none.
   EXPECT_EQ(fact_of(clip, "cameras"), "7 saw a marker");
   EXPECT_EQ(fact_of(clip, "subjects"), "Ann");
   EXPECT_EQ(fact_of(clip, "software"), "make_fixtures");
@@ -182,7 +182,7 @@ TEST(C3dReader, IsFoundByContent) {
 }
 
 TEST(C3dWords, VaxFloatsAreThoseOfTheManual) {
-  // VAX F: 1 is 0x4080, -2.5 is 0xC120, in the word that comes first.
+  // VAX F format: 1 is 0x4080 and -2.5 is 0xC120, in the first word.
   EXPECT_EQ(from_vax(0x40800000), 1.0f);
   EXPECT_EQ(from_vax(0xC1200000), -2.5f);
   EXPECT_EQ(from_vax(0x00000000), 0.0f);

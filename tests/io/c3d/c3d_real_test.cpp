@@ -1,5 +1,5 @@
-// Tests of real C3D files: they come back to the byte, and one recording reads equal in every
-// encoding.
+// Tests of real C3D files: they are written back byte for byte, and one recording reads the same in
+// every encoding.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -45,7 +45,7 @@ TEST(RealC3d, EveryFileIsValidAndComesBackToTheByte) {
     read.clip.validate();
     const std::string written = write_take(read.clip, "c3d");
     if (was_mended(read.diagnostics)) {
-      // Numbers that are not finite, and nothing else.
+      // Only numbers that are not finite change.
       EXPECT_EQ(written.size(), bytes.size());
       EXPECT_TRUE(write_take(read_c3d_bytes(written).clip, "c3d") == written);
     } else {
@@ -56,7 +56,7 @@ TEST(RealC3d, EveryFileIsValidAndComesBackToTheByte) {
   EXPECT_GE(files, 90u);
 }
 
-// Lists the repairs that each file needs, so that no change of the reader stays unnoticed.
+// The repairs of each known file, so that no change of the reader goes unnoticed.
 TEST(RealC3d, OnlyTheKnownFilesAreRepaired) {
   const std::map<std::string, std::string> known{
       {"sgi_int.c3d", "damaged_parameter_pointer"},
@@ -84,7 +84,7 @@ TEST(RealC3d, OnlyTheKnownFilesAreRepaired) {
   }
 }
 
-// `analog_tolerance`: beside what reals lose.
+// `analog_tolerance` is added to the rounding errors of reals.
 void expect_same_recording(const Take& a, const Take& b, double tolerance,
                            double analog_tolerance) {
   EXPECT_EQ(a.frame_rate_hz, b.frame_rate_hz);
@@ -129,7 +129,7 @@ TEST(RealC3d, OneRecordingReadsEqualInEveryEncoding) {
        26,
        450,
        3},
-      // DEC_INT has one event less in its header, and no other differs.
+      // Only DEC_INT has one event less in its header.
       {two / "pc_int.c3d",
        {two / "pc_real.c3d", two / "DEC_INT.C3D", two / "Dec_real.c3d", two / "sgi_int.c3d",
         two / "sgi_real.c3d", suite / "Sample02/pc_int.c3d", suite / "Sample02/pc_real.c3d",
@@ -138,7 +138,7 @@ TEST(RealC3d, OneRecordingReadsEqualInEveryEncoding) {
        36,
        89,
        9},
-      // The parameters and the data stand in other blocks.
+      // The parameters and the data are in other blocks.
       {samples / "sample08/TESTAPI.c3d",
        {samples / "sample08/TESTBPI.c3d", samples / "sample08/TESTCPI.c3d",
         samples / "sample08/TESTDPI.c3d", suite / "Sample08/TESTAPI.c3d",
@@ -159,7 +159,7 @@ TEST(RealC3d, OneRecordingReadsEqualInEveryEncoding) {
     EXPECT_EQ(first.marker_count(), recording.markers);
     EXPECT_EQ(first.frame_count(), recording.frames);
     EXPECT_EQ(first.events.size(), recording.events);
-    // The integers were cut from the reals: up to a step on each axis.
+    // The integers were rounded down from the reals: up to one step on each axis.
     const double tolerance = std::sqrt(3.0) * document_of(first).layout.scale;
     for (const fs::path& path : recording.others) {
       SCOPED_TRACE(path);
@@ -192,7 +192,7 @@ TEST(RealC3d, ReadsMoreThan255AnalogChannels) {
   EXPECT_EQ(analog.values.size(), 922u * clip.frame_count());
 }
 
-// This program writes 65,535 and zeros where a marker is missing.
+// The program writes 65,535 and zeros for a missing marker.
 TEST(RealC3d, NoMarkerOfTheRollingTakeIsAtTheOrigin) {
   const Take clip = read_real(data / "c3d/other/03_rolling.c3d");
   std::size_t missing = 0;
@@ -206,7 +206,7 @@ TEST(RealC3d, NoMarkerOfTheRollingTakeIsAtTheOrigin) {
   EXPECT_GT(missing, 30000u);
 }
 
-// Every file, changed everywhere a little and filled: it reads back as what was written.
+// Every file reads back as written after small changes everywhere and filled gaps.
 TEST(RealC3d, ChangedTakesReadBack) {
   for (const fs::path& path : real_files()) {
     if (path.filename() == "Empty.c3d") continue;
@@ -235,7 +235,7 @@ TEST(RealC3d, ChangedTakesReadBack) {
   }
 }
 
-// Rate, unit and axes of every file, and each written plainly.
+// Converts the rate, unit and axes of every file, and writes each in a plain layout.
 TEST(RealC3d, ConversionsBringAllThroughThatTheyDoNotConcern) {
   std::size_t files = 0;
   for (const fs::path& path : real_files()) {

@@ -56,7 +56,7 @@ inline std::vector<std::string> analog_texts(const C3dDocument& document, const 
   return texts;
 }
 
-/// Without channels where the file has none.
+/// The result has no channels if the file has none.
 inline C3dAnalog analog_of(const Take& clip) {
   const C3dDocument& document = document_of(clip);
   const C3dLayout& layout = document.layout;

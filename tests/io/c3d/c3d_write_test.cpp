@@ -1,4 +1,4 @@
-// Tests of the C3D writer: in place where the bytes can hold the change, else as a new file.
+// Tests of the C3D writer: in place if the bytes can represent the change, or else as a new file.
 #include <cmath>
 #include <cstring>
 
@@ -68,7 +68,7 @@ TEST(C3dWriter, FilledSamplesLoseTheirResidualOfMinusOne) {
     const Take again = read_c3d_bytes(write_take(clip, "c3d")).clip;
     expect_same_samples(clip, again);
     EXPECT_EQ(again.residuals, clip.residuals);
-    // The cameras that saw other samples are still there.
+    // The cameras that saw other samples are kept.
     EXPECT_EQ(fact_of(again, "cameras"), "7 saw a marker");
   }
 }
@@ -88,8 +88,8 @@ TEST(C3dWriter, SamplesThatAreNowMissingBecomeZerosWithMinusOne) {
   }
 }
 
-// Zeros that were told to mean missing by the samples around them say so themselves once those
-// change.
+// Zeros that mean missing because of the samples around them are marked explicitly once those
+// samples change.
 TEST(C3dWriter, GapsOfZerosAreMarkedInAFileThatChanges) {
   Take clip = read_good_c3d("zeros");
   ASSERT_FALSE(clip.is_observed(0, 1));
@@ -106,7 +106,7 @@ TEST(C3dWriter, ResidualsAreWrittenInStepsOfTheScale) {
     SCOPED_TRACE(name);
     Take clip = read_good_c3d(name);
     clip.residuals[0] = 0.5;     // 4 steps
-    clip.residuals[1] = 0.001f;  // less than one, but measured
+    clip.residuals[1] = 0.001f;  // less than one step, but measured
     clip.residuals[3] = 1000;    // more than a byte holds
     clip.residuals[5] = 0;       // filtered
     const Take again = read_c3d_bytes(write_take(clip, "c3d")).clip;
@@ -186,7 +186,7 @@ TEST(C3dWriter, OtherMarkersGetANewFileWithTheSourcesParameters) {
   EXPECT_EQ(analog_of(again).values, analog_of(source).values);
 }
 
-// Two groups of one number; analog values that belong to no channel.
+// The first file has two groups with one number; the second has analog values without a channel.
 TEST(C3dWriter, NewFilesOfDamagedSourcesReadBack) {
   for (const char* const name : {"groups_of_one_number.c3d", "analog_without_channels.c3d"}) {
     SCOPED_TRACE(name);
@@ -209,7 +209,7 @@ TEST(C3dWriter, OtherFramesGetANewFileWithoutAnalogSamples) {
   EXPECT_EQ(fact_of(again, "subjects"), "Ann");
 }
 
-// Checks the rules of c3d.org for headers, byte by byte.
+// Checks the header rules of c3d.org byte by byte.
 TEST(C3dWriter, NewFilesKeepTheRulesOfTheManual) {
   Take clip = make_marker_take({"Ann:A", "B", "\u53f3"}, 3, 120);
   clip.unit = "m";
@@ -254,7 +254,7 @@ TEST(C3dWriter, NewFilesKeepTheRulesOfTheManual) {
   const C3dParameters& parameters = document_of(again).parameters;
   EXPECT_EQ(parameters.count("POINT", "DATA_START"), word(9));
   EXPECT_EQ(parameters.text("POINT", "UNITS"), "m");
-  // Higher along y than along z.
+  // The markers extend higher along y than along z.
   EXPECT_EQ(parameters.text("POINT", "Y_SCREEN"), "+Z");
   for (const char* const group : {"POINT", "ANALOG", "FORCE_PLATFORM", "TRIAL", "EVENT"})
     EXPECT_TRUE(parameters.has_group(group)) << group;
@@ -289,13 +289,13 @@ TEST(C3dWriter, HoldsMoreThan65535Frames) {
     EXPECT_EQ(again.frame_count(), frames);
     EXPECT_EQ(again.first_frame, first);
     expect_same_samples(clip, again);
-    // A section behind the data, as some programs append, adds no frames.
+    // A section after the data, which some programs append, adds no frames.
     out += std::string(5000 * 16, '\2');
     EXPECT_EQ(read_c3d_bytes(out).clip.frame_count(), frames);
   }
 }
 
-// A misprint of the manual has it that the high word counts 65,535 frames.
+// By a misprint in the manual, the high word counts 65,535 frames.
 TEST(C3dWriter, ReadsFrameFieldsThatFollowTheMisprint) {
   const std::size_t frames = 70001;
   Take clip = make_marker_take({"A"}, frames, 100);
@@ -326,7 +326,7 @@ TEST(C3dWriter, RefusesWhatTheFormatCannotHold) {
   Take clip = read_good_c3d("intel_real");
   clip.positions[0].x = 1e39;
   EXPECT_EQ(refusal(clip), "1e+39 is too large for a C3D file");
-  // Larger than any real of a DEC machine; new files hold Intel's.
+  // The value exceeds the DEC range, so a new file in Intel format is written.
   clip.positions[0].x = 2e38;
   EXPECT_EQ(refusal(clip), "no error");
 }
@@ -351,7 +351,7 @@ TEST(C3dParameters, SurviveWritingAndReading) {
   EXPECT_EQ(again.text("POINT", "UNITS"), "mm");
   EXPECT_EQ(again.numbers("ANALOG", "TABLE"), (std::vector<double>{1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(again.find("ANALOG", "TABLE")->dimensions, (std::vector<std::uint8_t>{3, 2}));
-  // Also where a file has two of a name.
+  // Both of two parameters with the same name are removed.
   parameters.entries.push_back(*parameters.find("POINT", "LABELS"));
   remove_parameter(parameters, "POINT", "LABELS");
   EXPECT_EQ(parameters.find("POINT", "LABELS"), nullptr);

@@ -75,9 +75,9 @@ TEST(FbxCurve, WeightedTangentsAreBezierCurves) {
 
 TEST(FbxCurve, AutomaticTangentsPassThroughTheNeighbours) {
   const FbxCurve curve = curve_of({0, 1, 2, 3}, {0, 1, 4, 5}, {of_kind(FbxKeyShape::cubic_auto)});
-  // Slopes 2 and 2 at the inner keys.
+  // Both inner keys have slope 2.
   EXPECT_NEAR(at(curve, 1.5), 0.5 * (1 + 4) + 0.125 * 2 - 0.125 * 2, 1e-9);
-  // A key between keys at either end of which the curve is level.
+  // Between the first two keys, the curve is level at the first.
   EXPECT_NEAR(at(curve, 0.5), 0.5 * (0 + 1) + 0.125 * 0 - 0.125 * 2, 1e-9);
 }
 

@@ -6,7 +6,7 @@ namespace {
 
 using namespace test;
 
-// Every form of one file, and a file with pivots, layers and keys of every kind.
+// One file in every form, and a file with pivots, layers and keys of every kind.
 std::vector<std::string> hostile_fbx_files() {
   std::vector<std::string> files;
   for (const FbxForm& form : fbx_forms) files.push_back(fbx_bytes(fbx_walker(), form));
@@ -56,7 +56,7 @@ TEST(HostileFbx, PiecesMovedAndRepeated) {
   }
 }
 
-// A change of a damaged file gives a file, or one line that says why not.
+// Changing a damaged file gives a file or a one-line error.
 TEST(HostileFbx, DamagedFilesCanBeChanged) {
   Random random(7);
   const auto files = hostile_fbx_files();
@@ -94,14 +94,14 @@ std::string deep_binary(std::size_t depth) {
   return FbxTestWriter(fbx_forms[0]).file(nodes);
 }
 
-// A chain of models, each below the one before.
+// A chain of models, each the child of the previous one.
 std::string deep_models(std::size_t depth) {
   std::vector<FbxTestModel> models(depth);
   for (std::size_t m = 0; m < depth; ++m) models[m].parent = static_cast<std::int32_t>(m) - 1;
   return fbx_bytes(models);
 }
 
-// Many keys that pack well.
+// Many keys that compress well.
 std::string packed_keys(std::size_t keys, std::int64_t step) {
   auto models = fbx_walker();
   for (auto& curve : models[1].rotation) {

@@ -14,7 +14,7 @@ using namespace test;
 
 constexpr double degree = std::numbers::pi / 180;
 
-// A placement as a 3 x 3 matrix and a point, in the test's own arithmetic.
+// A transform as a 3 x 3 matrix and a point, computed by the test itself.
 struct Placement {
   double m[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   double t[3] = {0, 0, 0};
@@ -109,7 +109,7 @@ TEST(FbxRead, RotationsAreRelativeToThePreRotation) {
 }
 
 TEST(FbxRead, EachRotationOrderIsTheProductOfItsName) {
-  // The name says which turn acts first; the product reads backwards.
+  // The name gives the order in which rotations act; the product has the opposite order.
   const int orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}};
   const double angles[3] = {20, 10, 8};
   for (std::int32_t order = 0; order < 6; ++order) {

@@ -43,13 +43,13 @@ TEST(RealFbx, RecordsComeBackToTheByte) {
       const std::string bytes = read_file(path);
       const FbxTree tree = read_fbx_tree(bytes, "file", 512);
       EXPECT_TRUE(write_patched_fbx(tree, {}) == bytes);
-      // A patch that changes nothing takes the way of one that does.
+      // An empty patch uses the same code as a real change.
       const FbxRecord& record = tree.records.front();
       const std::size_t end = record.properties_end;
       EXPECT_TRUE(write_patched_fbx(tree, {{end, end, "", 0}}) == bytes);
       ++files;
     } catch (const Error&) {
-      // Damaged on purpose: files of a fuzzer.
+      // These files of a fuzzer are damaged on purpose.
       EXPECT_NE(path.filename().string().find("fuzz"), std::string::npos);
     }
   }
@@ -74,7 +74,7 @@ TEST(RealFbx, TakesAreValidAndComeBackToTheByte) {
   EXPECT_GE(files, 110u);
 }
 
-// The same scene, saved in several versions and forms, moves alike.
+// A scene saved in several versions and forms has the same motion in all.
 TEST(RealFbx, VersionsOfASceneAgree) {
   if (!fs::exists(real_fbx)) GTEST_SKIP() << "the folder has no FBX files";
   std::map<std::string, std::vector<fs::path>> scenes;
@@ -86,7 +86,7 @@ TEST(RealFbx, VersionsOfASceneAgree) {
   }
   std::size_t compared = 0;
   for (const auto& [scene, paths] : scenes) {
-    // Their versions hold other ranges of the animation.
+    // The versions of these scenes hold different ranges of the animation.
     if (scene == "maya_resampled_" || scene == "maya_game_sausage_") continue;
     std::vector<Vec3> wanted;
     for (const fs::path& path : paths) {
@@ -103,7 +103,7 @@ TEST(RealFbx, VersionsOfASceneAgree) {
           ASSERT_LT(norm(positions[i] - wanted[i]), 2e-4 * (1 + norm(wanted[i]))) << i;
         ++compared;
       } catch (const Error&) {
-        // Without joints.
+        // This file has no joints.
       }
     }
   }

@@ -12,8 +12,8 @@
 
 #include "kinemend/io.hpp"
 
-/// Small FBX files in every form, made by code that shares nothing with the library; and a walker
-/// over binary records that shares nothing with the library's either.
+/// Makes small FBX files in every form, and walks over binary records. Neither shares code with the
+/// library.
 namespace kinemend::test {
 
 struct FbxWord {
@@ -220,13 +220,13 @@ class FbxTestWriter {
   std::string out_;
 };
 
-/// A record that a binary file holds: where it is in the tree, and the bytes of its properties.
+/// A record of a binary file: its path in the tree, and the bytes of its properties.
 struct WalkedRecord {
   std::string path;
   std::string properties;
 };
 
-/// Walks over a binary file; asserts nothing, so that a broken file gives fewer records.
+/// Walks over a binary file; asserts nothing, so that an invalid file gives fewer records.
 inline std::vector<WalkedRecord> walk_binary_fbx(const std::string& bytes) {
   std::vector<WalkedRecord> records;
   const bool big = bytes[22] == 1;
@@ -273,7 +273,7 @@ struct FbxTestCurve {
   std::vector<std::int64_t> times{};  ///< instead of first and step
 };
 
-/// One model with curves of translation and rotation (x, y, z; an empty curve is left out).
+/// A model with curves of translation and rotation (x, y, z); an empty curve is left out.
 struct FbxTestModel {
   std::string name;
   std::string kind = "LimbNode";
@@ -293,8 +293,8 @@ inline std::string fbx_object(const std::string& name, const std::string& type) 
   return name + std::string("\0\1", 2) + type;
 }
 
-/// A whole file of version 7 with these models, one take of one layer, and a mesh that nothing
-/// moves.
+/// A complete file of version 7 with these models, one take with one layer, and a mesh that does
+/// not move.
 class FbxTestScene {
  public:
   explicit FbxTestScene(const std::vector<FbxTestModel>& models, std::size_t layers = 1) {
@@ -383,7 +383,8 @@ class FbxTestScene {
   std::int64_t last_ = 1000;
 };
 
-/// Hips that move and turn, a spine with a rest rotation that turns, a head that does not, a mesh.
+/// Hips that move and rotate, a rotating spine with a rest rotation, a head that does not rotate,
+/// and a mesh.
 inline std::vector<FbxTestModel> fbx_walker() {
   std::vector<FbxTestModel> models(4);
   models[0].name = "Hips";

@@ -15,7 +15,7 @@ using namespace test;
 
 const Quat small_turn = exp(Vec3{0.02, -0.01, 0.03});
 
-// The paths of the records whose properties differ, with how often; empty paths where the trees do.
+// The paths and numbers of the records whose properties differ; an empty path if the trees differ.
 std::map<std::string, int> changed_records(const std::string& before, const std::string& after) {
   const auto a = walk_binary_fbx(before), b = walk_binary_fbx(after);
   std::map<std::string, int> changed;
@@ -87,7 +87,7 @@ TEST(FbxWrite, ARotationContinuesTheAnglesOfTheFrameBefore) {
   const Take again = read_fbx_clip(write_take(clip));
   const auto values = again.source.document->channel_values();
   const std::size_t width = values.size() / again.frame_count();
-  // Hips: three positions, three turns; spine: z, y, x.
+  // The hips have three positions and three rotations; the spine is in the order z, y, x.
   EXPECT_NEAR(values[4 * width + 8], 360 + 0.15 * 57.29578, 1e-3);
 }
 

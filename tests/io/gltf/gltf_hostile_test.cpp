@@ -8,7 +8,8 @@ using namespace test;
 
 const std::string likely_in_scenes("\0\1\2\x7F\x80\xFF\"{}[],:0159-eE.", 22);
 
-// A fixture is a few thousand bytes, and there are many: every so many bytes of each.
+// Cuts each fixture at every `step` bytes only, because there are many fixtures of a few thousand
+// bytes.
 void expect_sane_when_cut_at_some_lengths(const std::string& format, std::size_t step) {
   std::size_t length = 0;
   for (const std::string& bytes : fixture_bytes(format)) {
@@ -49,7 +50,7 @@ TEST(HostileGltf, PatchedAtManyBytes) {
 
 TEST(HostileGltf, PiecesMovedAndRepeated) { expect_sane_when_pieces_move("gltf"); }
 
-// The parts of a damaged scene that a reader keeps must be written when a joint changes.
+// If a reader accepts a damaged scene, it can still be written when a joint changes.
 TEST(HostileGltf, DamagedScenesThatAreReadCanBeChanged) {
   Random random(22);
   const auto all = fixture_bytes("glb");
@@ -67,7 +68,8 @@ TEST(HostileGltf, DamagedScenesThatAreReadCanBeChanged) {
       ASSERT_EQ(again.take.joint_count(), clip->joint_count());
       ++changed;
     } catch (const Error& error) {
-      // The one reason not to write: a scale of 0 above a joint, or keys in no loaded buffer.
+      // Writing may fail only for a scale of 0 above a joint, or for keys outside the loaded
+      // buffers.
       const bool is_lawful =
           error.kind() == ErrorKind::unreadable_input || error.kind() == ErrorKind::usage;
       ASSERT_TRUE(is_lawful) << error.what();

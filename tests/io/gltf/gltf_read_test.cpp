@@ -10,7 +10,7 @@ namespace {
 using namespace test;
 namespace fs = std::filesystem;
 
-// tools/reference/gltf_scenes.py says where each node is in each frame.
+// The places of all nodes in each frame, computed by tools/reference/gltf_scenes.py.
 struct PlacesOfNodes {
   double rate_hz = 0;
   std::size_t frames = 0;
@@ -51,7 +51,7 @@ void expect_placed(const Take& clip, const std::string& scene) {
       places_in(fs::path(KINEMEND_TEST_FIXTURES) / "gltf/positions" / (scene + ".csv"));
   ASSERT_EQ(clip.frame_count(), table.frames);
   EXPECT_EQ(clip.frame_rate_hz, table.rate_hz);
-  // Below axes of different scales the end of the head has no exact place.
+  // Below axes of different scales, the end of the head has no exact position.
   const bool with_ends = scene != "stretched";
   std::vector<std::string> names = clip.skeleton.names;
   for (const EndSite& site : clip.skeleton.end_sites) {
@@ -200,7 +200,7 @@ TEST(GltfReader, ContentDecidesBetweenBinaryAndText) {
   EXPECT_EQ(misnamed.diagnostics.count("extension_mismatch"), 1u);
 }
 
-// A scene as text with other times than those of the fixture.
+// The plain scene as text with other times.
 std::string with_times(const std::vector<float>& times) {
   const SceneParts plain = parts_of_glb(read_file(scene_path("plain.glb")));
   nlohmann::json json = plain.json;

@@ -9,7 +9,8 @@ namespace fs = std::filesystem;
 
 const fs::path gltf_scenes = fs::path(KINEMEND_DATA_FOLDER) / "fbx";
 
-// The joints, frames and rate of a file; zero for a refused file, with a part of the reason.
+// The expected joints, frames and rate of a scene; without joints, it is refused with this part of
+// the reason.
 struct KnownScene {
   const char* path;
   std::size_t joints, frames;
@@ -67,7 +68,7 @@ TEST(RealGltf, ChangedJointsReadBackAndTheOthersStay) {
   }
 }
 
-// Where Blender 3.4.1 puts the dancer's joints, metres with Y up.
+// The positions of the dancer's joints in Blender 3.4.1, in metres with Y up.
 TEST(RealGltf, ADancerInCentimetresBelowATurnedArmatureStandsWhereBlenderPutsIt) {
   const Take clip = read_joints(gltf_scenes / "app-mixamo-animation/dancing2.glb").take;
   const Pose pose = forward_kinematics(clip, 132);

@@ -50,7 +50,7 @@ TEST(GltfRewrite, OnlyTheKeysThatChangeGetOtherBytes) {
   }
 }
 
-// The differ: JSON outside the range of the changed accessor is the same, member by member.
+// JSON outside the range of the changed accessor is the same, member by member.
 TEST(GltfRewrite, StatedRangesFollowTheValuesAndTheRestOfTheTextStays) {
   const std::string bytes = read_file(scene_path("plain.glb"));
   Take clip = read_glb_bytes(bytes);
@@ -141,7 +141,7 @@ TEST(GltfRewrite, OfSplinesTheTangentsBesideAChangeFollow) {
   const std::string written = write_take(clip);
   const SceneParts before = parts_of_glb(bytes), after = parts_of_glb(written);
   const int head = static_cast<int>(before.output("Head", "rotation"));
-  // In-tangent, value and out-tangent of a key follow each other.
+  // A key has an in-tangent, a value and an out-tangent, in this order.
   EXPECT_EQ(changed_elements(before, after),
             (Changed{{head, 0}, {head, 2}, {head, 3}, {head, 4}, {head, 5}, {head, 6}, {head, 8}}));
   const auto a = after.floats(static_cast<std::size_t>(head), 1);
@@ -179,7 +179,7 @@ TEST(GltfRewrite, AChannelWithoutAKeyInEachFrameIsWrittenWithThem) {
     EXPECT_EQ(
         after.json["buffers"][0]["byteLength"].get<std::size_t>() + 3 - after.binary.size() < 4,
         true);
-    // The clips differ in the rate that single keys give; the frames are the same.
+    // The clips have different rates because of single keys; the frames are the same.
     expect_same_motion(clip, read_glb_bytes(written), 2e-6);
   }
 }
@@ -259,7 +259,7 @@ TEST(GltfRewrite, AChangedTextKeepsItsLayout) {
   Take clip = read_joints(text, "take.gltf").take;
   turn(clip, 3, "Leg", {0.1, 0, 0});
   const std::string written = write_take(clip);
-  // Lines of the text: the range of one accessor is written in one line, and the data differ.
+  // The range of one accessor is written in one line of the text, and the data differ.
   const std::size_t data = text.find("\"uri\""), new_data = written.find("\"uri\"");
   EXPECT_EQ(text.substr(0, text.find("\"min\"")), written.substr(0, written.find("\"min\"")));
   EXPECT_EQ(text.substr(text.find_last_of('\n', data)).size(),
@@ -270,7 +270,7 @@ TEST(GltfRewrite, AChangedTextKeepsItsLayout) {
 class GltfBeside : public ::testing::Test {
  protected:
   void SetUp() override {
-    // Two of these tests may run at a time, in two processes.
+    // Two of these tests may run in parallel, in two processes.
     folder = fs::path(::testing::TempDir()) /
              (std::string("gltf_beside_") +
               ::testing::UnitTest::GetInstance()->current_test_info()->name());

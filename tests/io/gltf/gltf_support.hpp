@@ -28,13 +28,13 @@ inline Take read_glb_bytes(std::string bytes) {
   return read_joints(std::move(bytes), "take.glb").take;
 }
 
-/// A binary file taken apart, with no code of the reader.
+/// The parts of a binary file, read without the code of the reader.
 struct SceneParts {
   nlohmann::json json;
   std::string binary;
 
   const nlohmann::json& accessor(std::size_t index) const { return json["accessors"][index]; }
-  /// The first byte of an accessor's element, and past its last.
+  /// The first byte of an accessor's element, and the byte after its last.
   std::pair<std::size_t, std::size_t> element(std::size_t accessor_index, std::size_t i) const {
     const std::map<int, std::size_t> sizes{{5120, 1}, {5121, 1}, {5122, 2},
                                            {5123, 2}, {5125, 4}, {5126, 4}};
@@ -54,7 +54,7 @@ struct SceneParts {
     std::memcpy(values.data(), binary.data() + begin, end - begin);
     return values;
   }
-  /// The output of the channel of a node.
+  /// The output of a node's channel.
   std::size_t output(const std::string& node, const std::string& path,
                      std::size_t animation = 0) const {
     const nlohmann::json& chosen = json["animations"][animation];
@@ -84,8 +84,8 @@ inline SceneParts parts_of_glb(const std::string& bytes) {
   return parts;
 }
 
-/// Elements of which accessors differ between two binaries of one layout: accessor, element. Bytes
-/// outside all accessors count as element 0 of accessor -1.
+/// The elements that differ between two binaries of the same layout, as accessor and element. Bytes
+/// outside all accessors are element 0 of accessor -1.
 inline std::set<std::pair<int, std::size_t>> changed_elements(const SceneParts& a,
                                                               const SceneParts& b) {
   std::vector<std::pair<int, std::size_t>> owner(a.binary.size(), {-1, 0});

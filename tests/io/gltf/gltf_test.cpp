@@ -1,4 +1,4 @@
-// Tests of the glTF writer: the nodes, animations and skins of a written file are evaluated again.
+// Tests of the glTF writer, which evaluate the nodes, animations and skins of a written file.
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -23,7 +23,7 @@ struct Glb {
   std::string binary;
 };
 
-// The chunks of a file, with every rule of the container checked.
+// Reads the chunks of a file and checks every rule of the container.
 Glb parse(const std::string& bytes) {
   Glb glb;
   EXPECT_EQ(bytes.substr(0, 4), "glTF");
@@ -70,7 +70,7 @@ std::vector<float> floats(const Glb& glb, std::size_t accessor) {
   return values;
 }
 
-// World positions of all nodes at a key frame, from the file's own numbers alone.
+// World positions of all nodes at a key frame, computed from the file's numbers only.
 std::vector<Vec3> node_positions(const Glb& glb, std::size_t frame) {
   const json& nodes = glb.document["nodes"];
   std::vector<Vec3> translations(nodes.size());
@@ -177,7 +177,7 @@ TEST(GlbWriter, TimesAreSecondsAndSignsContinue) {
   EXPECT_EQ(rotations, clip.joint_count());
 }
 
-// Inverse bind matrices take the rest pose of each joint to the origin.
+// Inverse bind matrices move the rest pose of each joint to the origin.
 TEST(GlbWriter, TheSkinIsBoundToTheRestPose) {
   Take clip = random_clip();
   const Glb glb = parse(write_take(clip, "glb"));

@@ -398,7 +398,7 @@ TEST(NonlocalCausal, MeasuresTheNoiseAsItGoes) {
   NonlocalOptions options;
   options.causal = true;
   EXPECT_LT(error_deg(truth, input, options), 0.5 * rms_angle_deg(truth, input));
-  // The noise of one still joint is not known before the eighth second difference.
+  // For a joint held still, the noise is unknown before the eighth second difference.
   const Take output = cleaned(input, *make_nonlocal(options));
   for (std::size_t f = 0; f < 9; ++f) EXPECT_EQ(output.rotation(f, 0), input.rotation(f, 0));
   EXPECT_NE(output.rotation(9, 0), input.rotation(9, 0));
