@@ -525,8 +525,7 @@ step('all texts have enough contrast', async () => {
     // Nothing is cut off in a narrow window.
     if (colorScheme === 'dark') {
       await page.setViewportSize({ width: 360, height: 740 });
-      await page.waitForTimeout(100);
-      assert.ok((await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth)) <= 0);
+      await page.waitForFunction(() => document.documentElement.scrollWidth <= document.documentElement.clientWidth);
       await shot(page, 'narrow_gaps');
     }
   }
