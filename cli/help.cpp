@@ -117,7 +117,7 @@ std::string commands_of_group(const Command& first, const OptionGroup& group) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// The page of the documentation about a group of a command; empty if there is none.
+/// Returns the page of the documentation about a group of a command; empty if it has no page.
 std::string page_of_group(const Command& command, std::string_view group) {
   if (command.name == "fill") return "docs/methods/fill.md";
   if (command.name == "train") return "docs/models.md";

@@ -33,7 +33,7 @@ bool names_folder(const std::string& output) {
   return !output.empty() && (output.back() == '/' || fs::is_directory(output, ignored));
 }
 
-/// The folder named by the options; empty if there is none.
+/// Returns the folder that the options name; empty if they name no folder.
 std::string folder_of(const Arguments& arguments, std::size_t inputs) {
   const std::string& command = arguments.command->name;
   std::string output = arguments.text("output"), folder = arguments.text("output_dir");

@@ -59,7 +59,7 @@ bool is_written(const Format& format) {
   return format.write != nullptr || format.write_markers != nullptr;
 }
 
-// The extension with its dot; empty if there is none or the name ends in a dot.
+// Returns the extension with its dot; empty if the name has no extension or ends in a dot.
 std::string ending_of(const std::string& output) {
   if (is_stream(output)) return "";
   const std::string ending = fs::path(output).extension().string();

@@ -36,7 +36,7 @@ bool connect_socket(int socket, const sockaddr* address, std::size_t size);
 int accept_socket(int listener);
 /// Sends small pieces at once.
 void send_at_once(int socket);
-/// The error of a connecting socket; 0 if there is none.
+/// Returns the error of a connecting socket; 0 if it has not failed.
 int socket_error(int socket);
 /// Shuts down a socket in both directions, or for writing only, which wakes waiting threads.
 void shut_down(int socket);

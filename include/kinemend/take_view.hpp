@@ -113,7 +113,7 @@ std::vector<std::uint8_t> observed_of(const Track& track);
 void set_track(Take& take, std::size_t track, std::span<const Quat> samples, std::size_t first = 0);
 void set_track(Take& take, std::size_t track, std::span<const Vec3> samples, std::size_t first = 0);
 
-/// Mean length of the bones (offsets that are not zero), file units; 1 if there are none. It puts
+/// Mean length of the bones (offsets that are not zero), file units; 1 without bones. It puts
 /// positions and rotations on one scale: a turn of one radian moves a bone's end by about this.
 double typical_bone_length(const Skeleton& skeleton);
 

@@ -83,7 +83,7 @@ py::tuple fill(const HeldTakePtr& held, const std::string& method, const py::ite
   return py::make_tuple(result, report);
 }
 
-// Sets the member `name`; returns false if there is none.
+// Sets the member `name`; returns false if no member has that name.
 template <class Settings>
 bool set_number(Settings& settings, std::string_view name, const py::handle& value,
                 std::initializer_list<std::pair<std::string_view, double Settings::*>> members) {
