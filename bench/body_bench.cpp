@@ -4,7 +4,7 @@
 
 #include "kinemend/experimental/body.hpp"
 #include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/synth.hpp"
 
 namespace {
 

@@ -12,12 +12,12 @@
 #include "kinemend/clean.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/methods.hpp"
-#include "learned/core/leading_eigenvectors.hpp"
-#include "learned/example/example_filter.hpp"
-#include "learned/example/mssa.hpp"
-#include "learned/example/pattern_penalty.hpp"
+#include "methods/prior/leading_eigenvectors.hpp"
 #include "nn/gemm.hpp"
 #include "noisy_walk.hpp"
+#include "papers/lou2010_example/example_filter.hpp"
+#include "papers/lou2010_example/mssa.hpp"
+#include "papers/lou2010_example/pattern_penalty.hpp"
 
 namespace {
 

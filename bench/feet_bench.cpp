@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "kinemend/experimental/synth.hpp"
 #include "kinemend/feet.hpp"
+#include "kinemend/lab/synth.hpp"
 
 namespace {
 

@@ -9,9 +9,9 @@
 
 #include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/experimental/random.hpp"
-#include "kinemend/experimental/synth.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/gaps.hpp"
+#include "kinemend/lab/synth.hpp"
 
 namespace {
 

@@ -3,8 +3,8 @@
 
 #include "kinemend/clean.hpp"
 #include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/corrupt.hpp"
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/corrupt.hpp"
+#include "kinemend/lab/synth.hpp"
 
 namespace kinemend {
 namespace {

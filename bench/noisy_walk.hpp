@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "kinemend/experimental/corrupt.hpp"
 #include "kinemend/experimental/random.hpp"
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/corrupt.hpp"
+#include "kinemend/lab/synth.hpp"
 
 namespace kinemend::bench {
 

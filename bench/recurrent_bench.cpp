@@ -8,8 +8,8 @@
 
 #include "frame_times.hpp"
 #include "kinemend/experimental/model.hpp"
-#include "learned/papers/filter_network.hpp"
-#include "learned/papers/live_filter_network.hpp"
+#include "papers/mall2017_recurrent/filter_network.hpp"
+#include "papers/mall2017_recurrent/live_filter_network.hpp"
 #ifdef KINEMEND_HAS_TRAINING
 #include "sequence_network.hpp"
 #endif

@@ -8,8 +8,8 @@
 #include "kinemend/clean.hpp"
 #include "kinemend/cleaner.hpp"
 #include "kinemend/experimental/random.hpp"
-#include "kinemend/experimental/synth.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/lab/synth.hpp"
 
 namespace {
 

@@ -13,13 +13,13 @@
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/methods.hpp"
-#include "learned/sparse/batch_omp.hpp"
-#include "learned/sparse/descent_solver.hpp"
-#include "learned/sparse/dual_solver.hpp"
-#include "learned/sparse/ksvd.hpp"
-#include "learned/sparse/sparse_filter.hpp"
-#include "learned/sparse/sparse_prior.hpp"
 #include "noisy_walk.hpp"
+#include "papers/xiao2015_sparse/batch_omp.hpp"
+#include "papers/xiao2015_sparse/descent_solver.hpp"
+#include "papers/xiao2015_sparse/dual_solver.hpp"
+#include "papers/xiao2015_sparse/ksvd.hpp"
+#include "papers/xiao2015_sparse/sparse_filter.hpp"
+#include "papers/xiao2015_sparse/sparse_prior.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 
 #include "kinemend/cleaner.hpp"
 #include "kinemend/experimental/model.hpp"
-#include "kinemend/experimental/train.hpp"
+#include "kinemend/lab/train.hpp"
 #include "kinemend/methods.hpp"
 #include "noisy_walk.hpp"
 

@@ -1,6 +1,6 @@
 // kinemend corrupt: damages a take in a known way, for tests and comparisons.
 
-#include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/lab/corrupt.hpp"
 
 #include <fmt/format.h>
 

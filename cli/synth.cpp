@@ -1,6 +1,6 @@
 // kinemend synth: writes a synthetic take, for tests and trials.
 
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/synth.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // kinemend train: trains a model on clean takes.
 
-#include "kinemend/experimental/train.hpp"
+#include "kinemend/lab/train.hpp"
 
 #include <fmt/format.h>
 
@@ -174,7 +174,7 @@ void find_checkpoint(const Arguments& arguments, Training& training) {
 
 Training training_of(const Arguments& arguments) {
   Training training;
-  training.method = find_learned_method(arguments.positionals.front()).name;
+  training.method = find_training(arguments.positionals.front()).name;
   training.options =
       parse_group_options(arguments.command->groups, training.method, arguments.group_texts);
   training.output = arguments.text("output");
@@ -348,7 +348,7 @@ std::vector<Flag> train_flags() {
 
 std::vector<std::string> train_method_names() {
   std::vector<std::string> names;
-  for (const LearnedMethod& method : learned_methods()) names.push_back(method.name);
+  for (const Training& method : trainings()) names.push_back(method.name);
   return names;
 }
 
@@ -374,7 +374,7 @@ Command train_command() {
       {"METHOD", "method to train a model for, see below", 1, 1, train_method_names()},
       {"TAKE", "take, or folder with takes", 0, 1000000, {}}};
   command.flags = train_flags();
-  for (const LearnedMethod& method : learned_methods())
+  for (const Training& method : trainings())
     command.groups.push_back({method.name, method.summary, "", method.options});
   command.group_heading = "Options of %";
   command.groups_are_flags = true;

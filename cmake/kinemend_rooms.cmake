@@ -1,7 +1,8 @@
 # A room is a folder below src/ or below a wing of such folders (methods/auto): a static library with its own test
-# program. The library of methods/auto is kinemend_methods_auto.
+# program. The library of methods/auto is kinemend_methods_auto. Rooms of lab/ are built alike and not installed.
 
 set(KINEMEND_ROOMS "" CACHE INTERNAL "")
+set(KINEMEND_LAB_ROOMS "" CACHE INTERNAL "")
 
 # Settings that every target of the project shares.
 add_library(kinemend_settings INTERFACE)
@@ -91,25 +92,33 @@ function(kinemend_room folder)
   string(REPLACE "/" "_" name ${folder})
   string(REPLACE "/" "_" ROOM_USES "${ROOM_USES}")
   list(TRANSFORM ROOM_USES PREPEND kinemend_)
-  set(KINEMEND_ROOMS ${KINEMEND_ROOMS} kinemend_${name} CACHE INTERNAL "")
+  set(source_root ${PROJECT_SOURCE_DIR}/src)
+  set(public_headers ${PROJECT_SOURCE_DIR}/include)
+  if(folder MATCHES "^lab/")
+    set(source_root ${PROJECT_SOURCE_DIR})
+    list(APPEND public_headers ${PROJECT_SOURCE_DIR}/lab/include)
+    set(KINEMEND_LAB_ROOMS ${KINEMEND_LAB_ROOMS} kinemend_${name} CACHE INTERNAL "")
+  else()
+    set(KINEMEND_ROOMS ${KINEMEND_ROOMS} kinemend_${name} CACHE INTERNAL "")
+  endif()
   kinemend_is_examined(${folder} examined)
   if(KINEMEND_OTHER_ROOMS AND NOT examined)
     # Instrumented and plain code can call each other, so a room that is not examined need not be recompiled.
     add_library(kinemend_${name} STATIC IMPORTED GLOBAL)
     set_target_properties(kinemend_${name} PROPERTIES IMPORTED_LOCATION ${KINEMEND_OTHER_ROOMS}/libkinemend_${name}.a)
-    target_include_directories(kinemend_${name} INTERFACE ${PROJECT_SOURCE_DIR}/include)
+    target_include_directories(kinemend_${name} INTERFACE ${public_headers})
     target_link_libraries(kinemend_${name} INTERFACE ${ROOM_LINK} ${ROOM_USES})
     return()
   endif()
-  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${folder}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${source_root}/${folder}/*.cpp)
   add_library(kinemend_${name} STATIC ${sources})
   kinemend_compile_alone(${sources})
   add_library(kinemend::${name} ALIAS kinemend_${name})
-  target_include_directories(kinemend_${name} PUBLIC ${PROJECT_SOURCE_DIR}/include)
-  target_include_directories(kinemend_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_include_directories(kinemend_${name} PUBLIC ${public_headers})
+  target_include_directories(kinemend_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${source_root})
   target_compile_features(kinemend_${name} PUBLIC cxx_std_20)
   set(modes "")
-  if(name MATCHES "^(check|corrupt|live|registry|report|synth)$")
+  if(name MATCHES "^(check|lab_damage|lab_synthesis|live|registry|report)$")
     list(APPEND modes kinemend_light)
   endif()
   if(examined)
@@ -137,16 +146,19 @@ function(kinemend_embed_models folder)
   set_source_files_properties(${output} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# kinemend::kinemend is all rooms together. One library is installed, kinemend_installed. A shared one contains the
+# kinemend::kinemend is all rooms of src/ together, kinemend::lab those of lab/ with them. One library is installed, kinemend_installed. A shared one contains the
 # libraries that the rooms use, so that a project need not find them; the package of a static one finds those that are
 # not compiled with the project.
 function(kinemend_library)
   add_library(kinemend INTERFACE)
   add_library(kinemend::kinemend ALIAS kinemend)
   target_link_libraries(kinemend INTERFACE ${KINEMEND_ROOMS})
+  add_library(kinemend_lab INTERFACE)
+  add_library(kinemend::lab ALIAS kinemend_lab)
+  target_link_libraries(kinemend_lab INTERFACE ${KINEMEND_LAB_ROOMS} kinemend)
 
   # All rooms, for a build that reuses some of them from this one.
-  add_custom_target(kinemend_rooms DEPENDS ${KINEMEND_ROOMS})
+  add_custom_target(kinemend_rooms DEPENDS ${KINEMEND_ROOMS} ${KINEMEND_LAB_ROOMS})
   # A sanitised library is not installed.
   if(KINEMEND_SANITIZE)
     return()

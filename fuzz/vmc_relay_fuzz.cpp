@@ -10,7 +10,7 @@
 #include "kinemend/experimental/vmc.hpp"
 #include "kinemend/methods.hpp"
 #include "laws.hpp"
-#include "osc/osc.hpp"
+#include "live/osc.hpp"
 
 namespace {
 

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "kinemend/experimental/synth.hpp"
-#include "learned/core/training_sequences.hpp"
+#include "kinemend/lab/synth.hpp"
+#include "lab/training/training_sequences.hpp"
 
 namespace kinemend {
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks the direction of includes between the rooms of src/, that programs see the public headers only, that what is of one system stands in
+"""Checks the direction of includes between the rooms of src/ and lab/, that programs see the public headers only, that what is of one system stands in
 src/base/platform and cli/platform, and that rooms call functions of mathematics that are the same on every system (src/base/portable.hpp).
 
 Usage: check_includes.py [ROOT]    exit status 1 and a line for each include that breaks a rule.
@@ -11,67 +11,70 @@ import sys
 # The rooms that each room may include; the closure is computed below.
 USES = {
     "base": set(),
-    "rotation": {"base"},
-    "motion": {"rotation"},
+    "motion": {"base"},
     "io": {"motion"},
     "body": {"motion"},
     "signal": {"base"},
     "nn": {"base"},
     "metrics": {"motion", "signal"},
-    "corrupt": {"motion"},
-    "synth": {"motion"},
     "fill": {"motion", "signal"},
     "feet": {"motion", "metrics"},
-    "methods/core": {"motion", "fill"},
-    "methods/auto": {"methods/core", "signal"},
-    "methods/filters": {"methods/core", "body", "metrics"},
-    "learned/core": {"methods/auto", "body", "nn", "corrupt"},
-    "learned/example": {"learned/core"},
-    "learned/wiener": {"learned/core"},
-    "learned/sparse": {"learned/core"},
-    "learned/corrector": {"learned/core"},
-    "learned/papers": {"learned/core"},
-    "pipeline": {"methods/auto", "metrics", "fill", "feet"},
-    "check": {"pipeline", "learned/corrector"},
+    "cleaner": {"fill", "body", "metrics"},
+    "models": {"body", "nn"},
+    "methods/auto": {"cleaner"},
+    "methods/prior": {"methods/auto", "models"},
+    "methods/wiener": {"methods/prior"},
+    "methods/learned": {"methods/prior"},
+    "classic": {"methods/prior"},
+    "papers/courty2008_bilateral": {"cleaner"},
+    "papers/lou2010_example": {"methods/prior"},
+    "papers/xiao2015_sparse": {"methods/prior"},
+    "papers/dean2016_nonlocal": {"cleaner"},
+    "papers/mall2017_recurrent": {"methods/prior"},
+    "registry": {"methods/wiener", "methods/learned", "classic", "papers/courty2008_bilateral", "papers/lou2010_example",
+                 "papers/xiao2015_sparse", "papers/dean2016_nonlocal", "papers/mall2017_recurrent"},
+    "clean": {"methods/auto", "feet"},
+    "check": {"clean", "methods/learned"},
     "report": {"check"},
-    "registry": {"methods/filters", "learned/example", "learned/wiener", "learned/sparse", "learned/corrector",
-                 "learned/papers"},
-    "osc": {"base"},
-    "live": {"io", "pipeline", "registry", "osc"},
+    "live": {"io", "clean", "registry"},
     "all": {"report", "live"},  # the header that includes the stable ones
+    "lab/damage": {"motion"},
+    "lab/synthesis": {"motion"},
+    "lab/training": {"registry"},
+    "lab/samples": {"lab/training", "lab/damage", "methods/learned"},
 }
 
 # The room of every public header.
 PUBLIC = {header: room for room, headers in {
     "base": "error random options pose_matrix version json_depth content_hash frame_rate text threads wildcards letter_case",
-    "rotation": "rotation",
-    "motion": "skeleton source take take_view kinematics convert gaps frame_numbers subjects",
+    "motion": "rotation skeleton source take take_view kinematics convert gaps frame_numbers subjects",
     "io": "io",
     "body": "representation body",
     "signal": "signal",
     "nn": "tensor",
     "metrics": "metrics",
-    "corrupt": "corrupt",
-    "synth": "synth",
     "fill": "fill gap_plan",
     "feet": "feet normalise",
-    "methods/core": "cleaner methods",
-    "learned/core": "model train",
+    "cleaner": "cleaner methods",
+    "models": "model",
     "registry": "method_choice",
-    "pipeline": "clean stream",
+    "clean": "clean stream",
     "check": "check",
     "report": "report batch_rows svg curves pictures page",
     "live": "live vmc",
     "all": "kinemend",
+    "lab/damage": "corrupt",
+    "lab/synthesis": "synth",
+    "lab/training": "train",
 }.items() for header in headers.split()}
 
-# Folders of programs, which may include only include/ and their own folder.
+# Folders of programs, which may include only public headers and their own folder.
 PROGRAMS = ["cli", "examples", "tools", "python", "web"]
 
 # Functions of <cmath> that systems round differently, and the files that may call them: Eigen computes the exponential
 # of a matrix.
 SYSTEM_MATHS = re.compile(r"\bstd::(a?(?:sin|cos|tan)h?|atan2|exp|exp2|expm1|log|log2|log10|log1p|pow|cbrt|hypot|[lt]gamma|erfc?|polar|arg)\(")
-MAY_CALL_SYSTEM_MATHS = {"src/learned/papers/linear_dynamics.cpp"}
+MAY_CALL_SYSTEM_MATHS = {"src/classic/linear_dynamics.cpp"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 
@@ -82,7 +85,7 @@ ON_EVERY_SYSTEM = re.compile(r"[a-z_]+|(unsupported/)?Eigen/\w+|Spectra/.*|(fmt|
 # Files with a variant for systems without the header, or compiled on one system only.
 OF_ONE_SYSTEM = {"src/base/parallel.cpp": "tbb/", "src/io/text/number.hpp": "emmintrin.h", "wasm/": "emscripten.h"}
 PLATFORM = ("src/base/platform/", "cli/platform/")
-PORTABLE = ["include", "src", "cli", "examples", "tools", "wasm"]
+PORTABLE = ["include", "src", "lab/include", "lab/damage", "lab/synthesis", "lab/samples", "lab/training", "cli", "examples", "tools", "wasm"]
 
 # Names that some systems add to standard headers, by header.
 EXTENSIONS = re.compile(r"(?<![\w.>:])(?:::)?(?:" + "|".join([
@@ -122,6 +125,10 @@ def room_of_include(name):
     return next((room for room in ("/".join(parts[:2]), parts[0]) if len(parts) > 1 and room in USES), None)
 
 
+def folder_of(root, room):
+    return root / room if room.startswith("lab/") else root / "src" / room
+
+
 def stands_apart(name, what):
     return any(name.startswith(place) and what.startswith(allowed) for place, allowed in OF_ONE_SYSTEM.items())
 
@@ -144,15 +151,15 @@ def check_systems(root):
 
 def check(root):
     problems = check_systems(root)
-    for header in sources(root / "include"):
+    public = sources(root / "include") + sources(root / "lab/include")
+    for header in public:
         if header.stem not in PUBLIC:
             problems.append(f"{header.relative_to(root)}: no room is named for this public header")
-        if header.parent.name != "experimental" and "experimental/" in "".join(INCLUDE.findall(header.read_text())):
+        if header.parent.name not in {"experimental", "lab"} and "experimental/" in "".join(INCLUDE.findall(header.read_text())):
             problems.append(f"{header.relative_to(root)}: what stays may not include what is experimental")
     for room in USES:
         allowed = closure(room)
-        files = sources(root / "src" / room)
-        files += [header for header in sources(root / "include") if PUBLIC.get(header.stem) == room]
+        files = sources(folder_of(root, room)) + [header for header in public if PUBLIC.get(header.stem) == room]
         for path in files:
             for name in INCLUDE.findall(path.read_text()):
                 other = room_of_include(name)
@@ -163,13 +170,14 @@ def check(root):
             for name in INCLUDE.findall(path.read_text()):
                 own = (path.parent / name).exists() or (root / folder / name).exists()
                 if not name.startswith("kinemend/") and not own:
-                    problems.append(f"{path.relative_to(root)}: a program sees include/ only, not {name}")
+                    problems.append(f"{path.relative_to(root)}: a program sees public headers only, not {name}")
     return problems
 
 
 def check_maths(root):
     problems = []
-    for path in sources(root / "src"):
+    rooms = sources(root / "src") + [path for room in USES if room.startswith("lab/") for path in sources(root / room)]
+    for path in rooms:
         name = str(path.relative_to(root))
         if name not in MAY_CALL_SYSTEM_MATHS:
             called = sorted(set(SYSTEM_MATHS.findall(path.read_text())))

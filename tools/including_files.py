@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Lists the sources of src/ and cli/ that are among the files named, or include a header that is, directly or not.
+"""Lists the sources of src/, cli/ and lab/ that are among the files named, or include a header that is, directly or not.
 
 Usage: including_files.py FILE...
 """
@@ -8,7 +8,7 @@ import re
 import sys
 
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
-ROOTS = (pathlib.Path("include"), pathlib.Path("src"), pathlib.Path("."))
+ROOTS = (pathlib.Path("include"), pathlib.Path("lab/include"), pathlib.Path("src"), pathlib.Path("."))
 
 
 def included(path):
@@ -31,7 +31,7 @@ def reaches(path, changed, known):
 def main():
     changed = {pathlib.Path(name).resolve() for name in sys.argv[1:]}
     known = {}
-    for folder in ("src", "cli"):
+    for folder in ("src", "cli", "lab/damage", "lab/samples", "lab/synthesis", "lab/training"):
         for path in sorted(pathlib.Path(folder).rglob("*.cpp")):
             if reaches(path, changed, known):
                 print(path)

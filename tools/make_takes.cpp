@@ -11,9 +11,9 @@
 #include <string>
 #include <string_view>
 
-#include "kinemend/experimental/corrupt.hpp"
-#include "kinemend/experimental/synth.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/lab/corrupt.hpp"
+#include "kinemend/lab/synth.hpp"
 
 namespace {
 

@@ -6,12 +6,12 @@
 #include "conversions.hpp"
 #include "held.hpp"
 #include "kinemend/cleaner.hpp"
-#include "kinemend/experimental/corrupt.hpp"
 #include "kinemend/experimental/live.hpp"
 #include "kinemend/experimental/model.hpp"
-#include "kinemend/experimental/train.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/lab/corrupt.hpp"
+#include "kinemend/lab/train.hpp"
 
 namespace kinemend::python {
 
@@ -79,7 +79,7 @@ py::list damage_table() {
 
 py::list training_table() {
   py::list list;
-  for (const LearnedMethod& method : learned_methods()) {
+  for (const Training& method : trainings()) {
     list.append(py::dict("name"_a = method.name, "summary"_a = text_of(method.summary),
                          "options"_a = options_of(method.options)));
   }

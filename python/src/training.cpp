@@ -15,9 +15,9 @@
 #include "held.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/experimental/threads.hpp"
-#include "kinemend/experimental/train.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/lab/train.hpp"
 #include "running.hpp"
 
 namespace kinemend::python {

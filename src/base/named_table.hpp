@@ -18,7 +18,7 @@ namespace kinemend {
 std::vector<std::string> names_of(const auto& entries) {
   std::vector<std::string> names;
   names.reserve(entries.size());
-  for (const auto& entry : entries) names.push_back(entry.name);
+  for (const auto& entry : entries) names.emplace_back(entry.name);
   return names;
 }
 

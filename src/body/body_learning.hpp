@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kinemend/experimental/body.hpp"
-#include "rotation/leading_eigenvector.hpp"
+#include "motion/leading_eigenvector.hpp"
 
 namespace kinemend::representation {
 

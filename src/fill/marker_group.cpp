@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "rotation/leading_eigenvector.hpp"
+#include "motion/leading_eigenvector.hpp"
 
 namespace kinemend::fill {
 

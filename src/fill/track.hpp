@@ -9,7 +9,7 @@
 #include "base/frame_span.hpp"
 #include "kinemend/rotation.hpp"
 #include "kinemend/take.hpp"
-#include "rotation/rotation_chart.hpp"
+#include "motion/rotation_chart.hpp"
 
 namespace kinemend::fill {
 

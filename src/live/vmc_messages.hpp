@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kinemend/rotation.hpp"
-#include "osc/osc.hpp"
+#include "live/osc.hpp"
 
 namespace kinemend {
 

@@ -9,7 +9,7 @@
 #include "kinemend/metrics.hpp"
 #include "metrics/marker_fit.hpp"
 #include "metrics/pairing.hpp"
-#include "rotation/component.hpp"
+#include "motion/component.hpp"
 
 namespace kinemend {
 

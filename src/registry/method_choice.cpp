@@ -2,7 +2,7 @@
 #include "kinemend/experimental/method_choice.hpp"
 
 #include "kinemend/error.hpp"
-#include "learned/core/prior_cleaning.hpp"
+#include "methods/prior/prior_cleaning.hpp"
 
 namespace kinemend {
 

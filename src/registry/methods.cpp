@@ -6,14 +6,16 @@
 #include <vector>
 
 #include "base/named_table.hpp"
+#include "classic/entries.hpp"
 #include "kinemend/cleaner.hpp"
-#include "learned/corrector/entries.hpp"
-#include "learned/example/entries.hpp"
-#include "learned/papers/entries.hpp"
-#include "learned/sparse/entries.hpp"
-#include "learned/wiener/entries.hpp"
 #include "methods/auto/entries.hpp"
-#include "methods/filters/entries.hpp"
+#include "methods/learned/entries.hpp"
+#include "methods/wiener/entries.hpp"
+#include "papers/courty2008_bilateral/entries.hpp"
+#include "papers/dean2016_nonlocal/entries.hpp"
+#include "papers/lou2010_example/entries.hpp"
+#include "papers/mall2017_recurrent/entries.hpp"
+#include "papers/xiao2015_sparse/entries.hpp"
 
 namespace kinemend {
 

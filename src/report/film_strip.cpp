@@ -11,9 +11,9 @@
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/pictures.hpp"
 #include "kinemend/experimental/svg.hpp"
+#include "motion/component.hpp"
 #include "report/inks.hpp"
 #include "report/pose_points.hpp"
-#include "rotation/component.hpp"
 
 namespace kinemend {
 

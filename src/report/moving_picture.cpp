@@ -9,9 +9,9 @@
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/pictures.hpp"
 #include "kinemend/experimental/svg.hpp"
+#include "motion/component.hpp"
 #include "report/inks.hpp"
 #include "report/pose_points.hpp"
-#include "rotation/component.hpp"
 
 namespace kinemend {
 

@@ -2,7 +2,7 @@
 #include "report/pose_points.hpp"
 
 #include "kinemend/experimental/kinematics.hpp"
-#include "rotation/component.hpp"
+#include "motion/component.hpp"
 
 namespace kinemend {
 

@@ -9,7 +9,7 @@
 #include "kinemend/experimental/body.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/random.hpp"
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/synth.hpp"
 
 namespace kinemend::body_test {
 

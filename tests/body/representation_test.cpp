@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "kinemend/error.hpp"
-#include "rotation/random_rotations.hpp"
+#include "motion/random_rotations.hpp"
 #include "translations.hpp"
 
 namespace kinemend {

@@ -11,7 +11,7 @@
 #include "kinemend/check.hpp"
 #include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/experimental/random.hpp"
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/synth.hpp"
 
 namespace kinemend::test {
 

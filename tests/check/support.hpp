@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "kinemend/check.hpp"
-#include "kinemend/experimental/corrupt.hpp"
 #include "kinemend/experimental/random.hpp"
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/corrupt.hpp"
+#include "kinemend/lab/synth.hpp"
 
 namespace kinemend::test {
 

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "cli/program.hpp"
-#include "kinemend/experimental/synth.hpp"
-#include "learned/papers/filter_support.hpp"
-#include "learned/papers/random_filter_model.hpp"
+#include "kinemend/lab/synth.hpp"
+#include "papers/mall2017_recurrent/filter_support.hpp"
+#include "papers/mall2017_recurrent/random_filter_model.hpp"
 
 namespace kinemend::test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/synth.hpp"
 #include "kinemend/metrics.hpp"
 
 namespace kinemend::test {

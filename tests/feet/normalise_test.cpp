@@ -6,7 +6,7 @@
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/experimental/normalise.hpp"
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/synth.hpp"
 #include "motion/take_change.hpp"
 
 namespace kinemend::test {

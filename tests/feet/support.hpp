@@ -10,8 +10,8 @@
 
 #include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/experimental/random.hpp"
-#include "kinemend/experimental/synth.hpp"
 #include "kinemend/feet.hpp"
+#include "kinemend/lab/synth.hpp"
 
 namespace kinemend::test {
 

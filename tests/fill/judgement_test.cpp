@@ -10,8 +10,8 @@
 
 #include "fill/methods.hpp"
 #include "fill/trials.hpp"
-#include "kinemend/experimental/synth.hpp"
 #include "kinemend/gaps.hpp"
+#include "kinemend/lab/synth.hpp"
 
 namespace kinemend::fill {
 namespace {

@@ -10,8 +10,8 @@
 #include "fill/made_gaps.hpp"
 #include "fill/marker_takes.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/synth.hpp"
 #include "kinemend/experimental/threads.hpp"
+#include "kinemend/lab/synth.hpp"
 #include "motion/clips.hpp"
 
 namespace kinemend::fill {

@@ -8,7 +8,7 @@
 
 #include "fill/made_gaps.hpp"
 #include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/synth.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend::fill {

@@ -5,7 +5,7 @@
 
 #include "fill/made_gaps.hpp"
 #include "fill/marker_takes.hpp"
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/synth.hpp"
 
 namespace kinemend::fill {
 namespace {

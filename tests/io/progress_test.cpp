@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "kinemend/experimental/synth.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/lab/synth.hpp"
 
 namespace kinemend::test {
 namespace {

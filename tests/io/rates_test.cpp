@@ -6,7 +6,7 @@
 #include "io/acclaim/acclaim.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/synth.hpp"
 #include "support.hpp"
 
 namespace kinemend {

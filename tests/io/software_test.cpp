@@ -7,7 +7,7 @@
 #include "io/c3d/c3d_support.hpp"
 #include "io/fbx/fbx_support.hpp"
 #include "io/table/support.hpp"
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/synth.hpp"
 #include "kinemend/source.hpp"
 
 namespace kinemend::test {

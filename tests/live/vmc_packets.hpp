@@ -8,7 +8,7 @@
 
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/rotation.hpp"
-#include "osc/osc_packets.hpp"
+#include "live/osc_packets.hpp"
 
 namespace kinemend::test {
 

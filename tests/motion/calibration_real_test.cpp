@@ -7,8 +7,8 @@
 #include <set>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/corrupt.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/lab/corrupt.hpp"
 
 namespace kinemend {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kinemend/take.hpp"
-#include "rotation/random_rotations.hpp"
+#include "motion/random_rotations.hpp"
 
 namespace kinemend::test {
 

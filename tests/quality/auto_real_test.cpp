@@ -5,7 +5,7 @@
 #include <map>
 #include <memory>
 
-#include "kinemend/experimental/train.hpp"
+#include "kinemend/lab/train.hpp"
 #include "kinemend/methods.hpp"
 #include "quality/quality.hpp"
 #include "quality/real_takes.hpp"

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/experimental/synth.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/lab/synth.hpp"
 #include "quality/quality.hpp"
 
 namespace kinemend::quality {

@@ -12,10 +12,10 @@
 #include "kinemend/clean.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/random.hpp"
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/synth.hpp"
 #include "kinemend/methods.hpp"
-#include "learned/corrector/turned_rig.hpp"
 #include "long_tests.hpp"
+#include "methods/learned/turned_rig.hpp"
 
 namespace kinemend::quality {
 namespace {

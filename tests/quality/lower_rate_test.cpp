@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/synth.hpp"
 #include "quality/quality.hpp"
 
 namespace kinemend::quality {

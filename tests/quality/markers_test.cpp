@@ -1,7 +1,7 @@
 // The methods `auto` and `learned` on markers of synthetic bodies.
 #include <gtest/gtest.h>
 
-#include "kinemend/experimental/corrupt.hpp"
+#include "kinemend/lab/corrupt.hpp"
 #include "kinemend/metrics.hpp"
 #include "quality/marker_quality.hpp"
 

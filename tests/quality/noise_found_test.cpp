@@ -7,7 +7,7 @@
 
 #include "kinemend/check.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/synth.hpp"
 #include "quality/lower_rate.hpp"
 #include "quality/quality.hpp"
 

@@ -8,8 +8,8 @@
 
 #include "kinemend/clean.hpp"
 #include "kinemend/cleaner.hpp"
-#include "kinemend/experimental/corrupt.hpp"
 #include "kinemend/experimental/random.hpp"
+#include "kinemend/lab/corrupt.hpp"
 #include "kinemend/metrics.hpp"
 #include "kinemend/take.hpp"
 

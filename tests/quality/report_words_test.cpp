@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/synth.hpp"
 #include "kinemend/methods.hpp"
 #include "quality/quality.hpp"
 

@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/synth.hpp"
 #include "kinemend/methods.hpp"
 #include "long_tests.hpp"
+#include "motion/random_rotations.hpp"
 #include "quality/quality.hpp"
 #include "registry/takes.hpp"
-#include "rotation/random_rotations.hpp"
 
 namespace kinemend::quality {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "kinemend/clean.hpp"
 #include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/corrupt.hpp"
-#include "kinemend/experimental/train.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/lab/corrupt.hpp"
+#include "kinemend/lab/train.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
 

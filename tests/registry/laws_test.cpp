@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "kinemend/clean.hpp"
-#include "kinemend/experimental/corrupt.hpp"
-#include "kinemend/experimental/synth.hpp"
 #include "kinemend/experimental/threads.hpp"
+#include "kinemend/lab/corrupt.hpp"
+#include "kinemend/lab/synth.hpp"
 #include "registry/takes.hpp"
 
 namespace kinemend::test {

@@ -7,15 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "clean/repair_checks.hpp"
 #include "kinemend/clean.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/corrupt.hpp"
-#include "kinemend/experimental/synth.hpp"
-#include "kinemend/experimental/train.hpp"
+#include "kinemend/lab/corrupt.hpp"
+#include "kinemend/lab/synth.hpp"
+#include "kinemend/lab/train.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
-#include "pipeline/repair_checks.hpp"
 #include "registry/marker_takes.hpp"
 #include "registry/takes.hpp"
 

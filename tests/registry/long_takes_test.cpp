@@ -8,9 +8,9 @@
 
 #include "counting_allocation.hpp"
 #include "kinemend/clean.hpp"
-#include "kinemend/experimental/corrupt.hpp"
-#include "kinemend/experimental/synth.hpp"
 #include "kinemend/experimental/threads.hpp"
+#include "kinemend/lab/corrupt.hpp"
+#include "kinemend/lab/synth.hpp"
 #include "kinemend/methods.hpp"
 #include "registry/takes.hpp"
 

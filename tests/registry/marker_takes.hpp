@@ -8,9 +8,9 @@
 
 #include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/experimental/random.hpp"
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/synth.hpp"
 #include "kinemend/take.hpp"
-#include "rotation/random_rotations.hpp"
+#include "motion/random_rotations.hpp"
 
 namespace kinemend::test {
 

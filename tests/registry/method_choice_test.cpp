@@ -6,7 +6,7 @@
 
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/model.hpp"
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/synth.hpp"
 #include "kinemend/methods.hpp"
 #include "registry/takes.hpp"
 

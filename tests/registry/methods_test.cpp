@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/train.hpp"
+#include "kinemend/experimental/model.hpp"
 #include "registry/takes.hpp"
 
 namespace kinemend::test {
@@ -73,13 +73,13 @@ TEST(Methods, MakeCleanersThatKnowTheirNameAndTheirOptions) {
   EXPECT_EQ(live->options().at("live"), OptionValue(true));
 }
 
-TEST(Methods, WithALearnedModelAreThoseThatModelsAreTrainedFor) {
+TEST(Methods, WithALearnedModelAreThoseWhoseModelsAreRead) {
   std::vector<std::string> cleaning, trained;
   for (const Method& method : methods()) {
     if (method.learned) cleaning.push_back(method.name);
   }
-  for (const LearnedMethod& method : methods_with_models()) {
-    trained.push_back(method.name);
+  for (const ModelKind& method : model_kinds()) {
+    trained.emplace_back(method.name);
     EXPECT_GE(method.version, 1) << method.name;
     const std::vector<OptionSpec>& options = find_method(method.name).options;
     EXPECT_TRUE(std::any_of(options.begin(), options.end(), [](const OptionSpec& option) {

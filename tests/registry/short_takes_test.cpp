@@ -5,7 +5,7 @@
 
 #include "kinemend/cleaner.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/synth.hpp"
 #include "registry/marker_takes.hpp"
 #include "registry/takes.hpp"
 

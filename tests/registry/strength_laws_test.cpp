@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "clean/repair_checks.hpp"
 #include "kinemend/clean.hpp"
-#include "pipeline/repair_checks.hpp"
 #include "registry/marker_takes.hpp"
 #include "registry/takes.hpp"
 

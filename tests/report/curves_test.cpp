@@ -10,7 +10,7 @@
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/svg.hpp"
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/synth.hpp"
 #include "report/support.hpp"
 
 namespace kinemend::test {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/synth.hpp"
 #include "report/support.hpp"
 
 namespace kinemend::test {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/synth.hpp"
 #include "report/json_schema.hpp"
 
 namespace kinemend::test {

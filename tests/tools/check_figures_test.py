@@ -121,8 +121,8 @@ class CheckFigures(FiguresTree):
 
     def test_a_missing_file_is_an_error(self):
         (self.figures / "gaps.csv").unlink()
-        self.assert_fails("there is no stored file bench/papers/figures/gaps.csv",
-                          "bench/papers/figures/gaps.csv: 0 figures, fewer than the 15")
+        self.assert_fails("there is no stored file lab/experiments/figures/gaps.csv",
+                          "lab/experiments/figures/gaps.csv: 0 figures, fewer than the 15")
 
     def test_a_deleted_row_is_an_error_that_writing_does_not_settle(self):
         counts = (self.figures / "counts.csv").read_text()
@@ -137,7 +137,7 @@ class CheckFigures(FiguresTree):
         (self.figures / "gaps.csv").write_text(GAPS + "85_12,120,auto,5.8,10.3\n")
         self.assert_passes("--write")
         (self.figures / "gaps.csv").write_text(GAPS)
-        self.assert_fails("bench/papers/figures/gaps.csv: 15 figures, fewer than the 20 of counts.csv")
+        self.assert_fails("lab/experiments/figures/gaps.csv: 15 figures, fewer than the 20 of counts.csv")
 
     def test_an_emptied_cell_of_a_stored_file_is_an_error(self):
         self.replace(self.figures / "gaps.csv", "22.96", "")

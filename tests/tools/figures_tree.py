@@ -125,7 +125,7 @@ class FiguresTree(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.root = pathlib.Path(folder.name)
-        self.figures = self.root / "bench/papers/figures"
+        self.figures = self.root / "lab/experiments/figures"
         self.results = self.root / "build/papers"
         (self.root / "docs").mkdir()
         self.figures.mkdir(parents=True)

@@ -53,7 +53,7 @@ class StoreFigures(FiguresTree):
     def test_storing_keeps_the_reason_and_the_largest_move(self):
         self.results_with("1.08", "2.45")
         self.replace(self.results / "lou_outliers.csv", "2.32", "2.42")
-        self.assertIn("stored bench/papers/figures/lou_outliers.csv",
+        self.assertIn("stored lab/experiments/figures/lou_outliers.csv",
                       self.assert_passes(self.results, "--store", "--reason", "The hold, which outliers release, is gone"))
         self.assertIn("2.45", (self.figures / "lou_outliers.csv").read_text())
         with open(self.figures / "reasons.csv", newline="") as file:

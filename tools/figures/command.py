@@ -21,8 +21,8 @@ Compares the figures of pages with the stored ones, and what programs measured w
 Exit status: 1 where something differs or is missing, 2 for a wrong command line.
 """
 DETAILS = """\
-Stored figures are the CSV files that the programs write: bench/papers/figures/*.csv of the whole experiments on real takes,
-bench/papers/figures/quick/*.csv of their quick forms on takes that the project makes itself. Beside them:
+Stored figures are the CSV files that the programs write: lab/experiments/figures/*.csv of the whole experiments on real takes,
+lab/experiments/figures/quick/*.csv of their quick forms on takes that the project makes itself. Beside them:
 
   tolerances.csv   the difference that is allowed: the larger of `absolute` and of `relative` times the stored figure. The line
                    `*` is for files without a line. A speed may be `relative` times as large or as small.
@@ -113,7 +113,7 @@ def check_pages(store: Store, write: bool) -> list[str]:
         counts.write_counts(store, found)
         print("\n".join(["wrote counts.csv:", *changes]) if stored else "wrote counts.csv, which was not there")
     elif not stored:
-        complaints.append("bench/papers/figures/counts.csv is missing or empty")
+        complaints.append("lab/experiments/figures/counts.csv is missing or empty")
     else:
         complaints += changes
     return complaints

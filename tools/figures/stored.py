@@ -1,4 +1,4 @@
-"""Reads the stored figures: the CSV files of bench/papers/figures, their tolerances, and filters on their lines."""
+"""Reads the stored figures: the CSV files of lab/experiments/figures, their tolerances, and filters on their lines."""
 import csv
 import re
 from decimal import Decimal

@@ -1,7 +1,7 @@
 // Layers by LibTorch on random weights: writes tests/fixtures/nn/layers.safetensors, which
 // tests/nn/layers_test.cpp compares with. Built where LibTorch is found:
 //   cmake --build build/release --target reference_layers
-//   build/release/train/reference_layers FILE
+//   build/release/lab/networks/reference_layers FILE
 #include <torch/torch.h>
 
 #include <fstream>

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Coefficients of the polynomials in src/methods/filters/rotation_lanes-inl.hpp, and how far they are off.
+"""Coefficients of the polynomials in src/cleaner/rotation_lanes-inl.hpp, and how far they are off.
 
 With u = sin^2(angle / 4) of a rotation (0 to 1/2 for angles from 0 to pi) both are analytic in u:
   angle^2 = u f(u),               f(u) = 16 asin(sqrt(u))^2 / u

@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,6 +54,15 @@ Model read_model(const std::filesystem::path& path);
 std::string write_model(const Model& model);
 /// Returns XXH3 of the bytes of the file in hexadecimal, for the model's card.
 std::string model_checksum(std::string_view bytes);
+
+/// The models of one method.
+struct ModelKind {
+  std::string_view name;        ///< name of the method
+  int version = 1;              ///< version of the tensors and numbers: the newest that is read
+  std::string_view trained_by;  ///< the program that fits them: "kinemend train"
+};
+/// Returns the kinds of models that are read, one for each method that works with a model.
+std::span<const ModelKind> model_kinds();
 
 /// A model that is part of the program.
 struct ShippedModel {

@@ -8,7 +8,7 @@
 #include "io/fbx/fbx_scene.hpp"
 #include "io/fbx/fbx_values.hpp"
 #include "io/first_error.hpp"
-#include "rotation/component.hpp"
+#include "motion/component.hpp"
 
 namespace kinemend {
 

@@ -14,7 +14,7 @@
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/skeleton.hpp"
 #include "kinemend/take.hpp"
-#include "rotation/component.hpp"
+#include "motion/component.hpp"
 
 namespace kinemend {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "base/portable.hpp"
-#include "rotation/component.hpp"
+#include "motion/component.hpp"
 
 namespace kinemend {
 

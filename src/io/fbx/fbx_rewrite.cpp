@@ -16,7 +16,7 @@
 #include "io/fbx/fbx_values.hpp"
 #include "io/first_error.hpp"
 #include "io/motion/motion_write.hpp"
-#include "rotation/component.hpp"
+#include "motion/component.hpp"
 
 namespace kinemend {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "rotation/component.hpp"
+#include "motion/component.hpp"
 
 namespace kinemend {
 

@@ -10,7 +10,7 @@
 #include "base/quote.hpp"
 #include "io/fbx/fbx_document.hpp"
 #include "io/motion/half_angles.hpp"
-#include "rotation/component.hpp"
+#include "motion/component.hpp"
 
 namespace kinemend {
 

@@ -7,6 +7,7 @@
 
 #include "base/progress.hpp"
 #include "base/quantiles.hpp"
+#include "cleaner/pieces.hpp"
 #include "kinemend/methods.hpp"
 #include "methods/auto/auto_scale.hpp"
 #include "methods/auto/entries.hpp"
@@ -15,7 +16,6 @@
 #include "methods/auto/track_cleaning.hpp"
 #include "methods/auto/track_vectors.hpp"
 #include "methods/auto/vector_tracks.hpp"
-#include "methods/core/pieces.hpp"
 
 namespace kinemend {
 

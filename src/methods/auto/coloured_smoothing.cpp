@@ -10,7 +10,7 @@
 #include "base/portable.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/experimental/signal.hpp"
-#include "rotation/component.hpp"
+#include "motion/component.hpp"
 #include "signal/coloured_noise.hpp"
 
 namespace kinemend {

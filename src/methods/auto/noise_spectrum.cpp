@@ -13,7 +13,7 @@
 #include "base/quantiles.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 #include "methods/auto/whitening.hpp"
-#include "rotation/component.hpp"
+#include "motion/component.hpp"
 #include "signal/coloured_noise.hpp"
 
 namespace kinemend {

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "methods/auto/tuning.hpp"
-#include "rotation/rotation_chart.hpp"
+#include "motion/rotation_chart.hpp"
 
 namespace kinemend {
 

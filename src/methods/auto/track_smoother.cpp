@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "rotation/component.hpp"
+#include "motion/component.hpp"
 #include "signal/evidence.hpp"
 
 namespace kinemend {

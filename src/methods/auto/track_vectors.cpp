@@ -4,11 +4,11 @@
 
 #include <utility>
 
+#include "cleaner/pieces.hpp"
 #include "methods/auto/auto_scale.hpp"
 #include "methods/auto/dense_outliers.hpp"
 #include "methods/auto/smooth_chart.hpp"
 #include "methods/auto/spikes.hpp"
-#include "methods/core/pieces.hpp"
 
 namespace kinemend {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kinemend/cleaner.hpp"
-#include "rotation/rotation_chart.hpp"
+#include "motion/rotation_chart.hpp"
 
 namespace kinemend {
 

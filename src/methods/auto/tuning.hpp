@@ -1,5 +1,5 @@
 // The constants of the method `auto`, by step. They were chosen by hand; no sweep of that time is
-// kept. bench/papers/figures/auto_sweep.csv (tools/sweep) states how half, 0.8, 1.25 and 2 times
+// kept. lab/experiments/figures/auto_sweep.csv (tools/sweep) states how half, 0.8, 1.25 and 2 times
 // each of them change the error on seven takes that no other table of `auto` uses.
 // auto_sweep_colour.csv states this for half and double of those of `ColourTuning` and
 // `HeldTuning`. docs/methods/auto-details.md summarises it.

@@ -1,6 +1,6 @@
 #include "io/hostile.hpp"
 #include "io/npz/npy_array.hpp"
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/synth.hpp"
 #include "npz_support.hpp"
 
 namespace kinemend {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "methods/auto/track_cleaning.hpp"
-#include "rotation/random_rotations.hpp"
+#include "motion/random_rotations.hpp"
 
 namespace kinemend {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "methods/auto/dense_outliers.hpp"
 #include "methods/auto/spikes.hpp"
-#include "rotation/random_rotations.hpp"
+#include "motion/random_rotations.hpp"
 
 namespace kinemend {
 namespace {

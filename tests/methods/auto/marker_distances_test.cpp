@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "methods/auto/track_cleaning.hpp"
-#include "rotation/random_rotations.hpp"
+#include "motion/random_rotations.hpp"
 
 namespace kinemend {
 namespace {

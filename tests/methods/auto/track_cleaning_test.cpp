@@ -9,7 +9,7 @@
 #include "methods/auto/spikes.hpp"
 #include "methods/auto/track_smoother.hpp"
 #include "methods/auto/vector_tracks.hpp"
-#include "rotation/random_rotations.hpp"
+#include "motion/random_rotations.hpp"
 
 namespace kinemend {
 namespace {

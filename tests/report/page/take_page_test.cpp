@@ -5,10 +5,10 @@
 #include <string>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/corrupt.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/page.hpp"
-#include "kinemend/experimental/synth.hpp"
+#include "kinemend/lab/corrupt.hpp"
+#include "kinemend/lab/synth.hpp"
 #include "report/page/page_parts.hpp"
 
 namespace kinemend::test {

@@ -1,0 +1,26 @@
+// Runs a linear filter on the channels of a take's tracks, several tracks side by side.
+#pragma once
+
+#include <functional>
+
+#include "cleaner/pieces.hpp"
+#include "kinemend/experimental/pose_matrix.hpp"
+
+namespace kinemend {
+
+enum class ChannelChoice {
+  quaternion,  ///< for linear filters: they commute with rotating the frame on either side
+  suitable     ///< tangent space if the joint allows it: the noise is uniform there
+};
+
+/// Runs `filter` in place on the channels of the changeable tracks, and passes these to `sink`. It
+/// gets up to eight pieces over the same frames at a time, side by side: for positions three
+/// channels each, from their first sample on. Blocks run in parallel.
+void filter_channels(const TakeView& take, ChannelChoice choice, const TrackSink& sink,
+                     const std::function<void(double)>& tell,
+                     const std::function<void(PoseMatrix&)>& filter);
+/// The same for one piece, with rotations as channels of quaternions.
+void filter_channels(Piece<Quat>& piece, const std::function<void(PoseMatrix&)>& filter);
+void filter_channels(Piece<Vec3>& piece, const std::function<void(PoseMatrix&)>& filter);
+
+}  // namespace kinemend

@@ -1,0 +1,287 @@
+// Estimates the windows of a take under the mixture, rejects outliers, and adds the windows up.
+#include "methods/wiener/wiener_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/parallel.hpp"
+#include "base/portable.hpp"
+#include "base/quantiles.hpp"
+#include "methods/prior/window_cosines.hpp"
+#include "methods/wiener/wiener_posterior.hpp"
+#include "methods/wiener/wiener_rest.hpp"
+#include "methods/wiener/wiener_windows.hpp"
+#include "nn/gemm.hpp"
+
+namespace kinemend {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Windows overlap by three quarters, so that neighbours are dependent. By definition; chunks are
+// for speed, not swept.
+constexpr double window_weight = 0.25;
+constexpr std::size_t chunk_windows = 16;  // task size
+
+// sin^2, which sums to a constant for windows a quarter of their length apart.
+VectorXd taper(Index frames) {
+  VectorXd weights(frames);
+  for (Index i = 0; i < frames; ++i) {
+    const double s = portable::sin(3.14159265358979323846 * (static_cast<double>(i) + 0.5) /
+                                   static_cast<double>(frames));
+    weights(i) = s * s;
+  }
+  return weights;
+}
+
+// The transpose of an Eigen matrix, as a row-major view.
+nn::MatrixView transposed(const MatrixXd& matrix) {
+  const auto rows = static_cast<std::size_t>(matrix.rows());
+  return {matrix.data(), static_cast<std::size_t>(matrix.cols()), rows, rows};
+}
+
+// The product a b, given the transpose of a.
+MatrixXd product(const nn::MatrixView& a_transposed, const MatrixXd& b) {
+  MatrixXd result(static_cast<Index>(a_transposed.columns), b.cols());
+  nn::multiply(transposed(b), a_transposed,
+               {result.data(), static_cast<std::size_t>(b.cols()), a_transposed.columns,
+                a_transposed.columns});
+  return result;
+}
+
+class Filtering {
+ public:
+  Filtering(const WienerPrior& prior, const WienerTake& take, const WienerSettings& settings,
+            Index window)
+      : prior_(prior),
+        take_(take),
+        settings_(settings),
+        windows_(prior, window, static_cast<Index>(take.poses.frames), take.observed, take.noise),
+        rest_(prior.rest, windows_.noise(), window, prior.window_s),
+        taper_(taper(window)),
+        guess_(take.poses),
+        rejected_(take.poses.values.size(), 0) {
+    if (settings_.outlier_deviations > 0 && !take.suspect.empty())
+      rejected_.assign(take.suspect.begin(), take.suspect.end());
+    take_guesses(take.guess);
+  }
+
+  WienerResult run() {
+    for (std::size_t round = 0;; ++round) {
+      const bool is_last = round == settings_.rounds;
+      find_posteriors();
+      PoseMatrix estimate = synthesize();
+      if (is_last) return {std::move(estimate), std::move(rejected_)};
+      judge_samples(estimate);
+      take_guesses(estimate);
+    }
+  }
+
+ private:
+  bool is_observed(std::size_t sample) const {
+    return take_.observed.empty() || take_.observed[sample] != 0;
+  }
+
+  // Calls `work` for chunks of the windows [first, last).
+  template <class Work>
+  static void for_each_chunk_of(std::size_t first, std::size_t last, const Work& work) {
+    const std::size_t chunks = (last - first + chunk_windows - 1) / chunk_windows;
+    for_each_index(chunks, [&](std::size_t chunk) {
+      const std::size_t from = first + chunk * chunk_windows;
+      work(from, std::min(last, from + chunk_windows));
+    });
+  }
+
+  // Calls `work` for chunks of all windows, with the number of the chunk.
+  template <class Work>
+  void for_each_chunk(const Work& work) const {
+    for_each_chunk_of(0, windows_.starts().size(), [&](std::size_t first, std::size_t last) {
+      work(first / chunk_windows, first, last);
+    });
+  }
+
+  // Computes z_ for all windows.
+  void find_posteriors() {
+    const auto count = static_cast<Index>(windows_.starts().size());
+    MatrixXd information(prior_.rank(), count);
+    for_each_chunk([&](std::size_t, std::size_t first, std::size_t last) {
+      MatrixXd seen(prior_.mean.size(), static_cast<Index>(last - first));
+      for (std::size_t w = first; w < last; ++w) {
+        seen.col(static_cast<Index>(w - first)) =
+            windows_.information(guess_, w, windows_.coefficients(guess_, w));
+      }
+      information.middleCols(static_cast<Index>(first), seen.cols()) =
+          product(transposed(prior_.basis).transposed(), seen);
+    });
+    z_.resize(prior_.rank(), count);
+    for (const WindowGroup& group : windows_.groups()) {
+      MatrixXd chosen(prior_.rank(), static_cast<Index>(group.windows.size()));
+      for (std::size_t i = 0; i < group.windows.size(); ++i) {
+        chosen.col(static_cast<Index>(i)) = information.col(static_cast<Index>(group.windows[i]));
+      }
+      const MixturePosterior posterior =
+          mixture_posterior(prior_.components, windows_.precision(group), chosen);
+      const MatrixXd means = posterior.mean();
+      for (std::size_t i = 0; i < group.windows.size(); ++i)
+        z_.col(static_cast<Index>(group.windows[i])) = means.col(static_cast<Index>(i));
+    }
+  }
+
+  // K x D per window: posterior mean within the patterns.
+  std::vector<MatrixXd> patterns_of(std::size_t first, std::size_t last) const {
+    const MatrixXd z = z_.middleCols(static_cast<Index>(first), static_cast<Index>(last - first));
+    const MatrixXd x = product(transposed(prior_.basis), z).colwise() + prior_.mean;
+    std::vector<MatrixXd> patterns;
+    for (Index w = 0; w < x.cols(); ++w) {
+      patterns.emplace_back(
+          Eigen::Map<const MatrixXd>(x.col(w).data(), prior_.coefficients(), prior_.channels()));
+    }
+    return patterns;
+  }
+
+  // N x D: the coefficients less that mean.
+  static MatrixXd left_of(MatrixXd coefficients, const MatrixXd& pattern) {
+    coefficients.topRows(pattern.rows()) -= pattern;
+    return coefficients;
+  }
+
+  void learn_rest() {
+    const std::size_t chunks = (windows_.starts().size() + chunk_windows - 1) / chunk_windows;
+    const RestModel empty(prior_.rest, windows_.noise(), windows_.frames(), prior_.window_s);
+    std::vector<RestModel> sums(chunks, empty);
+    for_each_chunk([&](std::size_t chunk, std::size_t first, std::size_t last) {
+      const std::vector<MatrixXd> patterns = patterns_of(first, last);
+      for (std::size_t w = first; w < last; ++w) {
+        VectorXd counts = VectorXd::Ones(prior_.channels());
+        for (const WindowGroup::Lost& lost : windows_.group_of(w).lost) counts(lost.channel) = 0;
+        sums[chunk].add(left_of(windows_.coefficients(guess_, w), patterns[w - first]), counts);
+      }
+    });
+    rest_ = empty;
+    for (const RestModel& sum : sums) rest_.add(sum);
+    rest_.learn(window_weight);
+  }
+
+  // N x D: the posterior mean of a window's coefficients.
+  MatrixXd window_mean(std::size_t window, const MatrixXd& pattern) const {
+    const MatrixXd coefficients = windows_.coefficients(guess_, window);
+    MatrixXd mean = left_of(coefficients, pattern);
+    rest_.shrink(mean);
+    const WindowGroup& group = windows_.group_of(window);
+    if (!group.lost.empty()) {
+      const Index k = prior_.coefficients();
+      const VectorXd u = windows_.information(guess_, window, coefficients);
+      for (const WindowGroup::Lost& lost : group.lost) {
+        const Index d = lost.channel;
+        const VectorXd shift = pattern.col(d) - prior_.mean.segment(d * k, k);
+        mean.col(d).setZero();
+        mean.col(d).head(k) = prior_.rest.row(d).head(k).transpose().cwiseProduct(
+            u.segment(d * k, k) - lost.damping * (lost.precision * shift));
+      }
+    }
+    mean.topRows(pattern.rows()) += pattern;
+    return mean;
+  }
+
+  PoseMatrix synthesize() {
+    learn_rest();
+    const auto frames = static_cast<Index>(take_.poses.frames);
+    const Index channels = prior_.channels();
+    PoseMatrix sum(take_.poses.frames, take_.poses.channels);
+    std::vector<double> weight(take_.poses.frames, 0.0);
+    const std::vector<Index>& starts = windows_.starts();
+    // A batch of windows at a time, which bounds memory.
+    const std::size_t batch = 16 * chunk_windows;
+    std::vector<MatrixXd> windows(std::min(batch, starts.size()));
+    for (std::size_t first = 0; first < starts.size(); first += batch) {
+      const std::size_t last = std::min(first + batch, starts.size());
+      for_each_chunk_of(first, last, [&](std::size_t from, std::size_t to) {
+        const std::vector<MatrixXd> patterns = patterns_of(from, to);
+        for (std::size_t w = from; w < to; ++w) {
+          windows[w - first] =
+              (windows_.cosines() * window_mean(w, patterns[w - from])).transpose();
+        }
+      });
+      for (std::size_t w = first; w < last; ++w) {
+        for (Index i = 0; i < windows_.frames() && starts[w] + i < frames; ++i) {
+          const auto frame = static_cast<std::size_t>(starts[w] + i);
+          Eigen::Map<VectorXd>(sum.row(frame).data(), channels) +=
+              taper_(i) * windows[w - first].col(i);
+          weight[frame] += taper_(i);
+        }
+      }
+    }
+    for (std::size_t f = 0; f < sum.frames; ++f) {
+      for (double& value : sum.row(f)) value /= weight[f];
+    }
+    return sum;
+  }
+
+  void judge_samples(const PoseMatrix& estimate) {
+    if (settings_.outlier_deviations <= 0) return;
+    const std::size_t channels = estimate.channels;
+    for_each_index((channels + 2) / 3, [&](std::size_t track) {
+      const std::size_t first = 3 * track, last = std::min(first + 3, channels);
+      for (std::size_t d = first; d < last; ++d) {
+        const double limit = limit_of(estimate, d);
+        for (std::size_t f = 0; f < estimate.frames; ++f) {
+          const std::size_t sample = f * channels + d;
+          if (!is_observed(sample)) continue;
+          if (std::abs(take_.poses(f, d) - estimate(f, d)) <= limit) continue;
+          for (std::size_t other = first; other < last; ++other)
+            rejected_[f * channels + other] = is_observed(f * channels + other) ? 1 : 0;
+        }
+      }
+    });
+  }
+
+  double limit_of(const PoseMatrix& estimate, std::size_t channel) const {
+    std::vector<double> distances;
+    for (std::size_t f = 0; f < estimate.frames; ++f) {
+      if (is_observed(f * estimate.channels + channel))
+        distances.push_back(std::abs(take_.poses(f, channel) - estimate(f, channel)));
+    }
+    if (distances.empty()) return settings_.least_outlier_deg;
+    const double spread =
+        std::max(take_.noise[channel], deviations_per_median * upper_median_of(distances));
+    return std::max(settings_.outlier_deviations * spread, settings_.least_outlier_deg);
+  }
+
+  void take_guesses(const PoseMatrix& estimate) {
+    for (std::size_t i = 0; i < guess_.values.size(); ++i) {
+      guess_.values[i] =
+          is_observed(i) && rejected_[i] == 0 ? take_.poses.values[i] : estimate.values[i];
+    }
+  }
+
+  const WienerPrior& prior_;
+  const WienerTake& take_;
+  const WienerSettings& settings_;
+  WienerWindows windows_;
+  RestModel rest_;
+  VectorXd taper_;
+  PoseMatrix guess_;  // measured samples, and estimates of missing ones
+  std::vector<std::uint8_t> rejected_;
+  MatrixXd z_;  // R x W
+};
+
+}  // namespace
+
+WienerResult wiener_filter(const WienerPrior& prior, const WienerTake& take,
+                           const WienerSettings& settings) {
+  if (take.poses.frames == 0) return {take.poses, {}};
+  // At high rates windows are at most as long as the take, as their length in frames is the
+  // side of a matrix. Chosen by hand, not swept.
+  constexpr double usual_rate_hz = 240;
+  const double whole_take_hz = static_cast<double>(take.poses.frames) / prior.window_s;
+  const double rate_hz = std::min(take.rate_hz, std::max(usual_rate_hz, whole_take_hz));
+  const Index window = window_frames(prior.window_s, rate_hz);
+  const WienerPrior fitting = with_coefficients(prior, window);
+  return Filtering(fitting, take, settings, window).run();
+}
+
+}  // namespace kinemend

@@ -1,0 +1,39 @@
+// The steps around the Wiener filter: detection of dense outliers, and the guard that compares the
+// filter with others.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "methods/wiener/wiener_filter.hpp"
+
+namespace kinemend {
+
+struct WienerOutliers {
+  std::vector<std::uint8_t>
+      suspect;       ///< F x D, 1 for outliers; shared by the three channels of a track
+  PoseMatrix guess;  ///< F x D, for samples that are missing or suspect
+};
+
+/// Detects dense outliers (a tenth of the samples or more). The take is filtered as if outliers
+/// were noise, of the variance of its fourth differences; samples far from the result, relative to
+/// the median distance, are bridged; this is repeated with the remaining noise. Starts from
+/// `take.suspect` and `take.guess`.
+WienerOutliers dense_outliers(const WienerPrior& prior, const WienerTake& take);
+
+/// Runs `wiener_filter` and limits its error on motion unlike the training. For each three channels
+/// it is mixed with the result of `smooth_channels` in the shares of least risk; then the Gaussian
+/// of the best width replaces it if its risk is clearly smaller. Tracks with many missing samples
+/// keep the filter's result.
+///
+/// The risk of a filter on a channel is Stein's unbiased estimate of the squared error, summed over
+/// the samples used,
+///
+///     sum_t (y_t - x_t)^2 - v + 2 v d x_t / d y_t
+///
+/// for noise of variance v. A probe estimates the divergence of `wiener_filter`: the take is
+/// filtered once more with a random sign of a tenth of the noise added to each sample.
+WienerResult guarded_wiener_filter(const WienerPrior& prior, const WienerTake& take,
+                                   const WienerSettings& settings = {});
+
+}  // namespace kinemend

@@ -1,0 +1,66 @@
+// Finds the motion that stays close to the measurements and follows learned patterns (Lou & Chai
+// 2010, sections 3.1 to 3.5).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kinemend/experimental/pose_matrix.hpp"
+#include "papers/lou2010_example/pattern_penalty.hpp"
+#include "papers/lou2010_example/window_bases.hpp"
+
+namespace kinemend {
+
+/// The linear filter of eq. 7 on all sliding windows: each frame becomes the mean of the
+/// projections of all windows over it. `mean`: L, one per channel. F is at least `bases.frames`, or
+/// 0.
+PoseMatrix filter_linearly(const PoseMatrix& poses, WindowBases bases,
+                           std::span<const double> mean);
+
+/// Methods of minimisation. Each step decreases the objective.
+enum class ExampleSolver : std::uint8_t {
+  conjugate_gradients,  ///< some steps on each weighted least-squares problem, coefficients and
+                        ///< motion at once
+  alternation           ///< the paper's: best coefficients (eq. 13), then best motion (eq. 15)
+};
+
+/// Weights of the objective (eq. 16), each L values, in the units of the channels:
+///
+///   sum_tl alpha_tl b_l rho(z_l(t) - y_l(t)) + sum_s min_c (sum lambda_l (z_s - E c)_l^2
+///       + sum_k v_k c_k^2)
+///
+/// with rho(r) = p_l^2 / 2 (1 - exp(-r^2 / p_l^2)). The paper has b_l = 1, one p, one lambda,
+/// v_k = 0. Scaling data and p by s scales the result by s.
+struct ExampleWeights {
+  std::vector<double> data;          ///< b_l > 0
+  std::vector<double> welsch;        ///< p_l > 0; infinite: least squares
+  std::vector<double> prior;         ///< lambda_l > 0
+  std::vector<double> coefficients;  ///< v_k >= 0, K; empty: none
+};
+
+struct ExampleSettings {
+  ExampleSolver solver = ExampleSolver::conjugate_gradients;
+  std::size_t iterations = 50;  ///< of the weights, at most
+  double tolerance = 1e-4;      ///< stops when an iteration gains less than this share
+  /// Initial factor of p, which decreases to 1: the objective then has no distant local minima in
+  /// which outliers support each other.
+  double first_welsch = 1;
+};
+
+/// Minimises the objective. `poses` holds the first guess and becomes the result; `measured` is y,
+/// `observed` alpha (F x L, 0 or 1; empty: all), `mean` the channels' means (L), to which the
+/// patterns are relative. F is at least `bases.frames`. Beyond about 260,000 samples the take is
+/// processed in stretches, which overlap by four windows. Returns the objective (of the last
+/// stretch) before the first iteration and after each.
+std::vector<double> example_filter(PoseMatrix& poses, const PoseMatrix& measured,
+                                   std::span<const std::uint8_t> observed, WindowBases bases,
+                                   std::span<const double> mean, const ExampleWeights& weights,
+                                   const ExampleSettings& settings = {});
+
+/// F x L: exp(-r^2 / p^2), weight of each sample (eq. 15); 0 if not observed.
+PoseMatrix welsch_weights(const PoseMatrix& poses, const PoseMatrix& measured,
+                          std::span<const std::uint8_t> observed, std::span<const double> welsch);
+
+}  // namespace kinemend

@@ -1,0 +1,221 @@
+// Places joints and free ends of bones, and turns joints so that bones point at given points.
+#include "papers/xiao2015_sparse/sparse_points.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/experimental/representation.hpp"
+
+namespace kinemend {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// The arc of a channel's degree: one radian is a quarter of the body height. By definition
+// (docs/bodies.md). The lengths are chosen by hand, not swept.
+constexpr double degrees_per_height = 4 * degrees_per_radian;
+constexpr double least_bone = 1e-4;                      // body heights
+constexpr double shortest_end = 0.02, usual_end = 0.05;  // for bones of unknown length
+
+Vec3 three(const PoseMatrix& values, std::size_t frame, std::size_t part) {
+  return {values(frame, 3 * part), values(frame, 3 * part + 1), values(frame, 3 * part + 2)};
+}
+
+void put(PoseMatrix& values, std::size_t frame, std::size_t part, Vec3 v) {
+  values(frame, 3 * part) = v.x;
+  values(frame, 3 * part + 1) = v.y;
+  values(frame, 3 * part + 2) = v.z;
+}
+
+Quat local_rotation(const BodyLayout& layout, const PoseMatrix& channels, std::size_t frame,
+                    std::size_t track) {
+  return layout.references[track] * exp(radians_per_degree * three(channels, frame, track));
+}
+
+// Rotations of all tracks in the body's frame.
+std::vector<Quat> global_rotations(const BodyLayout& layout, const PoseMatrix& channels,
+                                   std::size_t frame) {
+  std::vector<Quat> global(layout.track_count());
+  for (std::size_t i = 0; i < global.size(); ++i) {
+    const Quat local = local_rotation(layout, channels, frame, i);
+    global[i] =
+        i == 0 ? local : normalized(global[static_cast<std::size_t>(layout.parents[i])] * local);
+  }
+  return global;
+}
+
+Vector3d eigen(Vec3 v) { return {v.x, v.y, v.z}; }
+
+Matrix3d matrix_of(Quat q) {
+  Matrix3d m;
+  m << eigen(rotate(q, {1, 0, 0})), eigen(rotate(q, {0, 1, 0})), eigen(rotate(q, {0, 0, 1}));
+  return m;
+}
+
+// The rotation nearest to a matrix.
+Quat nearest_rotation(const Matrix3d& m) {
+  const Eigen::JacobiSVD<Matrix3d> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Matrix3d u = svd.matrixU();
+  if ((u * svd.matrixV().transpose()).determinant() < 0) u.col(2) = -u.col(2);
+  const Eigen::Quaterniond q(Matrix3d(u * svd.matrixV().transpose()));
+  return normalized(Quat{q.w(), q.x(), q.y(), q.z()});
+}
+
+}  // namespace
+
+SparsePointsBuilder::SparsePointsBuilder(const BodyLayout& layout)
+    : layout_(layout), sums_(layout.track_count()), counts_(layout.track_count(), 0) {}
+
+void SparsePointsBuilder::add(const Take& clip) {
+  if (clip.frame_count() == 0) return;
+  const BodyMatch match = match_body(layout_, clip);
+  const BodyChannels channels = encode_body(clip, layout_, match);
+  const std::vector<Quat> global = global_rotations(layout_, channels.poses, 0);
+  const std::vector<Vec3> positions = joint_positions(clip, false);
+  const Quat ahead = exp({0, -channels.headings[0], 0});
+  const auto position = [&](std::size_t track) {
+    return rotate(ahead * match.upright, positions[static_cast<std::size_t>(match.tracks[track])]);
+  };
+  for (std::size_t i = 1; i < sums_.size(); ++i) {
+    const auto parent = static_cast<std::size_t>(layout_.parents[i]);
+    if (match.tracks[i] < 0 || match.tracks[parent] < 0) continue;
+    const Vec3 bone = (1 / match.body_height) * (position(i) - position(parent));
+    sums_[i] += rotate(conjugate(global[parent]), bone);
+    counts_[i] += 1;
+  }
+}
+
+SparsePoints SparsePointsBuilder::finish() const {
+  SparsePoints points;
+  points.parents = layout_.parents;
+  std::vector<bool> carries(sums_.size(), false);
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    points.offsets.push_back((1 / std::max(counts_[i], 1.0)) * sums_[i]);
+    if (i > 0) carries[static_cast<std::size_t>(layout_.parents[i])] = true;
+  }
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    if (carries[i] || norm(layout_.bones[i]) < 0.5) continue;
+    const double length = norm(points.offsets[i]);
+    points.parents.push_back(static_cast<std::int32_t>(i));
+    points.offsets.push_back((length > shortest_end ? length : usual_end) * layout_.bones[i]);
+  }
+  return points;
+}
+
+SparsePoints marker_points(const BodyLayout& layout) {
+  SparsePoints points;
+  points.kind = BodyKind::markers;
+  points.parents.assign(layout.track_count(), -1);
+  points.offsets = layout.means;
+  return points;
+}
+
+PoseMatrix points_of(const SparsePoints& points, const BodyLayout& layout,
+                     const PoseMatrix& channels) {
+  PoseMatrix positions(channels.frames, 3 * points.count());
+  for_each_parallel(channels.frames, channels.values.size(), [&](std::size_t f) {
+    if (points.kind == BodyKind::markers) {
+      for (std::size_t p = 0; p < points.count(); ++p)
+        put(positions, f, p, points.offsets[p] + (1 / degrees_per_height) * three(channels, f, p));
+      return;
+    }
+    const std::vector<Quat> global = global_rotations(layout, channels, f);
+    for (std::size_t p = 1; p < points.count(); ++p) {
+      const auto parent = static_cast<std::size_t>(points.parents[p]);
+      put(positions, f, p, three(positions, f, parent) + rotate(global[parent], points.offsets[p]));
+    }
+  });
+  return positions;
+}
+
+std::vector<std::uint8_t> observed_points(const SparsePoints& points, const BodyLayout& layout,
+                                          const std::vector<std::uint8_t>& observed) {
+  const std::size_t width = layout.channel_count(), frames = observed.size() / width;
+  std::vector<std::uint8_t> result(frames * 3 * points.count(), 1);
+  std::vector<std::uint8_t> turned(layout.track_count());
+  for (std::size_t f = 0; f < frames; ++f) {
+    for (std::size_t i = 0; i < turned.size(); ++i) {
+      turned[i] = observed[f * width + 3 * i];
+      if (points.kind == BodyKind::joints && i > 0 &&
+          turned[static_cast<std::size_t>(layout.parents[i])] == 0)
+        turned[i] = 0;
+    }
+    for (std::size_t p = 0; p < points.count(); ++p) {
+      const std::int32_t parent = points.parents[p];
+      const bool is_root = points.kind == BodyKind::joints && parent < 0;
+      const std::size_t track = parent < 0 ? p : static_cast<std::size_t>(parent);
+      const std::uint8_t seen = is_root ? 1 : turned[track];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        result[(f * points.count() + p) * 3 + axis] = seen;
+    }
+  }
+  return result;
+}
+
+namespace {
+
+// Restores the joints of one frame.
+class FrameTurning {
+ public:
+  FrameTurning(const SparsePoints& points, const BodyLayout& layout, double stiffness)
+      : points_(points), layout_(layout), stiffness_(stiffness), below_(layout.track_count()) {
+    for (std::size_t p = 1; p < points.count(); ++p) {
+      if (norm(points.offsets[p]) > least_bone)
+        below_[static_cast<std::size_t>(points.parents[p])].push_back(p);
+    }
+  }
+
+  void turn(const PoseMatrix& positions, const PoseMatrix& guide, std::size_t frame,
+            PoseMatrix& channels) const {
+    std::vector<Quat> global(layout_.track_count());
+    for (std::size_t i = 0; i < global.size(); ++i) {
+      const Quat above = i == 0 ? Quat{} : global[static_cast<std::size_t>(layout_.parents[i])];
+      global[i] = normalized(above * local_rotation(layout_, guide, frame, i));
+      if (below_[i].empty()) continue;
+      Matrix3d wanted = stiffness_ * stiffness_ * matrix_of(global[i]);
+      for (const std::size_t p : below_[i]) {
+        const Vec3 bone = three(positions, frame, p) - three(positions, frame, i);
+        wanted += eigen(bone) * eigen(points_.offsets[p]).transpose();
+      }
+      global[i] = nearest_rotation(wanted);
+      const Quat local = conjugate(above) * global[i];
+      const Vec3 v = log(normalized(conjugate(layout_.references[i]) * local));
+      put(channels, frame, i,
+          degrees_per_radian *
+              continue_rotation_vector(v, radians_per_degree * three(guide, frame, i)));
+    }
+  }
+
+ private:
+  const SparsePoints& points_;
+  const BodyLayout& layout_;
+  double stiffness_;
+  std::vector<std::vector<std::size_t>> below_;
+};
+
+}  // namespace
+
+PoseMatrix channels_of(const SparsePoints& points, const BodyLayout& layout,
+                       const PoseMatrix& positions, const PoseMatrix& guide, double stiffness) {
+  PoseMatrix channels = guide;
+  if (points.kind == BodyKind::markers) {
+    for (std::size_t f = 0; f < guide.frames; ++f) {
+      for (std::size_t p = 0; p < points.count(); ++p)
+        put(channels, f, p, degrees_per_height * (three(positions, f, p) - points.offsets[p]));
+    }
+    return channels;
+  }
+  const FrameTurning turning(points, layout, stiffness);
+  for_each_parallel(guide.frames, positions.values.size(),
+                    [&](std::size_t f) { turning.turn(positions, guide, f, channels); });
+  return channels;
+}
+
+}  // namespace kinemend
