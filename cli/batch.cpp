@@ -19,9 +19,9 @@
 #include "batch_merge.hpp"
 #include "batch_record.hpp"
 #include "batch_summary.hpp"
+#include "clean_file.hpp"
 #include "clean_flags.hpp"
 #include "clean_plan.hpp"
-#include "clean_take.hpp"
 #include "commands.hpp"
 #include "config.hpp"
 #include "json.hpp"
@@ -207,7 +207,7 @@ Done copy_skeleton(const BatchItem& item, const std::string& output, const Batch
 
 Done clean_item(const BatchItem& item, const std::string& output, const Batch& batch,
                 const BatchKey& key) {
-  const Outcome outcome = try_take({item.input, output, true, item.name}, batch.plan);
+  const Outcome outcome = clean_file({item.input, output, true, item.name}, batch.plan);
   Done done;
   done.is_new = true;
   done.code = outcome.code;
@@ -451,11 +451,12 @@ void plan_steps(const Arguments& arguments, CleanPlan& plan) {
     throw Error(ErrorKind::usage,
                 "batch: --no-clean cannot be combined with --method or its "
                 "options");
-  if (!plan.settings.fill && !plan.settings.feet && !plan.fix_swaps && plan.to == nullptr)
+  if (!plan.settings.fill && !plan.settings.feet && !plan.settings.fix_swaps && plan.to == nullptr)
     throw Error(ErrorKind::usage,
                 "batch: --no-clean leaves nothing to do; add --fill auto, --feet auto, --fix-swaps "
                 "or --to FORMAT");
   plan.cleaner = std::make_unique<NoCleaner>();
+  plan.settings.leftovers = Leftovers::beyond_cleaning;
 }
 
 // Names the results of --to after their format. Only results in AMC include skeletons.

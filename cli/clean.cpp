@@ -4,9 +4,9 @@
 
 #include <string>
 
+#include "clean_file.hpp"
 #include "clean_flags.hpp"
 #include "clean_plan.hpp"
-#include "clean_take.hpp"
 #include "commands.hpp"
 #include "method_options.hpp"
 #include "take_jobs.hpp"
@@ -43,7 +43,7 @@ int run_clean(const Arguments& arguments) {
   run.force = plan.force;
   run.threads = plan.threads;
   return run_take_jobs(plan.takes, run, [&](const TakeJob& job, const TakeProgress& progress) {
-    return try_take(job, plan, progress);
+    return clean_file(job, plan, progress);
   });
 }
 

@@ -6,9 +6,10 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 #include "config.hpp"
-#include "kinemend/fill.hpp"
+#include "kinemend/clean.hpp"
 #include "method_options.hpp"
 #include "page_report.hpp"
 #include "take_jobs.hpp"
@@ -30,9 +31,14 @@ Flag exclude_flag() {
   return configurable(flag);
 }
 
-Flag with_group(std::string group, Flag flag) {
+// A setting of the library's table.
+Flag setting_flag(std::string_view name, std::string group, std::string details = {}) {
+  Flag flag;
+  flag.spec = clean_option(name);
+  if (std::holds_alternative<bool>(flag.spec.default_value)) flag.takes = Takes::nothing;
   flag.group = std::move(group);
-  return flag;
+  flag.details = std::move(details);
+  return configurable(flag);
 }
 
 Flag method_flag() {
@@ -63,14 +69,6 @@ Flag file_flag(std::string name, std::string value, std::string group, std::stri
   return flag;
 }
 
-std::vector<std::string> fill_choices() {
-  std::vector<std::string> names = {"off"};
-  for (const FillMethod& method : fill_methods()) {
-    if (!method.learned) names.emplace_back(method.name);
-  }
-  return names;
-}
-
 Flag noise_flag() {
   Flag flag = file_flag("noise", "white|auto|FILE", "Cleaning",
                         "what the noise is: measured in the take (auto), white, or as in a report",
@@ -79,35 +77,6 @@ Flag noise_flag() {
   flag.spec.default_value = std::string("auto");
   flag.has_default = true;
   return flag;
-}
-
-Flag fill_flag() {
-  Flag flag =
-      text_flag("fill", "METHOD", "Cleaning", "fill gaps, from the cleaned motion around them",
-                "auto tests the methods on artificial gaps, picks one for each gap, and "
-                "leaves a gap open when none is reliable. kinemend fill -h lists the methods.");
-  flag.spec.default_value = std::string("off");
-  flag.spec.choices = fill_choices();
-  flag.has_default = true;
-  return configurable(flag);
-}
-
-Flag feet_flag() {
-  Flag flag = text_flag(
-      "feet", "", "Cleaning", "stop standing feet from sliding, as the last step",
-      "auto keeps intentional slides; force holds every foot that stands. For joints; it moves "
-      "the legs and lowers the root. --map FILE gives unknown names of feet, in lines KNOWN "
-      "NAME,NAME IN THE TAKE.");
-  flag.spec.default_value = std::string("off");
-  flag.spec.choices = {"off", "auto", "force"};
-  flag.has_default = true;
-  return configurable(flag);
-}
-
-Flag root_position_flag() {
-  Flag flag = switch_flag("root_position", "Where", "also clean the root's path");
-  flag.spec.default_value = true;
-  return configurable(flag);
 }
 
 }  // namespace
@@ -130,34 +99,33 @@ std::vector<Flag> clean_output_flags() {
 std::vector<Flag> cleaning_flags() {
   std::vector<Flag> list = {
       method_flag(),
-      configurable(number_flag("strength", "", 1, 0, 1, "Cleaning",
-                               "how far to go from the input (0) to the cleaned motion (1)",
-                               "Typical: 0.5 to 1. Any strength above 0 repairs spikes and gaps "
-                               "in full.")),
-      configurable(number_flag("max_change_deg", "deg", 180, 0, 180, "Cleaning",
-                               "largest change of a rotation, for joints",
-                               "Typical: 5 to 30 against jitter alone; spikes need more.")),
-      configurable(number_flag("max_change", "", 0, 0, 1e12, "Cleaning",
-                               "largest change of a marker, in file units; 0: no limit",
-                               "Typical: 5 to 20 mm against jitter alone; spikes need more.")),
+      setting_flag("strength", "Cleaning",
+                   "Typical: 0.5 to 1. Any strength above 0 repairs spikes and gaps in full."),
+      setting_flag("max_change_deg", "Cleaning",
+                   "Typical: 5 to 30 against jitter alone; spikes need more."),
+      setting_flag("max_change", "Cleaning",
+                   "Typical: 5 to 20 mm against jitter alone; spikes need more."),
       configurable(source_flag()),
       noise_flag(),
-      fill_flag(),
-      configurable(
-          switch_flag("fill_all", "Cleaning", "fill every gap, also those that --fill refuses")),
-      feet_flag(),
-      configurable(switch_flag("fix_swaps", "Cleaning", "undo swapped marker labels first",
-                               "kinemend check lists them. For markers.")),
-      configurable(number_flag("peak_loss_limit", "", 0.1, 0, 1, "Cleaning",
-                               "share of a peak speed that may be lost without a warning",
-                               "Typical: 0.05 for impacts to 0.2 for slow motion.")),
-      configurable(with_group("Cleaning", unlabelled_flag())),
+      setting_flag(
+          "fill", "Cleaning",
+          "auto tests the methods on artificial gaps, picks one for each gap, and leaves a "
+          "gap open when none is reliable. kinemend fill -h lists the methods."),
+      setting_flag("fill_all", "Cleaning"),
+      setting_flag("feet", "Cleaning",
+                   "auto keeps intentional slides; force holds every foot that stands. For joints; "
+                   "it moves the legs and lowers the root. --map FILE gives unknown names of feet, "
+                   "in lines KNOWN NAME,NAME IN THE TAKE."),
+      setting_flag("fix_swaps", "Cleaning", "kinemend check lists them. For markers."),
+      setting_flag("peak_loss_limit", "Cleaning",
+                   "Typical: 0.05 for impacts to 0.2 for slow motion."),
+      setting_flag("unlabelled", "Cleaning", unlabelled_flag().details),
       preset_flag(),
       file_flag("config", "FILE", "Cleaning", "settings from a TOML file; they override --preset"),
       switch_flag("print_config", "Cleaning",
                   "print the settings as a commented TOML file, then exit"),
       exclude_flag(),
-      root_position_flag(),
+      setting_flag("root_position", "Where"),
       text_flag("range", "FIRST:LAST", "Where",
                 "what may change: frames 121:240, as the file numbers them, or seconds 1s:2.5s",
                 "Either end may be omitted. The method still sees the whole take."),

@@ -79,44 +79,15 @@ void pass_seed(const Arguments& arguments, const Method& method, OptionValues& o
   }
 }
 
-/// The settings of `--fill` and `--fill-all`.
-std::optional<FillSettings> fill_settings(const Settings& settings) {
-  const std::string method = std::get<std::string>(settings.values.find("fill")->second);
-  const bool fill_all = std::get<bool>(settings.values.find("fill_all")->second);
-  if (method == "off" && !fill_all) return std::nullopt;
-  FillSettings fill;
-  fill.method = method == "off" ? "auto" : method;
-  fill.fill_all = fill_all;
-  fill.unlabelled = std::get<bool>(settings.values.find("unlabelled")->second);
-  return fill;
-}
-
-/// The settings of `--feet`.
-std::optional<FeetSettings> feet_settings(const Settings& settings) {
-  const std::string mode = std::get<std::string>(settings.values.find("feet")->second);
-  if (mode == "off") return std::nullopt;
-  FeetSettings feet;
-  feet.mode = mode == "force" ? FeetMode::force : FeetMode::automatic;
-  return feet;
-}
-
-CleanSettings clean_settings(const Settings& settings) {
+CleanSettings settings_of(const Settings& settings) {
+  OptionValues values;
+  for (const OptionSpec& spec : clean_options())
+    values[spec.name] = settings.values.find(spec.name)->second;
+  CleanSettings result = clean_settings(values);
   const auto list = [&](std::string_view name) {
     const auto found = settings.lists.find(name);
     return found == settings.lists.end() ? std::vector<std::string>() : found->second;
   };
-  const auto number = [&](std::string_view name) {
-    return std::get<double>(settings.values.find(name)->second);
-  };
-  CleanSettings result;
-  result.source = parse_source(std::get<std::string>(settings.values.find("source")->second));
-  result.strength = number("strength");
-  result.max_change_deg = number("max_change_deg");
-  if (const double most = number("max_change"); most > 0) result.max_change = most;
-  result.peak_loss_limit = number("peak_loss_limit");
-  result.fill = fill_settings(settings);
-  result.feet = feet_settings(settings);
-  result.root_position = std::get<bool>(settings.values.find("root_position")->second);
   result.joints = list("joints");
   result.exclude = list("exclude");
   return result;
@@ -168,7 +139,7 @@ CleanPlan make_cleaning(const Arguments& arguments) {
   pass_seed(arguments, method, plan.options);
   plan.cleaner = make_cleaner(method.name, plan.options);
   plan.preset_note = preset_note(arguments, method);
-  plan.settings = clean_settings(settings);
+  plan.settings = settings_of(settings);
   plan.settings.noise = known_noise(arguments.text("noise"));
   if (arguments.given("contacts") && !plan.settings.feet) plan.settings.feet.emplace();
   if (plan.settings.feet)
@@ -179,7 +150,6 @@ CleanPlan make_cleaning(const Arguments& arguments) {
   plan.reading = read_options(arguments);
   plan.reading.strict = plan.strict;
   if (const std::string path = arguments.text("gaps"); !path.empty()) plan.gaps = read_gaps(path);
-  plan.fix_swaps = std::get<bool>(settings.values.find("fix_swaps")->second);
   plan.force = arguments.flag("force");
   plan.threads = static_cast<int>(arguments.whole("jobs"));
   return plan;

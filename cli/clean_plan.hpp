@@ -32,7 +32,6 @@ struct CleanPlan {
   ReadOptions reading;
   /// Bytes and name of the files of --gaps and --contacts; names and frames are checked per take.
   std::optional<std::pair<std::string, std::string>> gaps, contacts;
-  bool fix_swaps = false;
   bool cleans = true;  ///< false in a `batch --no-clean`, whose cleaner does nothing
   /// The format of the results of `batch`; null: each result has the format of its input.
   const Format* to = nullptr;

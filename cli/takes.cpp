@@ -334,9 +334,13 @@ std::vector<std::string> joints_of(const Arguments& arguments) {
 }
 
 Flag unlabelled_flag() {
-  return switch_flag(
-      "unlabelled", "Work", "also fill unlabelled points (*52, U_12), and use them",
-      "By default they are ignored: such a point often changes from one marker to another.");
+  Flag flag;
+  flag.spec = clean_option("unlabelled");
+  flag.takes = Takes::nothing;
+  flag.group = "Work";
+  flag.details =
+      "By default they are ignored: such a point often changes from one marker to another.";
+  return flag;
 }
 
 void append(std::vector<Flag>& list, std::vector<Flag> more) {
@@ -359,13 +363,12 @@ KnownNames names_of_map(const std::string& path) {
 }
 
 Flag source_flag() {
-  Flag flag = text_flag("source", "", "Cleaning", "what recorded the motion",
-                        "video, depth and suit: slow noise is removed, too. keyframed: only gaps "
-                        "change. unknown: what the file says, else only noise that the take "
-                        "shows is removed. For auto and learned.");
-  flag.spec.default_value = std::string(to_string(Source::unknown));
-  flag.spec.choices = source_names();
-  flag.has_default = true;
+  Flag flag;
+  flag.spec = clean_option("source");
+  flag.group = "Cleaning";
+  flag.details =
+      "video, depth and suit: slow noise is removed, too. keyframed: only gaps change. unknown: "
+      "what the file says, else only noise that the take shows is removed. For auto and learned.";
   return flag;
 }
 

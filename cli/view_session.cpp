@@ -11,9 +11,9 @@
 #include <optional>
 #include <variant>
 
+#include "clean_file.hpp"
 #include "clean_flags.hpp"
 #include "clean_plan.hpp"
-#include "clean_take.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "compare_page.hpp"
@@ -261,8 +261,9 @@ std::string ViewSession::clean_page(const ViewAsked& asked, const Turn& turn) {
   plan.on_read = [&](const Take& take) {
     plan.page->parts.emplace_back("why_not", json_text(why_not_methods(take)));
   };
-  Outcome outcome = try_take(plan.takes.jobs.front(), plan,
-                             [&](std::string_view stage, double done) { tell(turn, stage, done); });
+  Outcome outcome =
+      clean_file(plan.takes.jobs.front(), plan,
+                 [&](std::string_view stage, double done) { tell(turn, stage, done); });
   turn.check();
   if (outcome.code != 0) throw Error(ErrorKind::usage, outcome.error);
   return std::move(outcome.page);
@@ -359,7 +360,7 @@ ViewReply ViewSession::save(const ViewAsked& asked) {
                       run.force);
   } else {
     CleanPlan plan_of_take = make_clean_plan(arguments);
-    const Outcome outcome = try_take(plan_of_take.takes.jobs.front(), plan_of_take);
+    const Outcome outcome = clean_file(plan_of_take.takes.jobs.front(), plan_of_take);
     if (outcome.code != 0) throw Error(ErrorKind::usage, outcome.error);
   }
   written_.insert(output);

@@ -33,9 +33,9 @@ USES = {
     "papers/mall2017_recurrent": {"methods/prior"},
     "registry": {"methods/wiener", "methods/learned", "classic", "papers/courty2008_bilateral", "papers/lou2010_example",
                  "papers/xiao2015_sparse", "papers/dean2016_nonlocal", "papers/mall2017_recurrent"},
-    "clean": {"methods/auto", "feet"},
-    "check": {"clean", "methods/learned"},
-    "report": {"check"},
+    "check": {"methods/learned", "feet"},
+    "clean": {"check"},
+    "report": {"clean"},
     "live": {"io", "clean", "registry"},
     "all": {"report", "live"},  # the header that includes the stable ones
     "lab/damage": {"motion"},

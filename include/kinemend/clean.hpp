@@ -11,9 +11,12 @@
 #include <utility>
 #include <vector>
 
+#include "kinemend/check.hpp"
 #include "kinemend/cleaner.hpp"
 #include "kinemend/feet.hpp"
 #include "kinemend/fill.hpp"
+#include "kinemend/gaps.hpp"
+#include "kinemend/options.hpp"
 #include "kinemend/source.hpp"
 #include "kinemend/take.hpp"
 
@@ -27,8 +30,17 @@ struct KnownNoise {
   std::map<std::string, double> strengths;
 };
 
+/// Which faults of the result a report lists.
+enum class Leftovers {
+  none,
+  beyond_cleaning,  ///< faults of the input that no cleaning mends (`find_beyond_cleaning`)
+  all               ///< also why a take with faults comes back unchanged, which needs a whole check
+};
+
 /// The user's settings besides the method.
 struct CleanSettings {
+  bool fix_swaps = false;      ///< first exchange swapped labels (`find_swaps`); markers only
+  std::vector<NamedGap> gaps;  ///< then mark these samples as missing (`mark_gaps`)
   /// 0..1: geodesic blend from the input (0) to the cleaned rotation (1). It scales smoothing and
   /// the correction of feet. Spikes are repaired and gaps are filled in full at any value above 0.
   /// 0 changes nothing.
@@ -60,11 +72,22 @@ struct CleanSettings {
   /// A leg keeps its slide unless all its joints are selected. Contacts are given in frames of the
   /// whole take. Markers are measured points and are not moved; a warning says so.
   std::optional<FeetSettings> feet;
+  Leftovers leftovers = Leftovers::all;  ///< faults of the result to be listed
   /// Receives the current stage and its progress (0..1, never decreasing), from one thread at a
   /// time. Stages are "cleaning", then "filling" and "feet" if asked for; each runs once from 0 to
   /// 1.
   std::function<void(std::string_view stage, double done)> progress;
 };
+
+/// The settings that are single values, each with its range, default and one sentence: command
+/// line, configuration files, Python and the page follow from this table. `fill` and `feet` are
+/// "off" or how it is done; `max_change` 0 is no limit.
+const std::vector<OptionSpec>& clean_options();
+/// Returns one of them. Errors: `ErrorKind::usage` for another name.
+const OptionSpec& clean_option(std::string_view name);
+/// Returns settings with these values of the table and the defaults of the others. Errors:
+/// `ErrorKind::usage` for an unknown name or a value out of range.
+CleanSettings clean_settings(const OptionValues& values);
 
 /// Whether the tracks of a take are joints or markers.
 enum class TakeKind { joints, markers };
@@ -107,12 +130,21 @@ struct TrackSummary {
   std::size_t peak_frames = 1;
 };
 
+/// A fault of a take that cleaning left unchanged.
+struct Leftover {
+  std::string what;  ///< "34 frozen or bridged spans left"
+  /// The command or option that repairs it, or why it was left; `TAKE` stands for the take's path.
+  std::string mend;
+};
+
 /// The report of cleaning a take of either kind.
 struct CleanReport {
   TakeKind kind = TakeKind::joints;
-  std::string method;  ///< `Cleaner::name`
-  TakeSource source;   ///< the source that was used for the take, and why
-  std::string unit;    ///< "deg" for joints; the file's unit for markers, empty if unknown
+  std::string method;             ///< `Cleaner::name`
+  OptionValues options;           ///< `Cleaner::options`
+  std::vector<MarkerSwap> swaps;  ///< swaps that were undone
+  TakeSource source;              ///< the source that was used for the take, and why
+  std::string unit;  ///< "deg" for joints; the file's unit for markers, empty if unknown
   std::size_t frames = 0;
   std::size_t calibration_frames = 0;  ///< at the start, left alone; joints only
   double frame_rate_hz = 0;
@@ -131,6 +163,7 @@ struct CleanReport {
   std::optional<FeetReport> feet;
   std::vector<FallBack> fall_backs;  ///< fall-backs of the method
   std::vector<std::string> notes;    ///< `CleanTrace::notes`
+  std::vector<Leftover> leftovers;   ///< faults of the result, as `CleanSettings::leftovers` asks
   std::vector<std::string> warnings;
   double seconds = 0;  ///< time the cleaning took
 };
@@ -140,16 +173,16 @@ struct CleanResult {
   CleanReport report;
 };
 
-/// Cleans a take: runs the cleaner, fills gaps if asked (this does not affect measured samples),
-/// holds feet if asked, blends by strength, range and largest change, and reports. Samples outside
-/// the selection and samples whose change is below rounding keep their exact value.
-/// Joints: calibration frames are set aside; joints without rotation channels keep their exact
-/// value; joints with one or two get rotations that these channels can express.
-/// Markers: missing samples that are not filled stay missing; points that are angles or forces keep
-/// their exact value; residuals are kept, and are 0 for filled samples; `max_change_deg` and
-/// `root_position` are ignored.
-/// Errors: `ErrorKind::usage` for settings out of range, a pattern that matches nothing, and
-/// markers with a method that works on joints only.
+/// Cleans a take: undoes swaps and marks gaps if asked, runs the cleaner, fills gaps if asked (this
+/// does not affect measured samples), holds feet if asked, blends by strength, range and largest
+/// change, and reports. Samples outside the selection and samples whose change is below rounding
+/// keep their exact value. Joints: calibration frames are set aside; joints without rotation
+/// channels keep their exact value; joints with one or two get rotations that these channels can
+/// express. Markers: missing samples that are not filled stay missing; points that are angles or
+/// forces keep their exact value; residuals are kept, and are 0 for filled samples;
+/// `max_change_deg` and `root_position` are ignored. Errors: `ErrorKind::usage` for settings out of
+/// range, a pattern that matches nothing, a gap that the take cannot have, and markers with a
+/// method that works on joints only.
 CleanResult clean_take(const Take& take, const Cleaner& cleaner,
                        const CleanSettings& settings = {});
 /// Consumes the take; halves peak memory for long takes.

@@ -46,19 +46,6 @@ TakeFacts take_facts(const Take& take);
 /// Returns `TakeFacts::contents`.
 std::string contents_without_markers(const Take& clip);
 
-/// A fault of a take that cleaning left unchanged.
-struct Leftover {
-  std::string what;  ///< "34 frozen or bridged spans left"
-  std::string mend;  ///< the command or option that repairs it, or why it was left
-};
-
-/// The result of `clean`.
-struct CleanOutcome {
-  CleanReport report;
-  OptionValues options;           ///< options of the method
-  std::vector<MarkerSwap> swaps;  ///< swaps that were undone
-  std::vector<Leftover> leftovers;
-};
 /// The result of `fill`.
 struct FillOutcome {
   FillReport report;
@@ -75,10 +62,11 @@ struct CompareOutcome {
 /// "none", "rigid", "gain-offset".
 std::string_view to_string(MarkerFit fit);
 
-/// One take and the result of a command. `FeetReport` is the result of `contacts`.
+/// One take and the result of a command. `CleanReport` is that of `clean`, `FeetReport` is the
+/// result of `contacts`.
 struct Report {
   TakeFacts take;
-  std::variant<CleanOutcome, CheckReport, FillOutcome, CompareOutcome, FeetReport> result;
+  std::variant<CleanReport, CheckReport, FillOutcome, CompareOutcome, FeetReport> result;
 };
 
 /// "noisy: 1.5 deg jitter on 31 joints, 52 spikes", "1 serious, 2 warnings", "3 gaps: 2 filled, 1

@@ -49,7 +49,7 @@ void sizes_of_pages(const Arguments& arguments) {
         noisy(repeated(synthesize({.duration_s = length.synth_s}), length.times), 1.5, 0.004, 1);
     const auto cleaner = make_cleaner("auto", {});
     CleanResult cleaned = clean_take(take, *cleaner);
-    const Report report{take_facts(take), CleanOutcome{std::move(cleaned.report), {}, {}, {}}};
+    const Report report{take_facts(take), std::move(cleaned.report)};
     table.add({length.name, fmt::format("{}", take.frame_count()),
                figure(megabytes(report, take, &cleaned.take)),
                figure(megabytes(report, take, nullptr))});

@@ -175,26 +175,29 @@ def clean(
     if isinstance(method, Cleaner) and (options or more):
         raise TypeError("options go into the Cleaner")
     take = taken(take)
+    settings = {
+        "strength": float(strength),
+        "max_change_deg": float(max_change_deg),
+        "root_position": bool(root_position),
+        "source": source,
+        "peak_loss_limit": float(peak_loss_limit),
+        "fill": "off" if fill is None else fill,
+        "fill_all": bool(fill_all),
+        "unlabelled": bool(unlabelled),
+        "feet": "off" if feet is None else feet,
+        "fix_swaps": bool(fix_swaps),
+    }
     cleaned, report = _core.clean(
         take,
         cleaner._core,
-        strength=strength,
-        max_change_deg=max_change_deg,
+        settings,
         max_change=max_change,
         joints=joints,
         exclude=exclude,
-        root_position=root_position,
         range=range,
-        source=source,
         noise=_noise(noise),
-        peak_loss_limit=peak_loss_limit,
-        fill=fill,
-        fill_all=fill_all,
-        unlabelled=unlabelled,
-        feet=feet,
         feet_names=feet_names or {},
         contacts=None if contacts is None else _from_zero(take, contacts),
-        fix_swaps=fix_swaps,
         threads=threads,
         progress=progress,
     )

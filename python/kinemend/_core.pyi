@@ -182,28 +182,20 @@ def method_table() -> list[dict[str, Any]]: ...
 def fill_method_table() -> list[dict[str, Any]]: ...
 def damage_table() -> list[dict[str, Any]]: ...
 def training_table() -> list[dict[str, Any]]: ...
+def clean_option_table() -> list[dict[str, Any]]: ...
 def format_table() -> list[dict[str, Any]]: ...
 def clean(
     take: Take,
     cleaner: CoreCleaner,
+    settings: Mapping[str, _Option],
     *,
-    strength: float,
-    max_change_deg: float,
     max_change: float,
     joints: Iterable[str],
     exclude: Iterable[str],
-    root_position: bool,
     range: tuple[int, int] | None,
     noise: tuple[float, Mapping[str, float]] | None,
-    source: str,
-    peak_loss_limit: float,
-    fill: str | None,
-    fill_all: bool,
-    unlabelled: bool,
-    feet: str | None,
     feet_names: Mapping[str, str],
     contacts: list[tuple[str, str, int, int]] | None,
-    fix_swaps: bool,
     threads: int,
     progress: _Progress,
 ) -> tuple[Take, CoreReport]: ...

@@ -39,12 +39,9 @@ KnownNames names_of(const py::dict& names) {
 // Leg, part, and first and last frame, counted from 0.
 using Contact = std::tuple<std::string, std::string, std::size_t, std::size_t>;
 
-FeetSettings feet_settings(const Take& take, const std::string& mode, const py::dict& names,
-                           const std::optional<std::vector<Contact>>& contacts) {
-  FeetSettings feet;
-  feet.mode = mode == "force" ? FeetMode::force : FeetMode::automatic;
-  feet.names = names_of(names);
-  if (!contacts) return feet;
+void set_contacts(FeetSettings& feet, const Take& take,
+                  const std::optional<std::vector<Contact>>& contacts) {
+  if (!contacts) return;
   // The parser of side files checks the contacts.
   std::string text;
   const auto first = first_frame_number(take);
@@ -57,7 +54,6 @@ FeetSettings feet_settings(const Take& take, const std::string& mode, const py::
   } catch (const Error& error) {
     throw Error(ErrorKind::usage, error.what());
   }
-  return feet;
 }
 
 std::optional<KnownNoise> noise_of(const py::object& noise) {
@@ -69,33 +65,11 @@ std::optional<KnownNoise> noise_of(const py::object& noise) {
   return known;
 }
 
-// The fill step itself would check the method only if there is a gap.
-void check_fill_method(const std::string& name) {
-  std::vector<std::string> names;
-  for (const FillMethod& method : fill_methods()) {
-    if (method.name == name) return;
-    names.emplace_back(method.name);
-  }
-  throw Error(ErrorKind::usage, "fill: there is no method " + name + suggestion(name, names));
-}
-
-std::optional<FillSettings> fill_settings(const py::object& method, bool fill_all,
-                                          bool unlabelled) {
-  if (method.is_none() && !fill_all) return std::nullopt;
-  FillSettings fill;
-  if (!method.is_none()) fill.method = method.cast<std::string>();
-  check_fill_method(fill.method);
-  fill.fill_all = fill_all;
-  fill.unlabelled = unlabelled;
-  return fill;
-}
-
 // The work of cleaning, without Python objects.
 struct CleanWork {
   HeldTakePtr held;
   HeldCleanerPtr cleaner;
   CleanSettings settings;
-  bool fix_swaps = false;
   std::size_t threads = 0;
 };
 
@@ -104,45 +78,30 @@ std::pair<HeldTakePtr, ReportPtr> cleaned(CleanWork& work, const Tell& tell) {
   std::optional<ThreadLimit> limit;
   if (work.threads > 0) limit.emplace(work.threads);
   work.settings.progress = tell;
-  CleanOutcome outcome;
-  outcome.options = work.cleaner->cleaner->options();
-  Take take = work.held->take;
-  if (work.fix_swaps && !take.has_joints()) {
-    outcome.swaps = find_swaps(take);
-    undo_swaps(take, outcome.swaps);
-  }
-  CleanResult result;
-  run_isolated(
-      [&] { result = clean_take(std::move(take), *work.cleaner->cleaner, work.settings); });
-  outcome.report = std::move(result.report);
-  ReportPtr report = report_of(*work.held, result.take, std::move(outcome));
+  CleanResult result = clean_take(work.held->take, *work.cleaner->cleaner, work.settings);
+  ReportPtr report = report_of(*work.held, result.take, std::move(result.report));
   return {hold(std::move(result.take), work.held->diagnostics), std::move(report)};
 }
 
-py::tuple clean(const HeldTakePtr& held, const HeldCleanerPtr& cleaner, double strength,
-                double max_change_deg, double max_change, const py::iterable& joints,
-                const py::iterable& exclude, bool root_position,
+// `values`: those of `clean_options`.
+py::tuple clean(const HeldTakePtr& held, const HeldCleanerPtr& cleaner, const py::dict& values,
+                double max_change, const py::iterable& joints, const py::iterable& exclude,
                 const std::optional<std::pair<std::size_t, std::size_t>>& range,
-                const py::object& noise, const std::string& source, double peak_loss_limit,
-                const py::object& fill, bool fill_all, bool unlabelled,
-                const std::optional<std::string>& feet, const py::dict& feet_names,
-                const std::optional<std::vector<Contact>>& contacts, bool fix_swaps,
-                std::size_t threads, const py::object& progress) {
-  CleanWork work{held, cleaner, {}, fix_swaps, threads};
+                const py::object& noise, const py::dict& feet_names,
+                const std::optional<std::vector<Contact>>& contacts, std::size_t threads,
+                const py::object& progress) {
+  CleanWork work{held, cleaner, clean_settings(option_values_of(values)), threads};
   CleanSettings& settings = work.settings;
-  settings.strength = strength;
-  settings.max_change_deg = max_change_deg;
   settings.max_change = max_change;
   settings.joints = all_bytes_of(joints);
   settings.exclude = all_bytes_of(exclude);
-  settings.root_position = root_position;
   settings.range = range;
   settings.noise = noise_of(noise);
-  settings.source = parse_source(source);
-  settings.peak_loss_limit = peak_loss_limit;
-  settings.fill = fill_settings(fill, fill_all, unlabelled);
-  if (feet || contacts)
-    settings.feet = feet_settings(held->take, feet.value_or("auto"), feet_names, contacts);
+  if (contacts && !settings.feet) settings.feet.emplace();
+  if (settings.feet) {
+    settings.feet->names = names_of(feet_names);
+    set_contacts(*settings.feet, held->take, contacts);
+  }
   std::pair<HeldTakePtr, ReportPtr> result;
   run_watched(progress, [&](const Tell& tell) { result = cleaned(work, tell); });
   return py::make_tuple(result.first, result.second);
@@ -182,10 +141,9 @@ void bind_report(py::module_& module) {
 void bind_cleaning(py::module_& module) {
   bind_cleaner(module);
   bind_report(module);
-  module.def("clean", clean, "take"_a, "cleaner"_a, py::kw_only(), "strength"_a, "max_change_deg"_a,
-             "max_change"_a, "joints"_a, "exclude"_a, "root_position"_a, "range"_a, "noise"_a,
-             "source"_a, "peak_loss_limit"_a, "fill"_a, "fill_all"_a, "unlabelled"_a, "feet"_a,
-             "feet_names"_a, "contacts"_a, "fix_swaps"_a, "threads"_a, "progress"_a);
+  module.def("clean", clean, "take"_a, "cleaner"_a, "settings"_a, py::kw_only(), "max_change"_a,
+             "joints"_a, "exclude"_a, "range"_a, "noise"_a, "feet_names"_a, "contacts"_a,
+             "threads"_a, "progress"_a);
 }
 
 }  // namespace kinemend::python

@@ -5,6 +5,7 @@
 
 #include "conversions.hpp"
 #include "held.hpp"
+#include "kinemend/clean.hpp"
 #include "kinemend/cleaner.hpp"
 #include "kinemend/experimental/live.hpp"
 #include "kinemend/experimental/model.hpp"
@@ -101,9 +102,12 @@ py::list format_table() {
   return list;
 }
 
+py::list clean_option_table() { return options_of(clean_options()); }
+
 }  // namespace
 
 void bind_tables(py::module_& module) {
+  module.def("clean_option_table", clean_option_table);
   module.def("method_table", method_table);
   module.def("fill_method_table", fill_method_table);
   module.def("damage_table", damage_table);

@@ -1,4 +1,5 @@
-// The main path of `clean`: runs a cleaner on a take, fills gaps, holds feet, blends, and reports.
+// The main path: mends labels, runs a cleaner on a take, fills gaps, holds feet, blends, and
+// reports.
 #include "kinemend/clean.hpp"
 
 #include <algorithm>
@@ -10,8 +11,10 @@
 #include <utility>
 
 #include "clean/changes.hpp"
+#include "clean/leftovers.hpp"
 #include "clean/steps.hpp"
 #include "cleaner/pieces.hpp"
+#include "kinemend/experimental/threads.hpp"
 #include "methods/auto/measured_noise.hpp"
 #include "motion/calibration.hpp"
 
@@ -241,80 +244,76 @@ std::vector<NoiseCharacter> noise_of(const MeasuredNoise& measured, const CleanT
   return noise;
 }
 
-// Filling and holding feet read many tracks at once, so a copy of the whole motion is cleaned.
-void clean_whole(Take& motion, const Cleaner& cleaner, const Work& work, CleanReport& report) {
-  const CleanSettings& settings = work.settings;
-  const TakeView take = view_of(motion, work.selection);
-  Take cleaned = motion;
-  const Stage cleaning(settings, "cleaning");
-  InPlaceTrace trace = clean_in_place(cleaner, cleaned, work.selection, cleaning.shares());
+// Takes over what the cleaner states about the whole take.
+void state_trace(const CleanTrace& trace, const Work& work, CleanReport& report) {
   report.warnings.insert(report.warnings.end(), trace.warnings.begin(), trace.warnings.end());
   report.fall_backs = trace.fall_backs;
   report.notes = trace.notes;
   report.noise = noise_of(work.measured, trace);
-  cleaning.finish();
-  if (settings.fill) {
-    const Stage stage(settings, "filling");
-    // Several threads fill gaps; one at a time checks for a cancellation.
-    std::mutex asking;
-    const FillCheck check = [&] {
-      const std::lock_guard lock(asking);
-      stage.ask();
-    };
-    report.fill = fill_step(motion, cleaner, work.selection, work.weights, *settings.fill, trace,
-                            cleaned, check);
-    for (GapOutcome& outcome : report.fill.gaps) {
-      outcome.gap.first_frame += work.first;
-      outcome.gap.last_frame += work.first;
-    }
-    report.warnings.insert(report.warnings.end(), report.fill.warnings.begin(),
-                           report.fill.warnings.end());
-    state_filled(take, view_of(cleaned), trace);
-    stage.finish();
+}
+
+void fill(const Work& work, const Take& motion, const Cleaner& cleaner, Take& cleaned,
+          InPlaceTrace& trace, CleanReport& report) {
+  const Stage stage(work.settings, "filling");
+  // Several threads fill gaps; one at a time checks for a cancellation.
+  std::mutex asking;
+  const FillCheck check = [&] {
+    const std::lock_guard lock(asking);
+    stage.ask();
+  };
+  report.fill = fill_step(motion, cleaner, work.selection, work.weights, *work.settings.fill, trace,
+                          cleaned, check);
+  for (GapOutcome& outcome : report.fill.gaps) {
+    outcome.gap.first_frame += work.first;
+    outcome.gap.last_frame += work.first;
   }
-  if (settings.feet) hold_feet(work, cleaned, trace, report);
+  report.warnings.insert(report.warnings.end(), report.fill.warnings.begin(),
+                         report.fill.warnings.end());
+  state_filled(view_of(motion, work.selection), view_of(cleaned), trace);
+  stage.finish();
+}
+
+// Filling and holding feet read many tracks at once, so a copy of the whole motion is cleaned.
+CleanTrace clean_whole(Take& motion, const Cleaner& cleaner, const Work& work, Finisher& finisher,
+                       CleanReport& report) {
+  Take cleaned = motion;
+  const Stage cleaning(work.settings, "cleaning");
+  InPlaceTrace trace = clean_in_place(cleaner, cleaned, work.selection, cleaning.shares());
+  state_trace(trace, work, report);
+  cleaning.finish();
+  if (work.settings.fill) fill(work, motion, cleaner, cleaned, trace, report);
+  if (work.settings.feet) hold_feet(work, cleaned, trace, report);
   const TakeView result = view_of(cleaned);
-  Finisher finisher(work, take, motion);
-  for_each_parallel(take.tracks.size(), take.tracks.size() * take.frames, [&](std::size_t n) {
+  for_each_parallel(result.tracks.size(), result.tracks.size() * result.frames, [&](std::size_t n) {
     finisher.finish(n, {rotations_of(result.tracks[n]), positions_of(result.tracks[n]),
                         std::move(trace.actions[n]), trace.coloured[n]});
   });
-  finisher.report(trace, report);
-  if (!motion.has_joints()) return;
-  motion.observed = cleaned.observed;
-  motion.observed_positions = cleaned.observed_positions;
-}
-
-// Each track replaces its input as soon as it is cleaned, so only one copy of the take exists.
-void clean_track_by_track(Take& motion, const Cleaner& cleaner, const Work& work,
-                          CleanReport& report) {
-  const TakeView take = view_of(motion, work.selection);
-  Finisher finisher(work, take, motion);
-  const Stage stage(work.settings, "cleaning");
-  const CleanTrace trace = cleaner.clean(
-      take,
-      [&](std::size_t track, CleanedTrack cleaned) { finisher.finish(track, std::move(cleaned)); },
-      stage.shares());
-  report.warnings.insert(report.warnings.end(), trace.warnings.begin(), trace.warnings.end());
-  report.fall_backs = trace.fall_backs;
-  report.notes = trace.notes;
-  report.noise = noise_of(work.measured, trace);
-  finisher.finish_others();
-  finisher.report(trace, report);
-  stage.finish();
+  if (motion.has_joints()) {
+    motion.observed = cleaned.observed;
+    motion.observed_positions = cleaned.observed_positions;
+  }
+  return trace;
 }
 
 void clean_motion(Take& motion, const Cleaner& cleaner, Work work, CleanReport& report) {
   work.scale.first_frame = work.first;
   work.scale.frame_rate_hz = motion.frame_rate_hz;
   work.scale.peak_loss_limit = work.settings.peak_loss_limit;
-  work.measured = measure_noise(view_of(motion, work.selection));
-  const bool holds_feet = work.settings.feet && motion.has_joints();
-  if (work.settings.fill || holds_feet) {
-    clean_whole(motion, cleaner, work, report);
-  } else {
-    clean_track_by_track(motion, cleaner, work, report);
-  }
+  const TakeView take = view_of(motion, work.selection);
+  work.measured = measure_noise(take);
+  Finisher finisher(work, take, motion);
+  if (work.settings.fill || (work.settings.feet && motion.has_joints()))
+    return finisher.report(clean_whole(motion, cleaner, work, finisher, report), report);
+  // Each track replaces its input as soon as it is cleaned, so only one copy of the take exists.
+  const Stage stage(work.settings, "cleaning");
+  const TrackSink finish = [&](std::size_t track, CleanedTrack cleaned) {
+    finisher.finish(track, std::move(cleaned));
+  };
+  const CleanTrace trace = cleaner.clean(take, finish, stage.shares());
+  state_trace(trace, work, report);
+  finisher.finish_others();
+  finisher.report(trace, report);
+  stage.finish();
 }
 
 class Stopwatch {
@@ -330,6 +329,7 @@ class Stopwatch {
 CleanReport report_for(const Take& take, const Cleaner& cleaner, const CleanSettings& settings) {
   CleanReport report;
   report.method = cleaner.name();
+  report.options = cleaner.options();
   report.source = source_of(take, settings.source);
   report.frames = take.frame_count();
   report.frame_rate_hz = take.frame_rate_hz;
@@ -368,6 +368,13 @@ Work work_of(const Take& take, const CleanSettings& settings, const CleanReport&
                  : rounding_of_body * report.body_height};
 }
 
+std::vector<MarkerSwap> undo_found_swaps(Take& take, const CleanSettings& settings) {
+  if (!settings.fix_swaps || take.has_joints()) return {};
+  std::vector<MarkerSwap> swaps = find_swaps(take);
+  undo_swaps(take, swaps);
+  return swaps;
+}
+
 }  // namespace
 
 CleanResult clean_take(const Take& take, const Cleaner& cleaner, const CleanSettings& settings) {
@@ -375,18 +382,27 @@ CleanResult clean_take(const Take& take, const Cleaner& cleaner, const CleanSett
 }
 
 CleanResult clean_take(Take&& take, const Cleaner& cleaner, const CleanSettings& settings) {
-  const Stopwatch stopwatch;
   check_settings(settings, take.frame_count());
+  std::vector<MarkerSwap> swaps = undo_found_swaps(take, settings);
+  mark_gaps(take, settings.gaps);
+  std::vector<Leftover> leftovers = leftovers_beyond_cleaning(take, settings);
+  const Stopwatch stopwatch;
   CleanResult result{{}, report_for(take, cleaner, settings)};
   CleanReport& report = result.report;
+  report.swaps = std::move(swaps);
+  report.leftovers = std::move(leftovers);
   if (!take.has_joints()) warn_of_feet(settings, report);
   const Work work = work_of(take, settings, report);
   result.take = std::move(take);
-  on_motion(result.take, work.first,
-            [&](Take& motion) { clean_motion(motion, cleaner, work, report); });
+  // A thread that waits for a part of this take must not begin another take of a batch.
+  run_isolated([&] {
+    on_motion(result.take, work.first,
+              [&](Take& motion) { clean_motion(motion, cleaner, work, report); });
+  });
   if (report.feet && takes_part_only(settings) && !report.feet->contacts.empty())
     report.feet->after = feet_figures(result.take, report.feet->contacts);
   report.seconds = stopwatch.seconds();
+  explain_unchanged(result.take, settings, report);
   return result;
 }
 

@@ -1,22 +1,11 @@
 // Matches the patterns of the settings with the names of a take.
 #include "clean/steps.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-#include <limits>
-
-#include "kinemend/error.hpp"
 #include "motion/name_pattern.hpp"
 
 namespace kinemend {
 
 namespace {
-
-void check_number(const char* name, double value, double maximum) {
-  if (value >= 0 && value <= maximum) return;
-  throw Error(ErrorKind::usage, fmt::format("{}: {} is outside 0 to {}", name, value, maximum));
-}
 
 TakeNoise noise_of(const std::vector<std::string>& names, const CleanSettings& settings) {
   TakeNoise noise;
@@ -29,34 +18,7 @@ TakeNoise noise_of(const std::vector<std::string>& names, const CleanSettings& s
   return noise;
 }
 
-void check_noise(const KnownNoise& noise) {
-  check_number("noise correlation", noise.correlation, 0.99);
-  for (const auto& [name, strength] : noise.strengths) {
-    if (!(strength > 0 && std::isfinite(strength)))
-      throw Error(ErrorKind::usage,
-                  fmt::format("noise of '{}': {} is not above 0", name, strength));
-  }
-}
-
 }  // namespace
-
-void check_settings(const CleanSettings& settings, std::size_t frames) {
-  check_number("strength", settings.strength, 1);
-  check_number("max_change_deg", settings.max_change_deg, 180);
-  check_number("max_change", settings.max_change, std::numeric_limits<double>::infinity());
-  check_number("peak_loss_limit", settings.peak_loss_limit, 1);
-  if (settings.noise) check_noise(*settings.noise);
-  if (settings.fill && !settings.fill->names.empty())
-    throw Error(ErrorKind::usage,
-                "fill: what is filled is what may change; it has no names of its own");
-  if (!settings.range) return;
-  const auto [first, last] = *settings.range;
-  if (first > last || last >= frames) {
-    throw Error(ErrorKind::usage,
-                fmt::format("range: frames {} to {} are not in a take of frames 0 to {}", first,
-                            last, frames == 0 ? 0 : frames - 1));
-  }
-}
 
 Selection selection_of(const Take& take, const CleanSettings& settings) {
   Selection selection;

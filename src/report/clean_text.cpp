@@ -117,10 +117,9 @@ std::string gaps_text(const CleanReport& report, std::int64_t first_frame, bool 
   return text + unlabelled;
 }
 
-std::string swap_text(const CleanOutcome& outcome, std::int64_t first_frame) {
-  const CleanReport& report = outcome.report;
+std::string swap_text(const CleanReport& report, std::int64_t first_frame) {
   std::string text;
-  for (const MarkerSwap& swap : outcome.swaps) {
+  for (const MarkerSwap& swap : report.swaps) {
     text += fmt::format("  {} and {} were swapped in frames {} to {}\n",
                         printable_name(report.tracks[swap.first_marker].name),
                         printable_name(report.tracks[swap.second_marker].name),
@@ -130,10 +129,10 @@ std::string swap_text(const CleanOutcome& outcome, std::int64_t first_frame) {
   return text;
 }
 
-std::string leftovers_text(const CleanOutcome& outcome) {
+std::string leftovers_text(const TakeFacts& take, const CleanReport& report) {
   std::string text;
-  for (const Leftover& leftover : outcome.leftovers)
-    text += fmt::format("  {} ({})\n", leftover.what, leftover.mend);
+  for (const Leftover& leftover : report.leftovers)
+    text += fmt::format("  {} ({})\n", leftover.what, advice_of(leftover, take));
   return text;
 }
 
@@ -177,8 +176,7 @@ std::size_t count_fallen_back(const CleanReport& report) {
 
 }  // namespace
 
-std::string clean_verdict(const TakeFacts& take, const CleanOutcome& outcome) {
-  const CleanReport& report = outcome.report;
+std::string clean_verdict(const TakeFacts& take, const CleanReport& report) {
   if (!take.contents.empty()) return take.contents + ": nothing to clean";
   const std::size_t changed = tracks_changed(report);
   const std::size_t spikes = count_spans(report, Action::despiked);
@@ -186,9 +184,9 @@ std::string clean_verdict(const TakeFacts& take, const CleanOutcome& outcome) {
   const std::size_t left = gaps_left(report);
   std::vector<std::string> left_over;
   if (left > 0) left_over.push_back(counted(left, "gap") + " left");
-  for (const Leftover& leftover : outcome.leftovers) left_over.push_back(leftover.what);
+  for (const Leftover& leftover : report.leftovers) left_over.push_back(leftover.what);
   const std::string swaps =
-      outcome.swaps.empty() ? "" : counted(outcome.swaps.size(), "swap") + " of markers undone";
+      report.swaps.empty() ? "" : counted(report.swaps.size(), "swap") + " of markers undone";
   if (changed == 0 && report.root_max_change == 0) {
     if (!swaps.empty()) left_over.insert(left_over.begin(), swaps);
     if (left_over.empty() && report.warnings.empty()) return "clean: nothing changed";
@@ -220,15 +218,15 @@ std::string clean_verdict(const TakeFacts& take, const CleanOutcome& outcome) {
     all += fmt::format("; {} in place of {} for {}", report.fall_backs.front().method,
                        report.method, counted(count, noun_of(report.kind)));
   if (noise.size >= noticeable_noise(report)) return "noisy: " + all;
-  if (spikes + gaps + outcome.swaps.size() > 0) return "damaged: " + all;
+  if (spikes + gaps + report.swaps.size() > 0) return "damaged: " + all;
   return noise.size > 0 ? "nearly clean: " + all : "smoothed: " + all;
 }
 
 namespace {
 
 // Returns the take's name, the verdict and the output path on one line.
-std::string headline(const TakeFacts& take, const CleanOutcome& outcome, bool colours) {
-  const std::string result = clean_verdict(take, outcome);
+std::string headline(const TakeFacts& take, const CleanReport& report, bool colours) {
+  const std::string result = clean_verdict(take, report);
   const bool is_good = result.compare(0, 5, "noisy") != 0 && result.compare(0, 7, "damaged") != 0;
   const std::string line = fmt::format(
       "{}: {}", shown_name(take), painted(is_good ? Paint::green : Paint::yellow, result, colours));
@@ -251,9 +249,8 @@ std::string left_text(const CleanReport& report) {
 }
 
 // Returns a table of the changes, the gaps, and the totals.
-std::string details(const TakeFacts& take, const CleanOutcome& outcome, bool all_rows) {
+std::string details(const TakeFacts& take, const CleanReport& report, bool all_rows) {
   if (!take.contents.empty()) return "";
-  const CleanReport& report = outcome.report;
   std::string text = fmt::format("  {}, method {}",
                                  length_text(report.frames, report.frame_rate_hz), report.method);
   if (report.calibration_frames > 0) {
@@ -274,8 +271,8 @@ std::string details(const TakeFacts& take, const CleanOutcome& outcome, bool all
                         noise_words(noise, report.kind, report.unit, report.frame_rate_hz));
   text += left_text(report);
   for (const std::string& note : report.notes) text += fmt::format("  {}\n", note);
-  text += fall_backs_text(report, all_rows) + swap_text(outcome, take.first_frame) +
-          gaps_text(report, take.first_frame, all_rows) + leftovers_text(outcome);
+  text += fall_backs_text(report, all_rows) + swap_text(report, take.first_frame) +
+          gaps_text(report, take.first_frame, all_rows) + leftovers_text(take, report);
   if (report.feet) text += feet_text(*report.feet, take.first_frame, all_rows);
   text += fmt::format("  {} of {} changed, {} repaired", tracks_changed(report),
                       counted(tracks_counted(report), noun_of(report.kind)),
@@ -288,10 +285,10 @@ std::string details(const TakeFacts& take, const CleanOutcome& outcome, bool all
 
 }  // namespace
 
-std::string clean_text(const TakeFacts& take, const CleanOutcome& outcome,
+std::string clean_text(const TakeFacts& take, const CleanReport& report,
                        const TextOptions& options) {
-  std::string text = headline(take, outcome, options.colours);
-  if (options.details) text += details(take, outcome, options.all);
+  std::string text = headline(take, report, options.colours);
+  if (options.details) text += details(take, report, options.all);
   return text;
 }
 

@@ -94,11 +94,10 @@ std::vector<ReportSpan> with_noise_merged(const std::vector<ReportSpan>& spans) 
   return merged;
 }
 
-std::vector<ReportFinding> findings_of(const TakeFacts& take, const CleanOutcome& outcome,
+std::vector<ReportFinding> findings_of(const TakeFacts& take, const CleanReport& report,
                                        bool with_spans) {
-  const CleanReport& report = outcome.report;
   std::vector<ReportFinding> findings;
-  for (const MarkerSwap& swap : outcome.swaps) {
+  for (const MarkerSwap& swap : report.swaps) {
     findings.push_back(
         finding_of(FindingKind::swap, "undone",
                    take.tracks[swap.first_marker] + ", " + take.tracks[swap.second_marker],

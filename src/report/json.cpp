@@ -128,10 +128,10 @@ Json fall_backs_json(const CleanReport& report) {
   return list;
 }
 
-Json leftovers_json(const std::vector<Leftover>& leftovers) {
+Json leftovers_json(const TakeFacts& take, const std::vector<Leftover>& leftovers) {
   Json list = Json::array();
   for (const Leftover& leftover : leftovers)
-    list.push_back({{"what", leftover.what}, {"mend", leftover.mend}});
+    list.push_back({{"what", leftover.what}, {"mend", advice_of(leftover, take)}});
   return list;
 }
 
@@ -183,18 +183,18 @@ Json robot_json(const RobotFindings& robot, std::int64_t first_frame) {
 }
 
 // Adds the entries of a single command, between the verdict and the figures.
-void add_own(const TakeFacts& take, const CleanOutcome& outcome, Depth depth, Json& json) {
-  json["method"] = outcome.report.method;
-  add_source(outcome.report.source, json);
-  if (depth != Depth::row) json["options"] = json_of(outcome.options);
-  if (outcome.report.feet) {
-    json["feet"] = feet_json(*outcome.report.feet, take.first_frame, depth != Depth::row);
+void add_own(const TakeFacts& take, const CleanReport& report, Depth depth, Json& json) {
+  json["method"] = report.method;
+  add_source(report.source, json);
+  if (depth != Depth::row) json["options"] = json_of(report.options);
+  if (report.feet) {
+    json["feet"] = feet_json(*report.feet, take.first_frame, depth != Depth::row);
   }
-  json["noise"] = noise_json(outcome.report.noise, outcome.report.frame_rate_hz);
+  json["noise"] = noise_json(report.noise, report.frame_rate_hz);
   if (depth == Depth::row) return;
-  json["fall_backs"] = fall_backs_json(outcome.report);
-  json["notes"] = outcome.report.notes;
-  json["leftovers"] = leftovers_json(outcome.leftovers);
+  json["fall_backs"] = fall_backs_json(report);
+  json["notes"] = report.notes;
+  json["leftovers"] = leftovers_json(take, report.leftovers);
 }
 void add_own(const TakeFacts& take, const CheckReport& report, Depth /*depth*/, Json& json) {
   add_source(report.source, json);
@@ -216,7 +216,7 @@ void add_own(const TakeFacts& take, const FeetReport& report, Depth /*depth*/, J
 }
 
 const std::vector<std::string>* warnings_of(const Report& report) {
-  if (const auto* clean = std::get_if<CleanOutcome>(&report.result)) return &clean->report.warnings;
+  if (const auto* clean = std::get_if<CleanReport>(&report.result)) return &clean->warnings;
   if (const auto* fill = std::get_if<FillOutcome>(&report.result)) return &fill->report.warnings;
   if (const auto* feet = std::get_if<FeetReport>(&report.result)) return &feet->warnings;
   return nullptr;
@@ -225,8 +225,8 @@ const std::vector<std::string>* warnings_of(const Report& report) {
 // Returns the number of calibration frames at the start; none if the command does not look for
 // them.
 std::optional<std::size_t> calibration_frames(const Report& report) {
-  if (const auto* clean = std::get_if<CleanOutcome>(&report.result))
-    return clean->report.calibration_frames;
+  if (const auto* clean = std::get_if<CleanReport>(&report.result))
+    return clean->calibration_frames;
   if (const auto* check = std::get_if<CheckReport>(&report.result))
     return check->calibration_frames;
   return std::nullopt;

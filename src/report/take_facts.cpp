@@ -74,6 +74,18 @@ std::string shown_name(const TakeFacts& take) {
   return take.animation.empty() ? name : fmt::format("{} ({})", name, printable(take.animation));
 }
 
+std::string advice_of(const Leftover& leftover, const TakeFacts& take) {
+  constexpr std::string_view stand_in = "TAKE";
+  std::string advice = leftover.mend;
+  // A take that was never in a file has no path.
+  if (take.input.empty()) return advice;
+  const std::string path = printable(take.input);
+  for (std::size_t at = advice.find(stand_in); at != std::string::npos;
+       at = advice.find(stand_in, at + path.size()))
+    advice.replace(at, stand_in.size(), path);
+  return advice;
+}
+
 std::string written_text(const TakeFacts& take) {
   return take.output == "-" ? "" : "; written to " + printable(take.output);
 }

@@ -22,8 +22,10 @@ std::string source_words(const TakeSource& source);
 /// Returns for example "; written to walk.clean.bvh"; empty for standard output.
 std::string written_text(const TakeFacts& take);
 
-std::string clean_verdict(const TakeFacts& take, const CleanOutcome& outcome);
-std::string clean_text(const TakeFacts& take, const CleanOutcome& outcome,
+/// Returns `Leftover::mend` with the path of the take.
+std::string advice_of(const Leftover& leftover, const TakeFacts& take);
+std::string clean_verdict(const TakeFacts& take, const CleanReport& report);
+std::string clean_text(const TakeFacts& take, const CleanReport& report,
                        const TextOptions& options);
 
 std::string check_verdict(const CheckReport& report);

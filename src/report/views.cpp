@@ -20,8 +20,7 @@ ReportFigure count_figure(std::string_view name, std::string_view label, std::si
   return {std::string(name), std::string(label), static_cast<double>(count), true, ""};
 }
 
-std::vector<ReportFigure> figures(const TakeFacts& take, const CleanOutcome& outcome) {
-  const CleanReport& report = outcome.report;
+std::vector<ReportFigure> figures(const TakeFacts& take, const CleanReport& report) {
   const bool is_joints = take.kind == TakeKind::joints;
   const auto of_root = [&](double value) {
     return is_joints ? std::optional<double>(value) : std::nullopt;
@@ -36,7 +35,7 @@ std::vector<ReportFigure> figures(const TakeFacts& take, const CleanOutcome& out
           // Most files of joints cannot mark a sample as missing.
           {"gaps_left", "gaps left",
            is_joints ? std::nullopt : std::optional<double>(gaps_left(report)), true, ""},
-          count_figure("swaps_undone", "swaps undone", outcome.swaps.size()),
+          count_figure("swaps_undone", "swaps undone", report.swaps.size()),
           {"root_rms_change", "root position, change rms", of_root(report.root_rms_change), false,
            take.unit},
           {"root_max_change", "root position, largest change", of_root(report.root_max_change),
@@ -98,12 +97,12 @@ std::vector<std::string> names_of(const std::vector<Row>& rows) {
   return names;
 }
 
-ReportTracks tracks(const TakeFacts& take, const CleanOutcome& outcome) {
+ReportTracks tracks(const TakeFacts& take, const CleanReport& report) {
   using Row = TrackSummary;
-  std::vector<Row> rows = outcome.report.tracks;
+  std::vector<Row> rows = report.tracks;
   std::erase_if(rows, [](const Row& row) { return !row.is_position; });
   ReportTracks result{
-      outcome.report.unit,
+      report.unit,
       names_of(rows),
       {column("noise", "noise", rows, &Row::noise),
        column("rms_change", "change rms", rows, &Row::rms_change),
@@ -183,8 +182,8 @@ ReportTracks tracks(const TakeFacts& take, const CompareOutcome& outcome) {
 ReportTracks tracks(const TakeFacts& /*take*/, const FillOutcome& /*outcome*/) { return {}; }
 ReportTracks tracks(const TakeFacts& /*take*/, const FeetReport& /*report*/) { return {}; }
 
-std::string verdict(const TakeFacts& take, const CleanOutcome& outcome) {
-  return clean_verdict(take, outcome);
+std::string verdict(const TakeFacts& take, const CleanReport& report) {
+  return clean_verdict(take, report);
 }
 std::string verdict(const TakeFacts& take, const CheckReport& report) {
   return take.contents.empty() ? check_verdict(report) : take.contents + ": nothing to check";
@@ -198,8 +197,8 @@ std::string verdict(const TakeFacts& /*take*/, const FeetReport& report) {
                      counted(report.contacts.size(), "contact"));
 }
 
-std::string text(const TakeFacts& take, const CleanOutcome& outcome, const TextOptions& options) {
-  return clean_text(take, outcome, options);
+std::string text(const TakeFacts& take, const CleanReport& report, const TextOptions& options) {
+  return clean_text(take, report, options);
 }
 std::string text(const TakeFacts& take, const CheckReport& report, const TextOptions& options) {
   return check_text(take, report, options);

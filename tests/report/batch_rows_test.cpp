@@ -17,16 +17,16 @@ using Json = nlohmann::json;
 
 BatchRow cleaned(const std::string& name, std::size_t repaired,
                  const std::vector<std::string>& warnings = {}) {
-  CleanOutcome outcome;
-  outcome.report.frames = 100;
-  outcome.report.tracks = {{.name = "Hips"}};
-  if (repaired > 0) outcome.report.spans = {{0, 0, repaired - 1, Action::despiked, 9, 9}};
+  CleanReport report;
+  report.frames = 100;
+  report.tracks = {{.name = "Hips"}};
+  if (repaired > 0) report.spans = {{0, 0, repaired - 1, Action::despiked, 9, 9}};
   TakeFacts take;
   take.input = "raw/" + name;
   take.tracks = {"Hips"};
   take.frames = 100;
   take.frame_rate_hz = 50;
-  return cleaned_row(name, {take, outcome}, warnings);
+  return cleaned_row(name, {take, report}, warnings);
 }
 
 TEST(BatchRows, ReadBackAsTheyWereWritten) {

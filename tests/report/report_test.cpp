@@ -33,9 +33,8 @@ TakeFacts joints_take() {
   return take;
 }
 
-CleanOutcome cleaned() {
-  CleanOutcome outcome;
-  CleanReport& report = outcome.report;
+CleanReport cleaned() {
+  CleanReport report;
   report.method = "auto";
   report.unit = "deg";
   report.frames = 100;
@@ -50,7 +49,7 @@ CleanOutcome cleaned() {
                   {2, 20, 20, Action::despiked, 40, 40},
                   {2, 30, 32, Action::filled, 10, 8}};
   report.root_max_change = 0.5;
-  return outcome;
+  return report;
 }
 
 GapOutcome gap(std::size_t track, std::size_t first, std::size_t last, bool filled) {
@@ -101,9 +100,9 @@ TEST(Report, TellsTheRootPositionFromTheRotationOfTheRoot) {
 }
 
 TEST(Report, AGapThatWasFilledIsOneFinding) {
-  CleanOutcome outcome = cleaned();
-  outcome.report.fill.gaps = {gap(2, 30, 32, true), gap(2, 50, 70, false)};
-  const Report report{joints_take(), outcome};
+  CleanReport clean = cleaned();
+  clean.fill.gaps = {gap(2, 30, 32, true), gap(2, 50, 70, false)};
+  const Report report{joints_take(), clean};
   const auto findings = findings_of(report);
   ASSERT_THAT(findings, SizeIs(5));
   EXPECT_EQ(findings[0].method, "spline");
@@ -137,18 +136,30 @@ TEST(Report, AnEntryHoldsFactsFiguresAndTracks) {
   EXPECT_THAT(json["verdict"], HasSubstr("noisy: 1.50 deg jitter on 1 joint, 1 spike, 1 gap"));
 }
 
+TEST(Report, AdviceNamesThePathOfTheTake) {
+  CleanReport clean = cleaned();
+  clean.leftovers = {
+      {"2 frozen or bridged spans left", "kinemend check TAKE; kinemend clean TAKE"}};
+  TakeFacts take = joints_take();
+  take.input = "TAKE 1.bvh";
+  const Report report{take, clean};
+  EXPECT_EQ(entry(report)["leftovers"][0]["mend"],
+            "kinemend check TAKE 1.bvh; kinemend clean TAKE 1.bvh");
+  EXPECT_THAT(to_text(report), HasSubstr("left (kinemend check TAKE 1.bvh; kinemend clean TAKE 1"));
+}
+
 TEST(Report, MarkersAreToldInTheUnitOfTheFile) {
   TakeFacts take = joints_take();
   take.kind = TakeKind::markers;
   take.unit = "mm";
-  CleanOutcome outcome = cleaned();
-  outcome.report.kind = TakeKind::markers;
-  outcome.report.unit = "mm";
-  outcome.report.body_height = 1750;
-  outcome.report.spans.erase(outcome.report.spans.begin());
-  outcome.report.tracks[0].gaps_left = 2;
-  outcome.swaps = {{0, 1, 3, 8}};
-  const Json json = entry({take, outcome});
+  CleanReport clean = cleaned();
+  clean.kind = TakeKind::markers;
+  clean.unit = "mm";
+  clean.body_height = 1750;
+  clean.spans.erase(clean.spans.begin());
+  clean.tracks[0].gaps_left = 2;
+  clean.swaps = {{0, 1, 3, 8}};
+  const Json json = entry({take, clean});
   EXPECT_EQ(json["kind"], "markers");
   EXPECT_EQ(json["track_unit"], "mm");
   EXPECT_EQ(json["tracks"][0]["gaps_left"], 2);

@@ -30,9 +30,8 @@ class CellPatch {
   /// Whether the cell holds a word such as `nan` instead of a number. Quotes around nothing are an
   /// empty cell.
   bool is_no_number(std::size_t column) const {
-    const TokenSpan& token = tokens_[column];
-    const std::string_view text(token.begin, static_cast<std::size_t>(token.end - token.begin));
-    return std::isnan(values_[column]) && text.find_first_not_of("\" \t") != text.npos;
+    const TokenSpan content = content_of(tokens_[column], style_.separator);
+    return std::isnan(values_[column]) && content.begin != content.end;
   }
   /// Replaces a cell. NaN makes an empty cell, or `NaN` in a table without separators. The old
   /// digits are kept if they express the new value as accurately as `decimals` digits can.

@@ -55,6 +55,10 @@ std::string unquoted(TokenSpan token) {
 
 }  // namespace
 
+TokenSpan content_of(TokenSpan cell, char separator) {
+  return is_quoted(cell) ? trimmed({cell.begin + 1, cell.end - 1}, separator) : cell;
+}
+
 std::string_view line_from(std::string_view text, std::size_t begin) {
   text.remove_prefix(std::min(begin, text.size()));
   return text.substr(0, text.find_first_of("\r\n"));
@@ -163,7 +167,7 @@ CellRows::Cell CellRows::find_cell(const char* p) const {
 double CellRows::value_of(TokenSpan token, std::size_t column, CellRow& row) {
   if (style_.is_text(column)) return not_a_number;
   const char* const place = token.begin;
-  if (is_quoted(token)) token = trimmed({token.begin + 1, token.end - 1}, style_.separator);
+  token = content_of(token, style_.separator);
   if (token.begin == token.end) return not_a_number;
   const NumberToken number = read_sample(token.begin, token.end, style_.commas);
   const bool whole = number.end == token.end;

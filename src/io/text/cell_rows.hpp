@@ -43,6 +43,10 @@ std::vector<std::string> split_cells(std::string_view line, char separator);
 /// blank at either end, a quote or the separator would be lost otherwise.
 std::string cell_of(std::string_view text, char separator);
 
+/// Returns the content of a cell without its quotes and the blanks within them; an empty span for
+/// quotes around nothing.
+TokenSpan content_of(TokenSpan cell, char separator);
+
 /// A row as it was read.
 struct CellRow {
   std::size_t cells = 0;        ///< an empty cell after the last separator is left out

@@ -30,9 +30,8 @@ void check_pair(const Take& before, const Take& after) {
 
 Stage stage_for(const Take& take, const Report& report) {
   Stage stage = page::stage_of(take);
-  const auto* clean = std::get_if<CleanOutcome>(&report.result);
-  if (clean != nullptr && clean->report.feet)
-    stage.contacts = page::contacts_of(*clean->report.feet, take);
+  const auto* clean = std::get_if<CleanReport>(&report.result);
+  if (clean != nullptr && clean->feet) stage.contacts = page::contacts_of(*clean->feet, take);
   return stage;
 }
 

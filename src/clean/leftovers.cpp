@@ -1,20 +1,24 @@
 // Describes the findings of a check and the noise of a report, each with its reason and advice.
-#include "clean_leftovers.hpp"
+#include "clean/leftovers.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <initializer_list>
+#include <iterator>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 
+#include "kinemend/check.hpp"
 #include "kinemend/experimental/text.hpp"
-#include "takes.hpp"
-#include "terminal.hpp"
 
-namespace kinemend::cli {
+namespace kinemend {
 
 namespace {
+
+constexpr const char* listing = "kinemend check TAKE lists them";
 
 std::size_t count_of(const std::vector<Finding>& findings,
                      std::initializer_list<FindingKind> kinds) {
@@ -26,23 +30,21 @@ std::size_t count_of(const std::vector<Finding>& findings,
 
 }  // namespace
 
-std::vector<Leftover> leftovers_of(const std::vector<Finding>& findings, const CleanPlan& plan,
-                                   const std::string& input) {
-  const std::string take = printable(input);
-  const std::string listing = fmt::format("kinemend check {} lists them", take);
+std::vector<Leftover> leftovers_beyond_cleaning(const Take& input, const CleanSettings& settings) {
+  if (settings.leftovers == Leftovers::none) return {};
+  const std::vector<Finding> findings = find_beyond_cleaning(input);
   std::vector<Leftover> leftovers;
   const auto add = [&](std::initializer_list<FindingKind> kinds, const char* noun,
                        const char* of_what, const std::string& mend) {
     if (const std::size_t count = count_of(findings, kinds); count > 0)
       leftovers.push_back({counted(count, noun) + of_what + " left", mend});
   };
-  if (!plan.fix_swaps) add({FindingKind::swap}, "swap", " of markers", "--fix-swaps undoes them");
-  if (!plan.settings.fill)
+  if (!settings.fix_swaps)
+    add({FindingKind::swap}, "swap", " of markers", "--fix-swaps undoes them");
+  if (!settings.fill)
     add({FindingKind::gap}, "long gap", "", "--fill auto fills those of labelled points");
   add({FindingKind::frozen, FindingKind::bridged}, "frozen or bridged span", "",
-      fmt::format("kinemend check {0} --gaps-out gaps.csv; kinemend clean {0} --gaps gaps.csv "
-                  "--fill auto",
-                  take));
+      "kinemend check TAKE --gaps-out gaps.csv; kinemend clean TAKE --gaps gaps.csv --fill auto");
   add({FindingKind::repeated_frames, FindingKind::zero_frames}, "run",
       " of repeated or empty frames", listing);
   for (const Finding& finding : findings) {
@@ -76,12 +78,12 @@ Found found_of(const std::vector<Finding>& findings, FindingKind kind) {
 }
 
 // Why a method leaves a noisy take unchanged; empty if no reason other than the noise is known.
-Leftover reason_of_method(const CleanReport& report, const CleanPlan& plan) {
+Leftover reason_of_method(const CleanReport& report, const CleanSettings& settings) {
   constexpr std::size_t fewest_frames = 4;  // fewer frames cannot show noise
-  if (plan.settings.strength == 0)
+  if (settings.strength == 0)
     return {"--strength 0 keeps the input", "a strength above 0 cleans it"};
-  const auto cutoff = plan.options.find("cutoff_hz");
-  if (cutoff != plan.options.end()) {
+  const auto cutoff = report.options.find("cutoff_hz");
+  if (cutoff != report.options.end()) {
     const double cutoff_hz = std::get<double>(cutoff->second),
                  nyquist_hz = report.frame_rate_hz / 2;
     if (cutoff_hz >= nyquist_hz) {
@@ -143,29 +145,37 @@ Leftover noise_not_measured(const CheckReport& check, const CleanReport& report)
 
 }  // namespace
 
-std::vector<Leftover> reasons_unchanged(const Take& take, const CleanReport& report,
-                                        const CleanPlan& plan, const std::string& input) {
+namespace {
+
+bool is_unchanged(const CleanReport& report) {
+  return report.swaps.empty() && report.root_max_change == 0 &&
+         std::all_of(report.tracks.begin(), report.tracks.end(),
+                     [](const TrackSummary& track) { return track.frames_changed == 0; });
+}
+
+std::vector<Leftover> reasons_unchanged(const Take& take, const CleanSettings& settings,
+                                        const CleanReport& report) {
   std::vector<Leftover> reasons;
   if (report.frames == 0 || report.tracks.empty()) return reasons;
-  CheckSettings settings;
-  settings.source = report.source.source;
-  const CheckReport check = check_take(take, settings);
-  const Leftover reason = reason_of_method(report, plan);
+  CheckSettings check_settings;
+  check_settings.source = report.source.source;
+  const CheckReport check = check_take(take, check_settings);
+  const Leftover reason = reason_of_method(report, settings);
   if (!reason.what.empty()) reasons.push_back(reason);
-  const std::string listing = fmt::format("kinemend check {} lists them", printable(input));
   const auto add = [&](FindingKind kind, const auto& what, const std::string& mend) {
     if (const Found found = found_of(check.findings, kind); found.count > 0)
       reasons.push_back({what(found), mend});
   };
   // A network judges noise by more than its strength, so only noise that a check reports is listed.
   Leftover noise =
-      plan.method == "learned" ? Leftover{} : noise_left(report, check.metres_per_unit);
+      report.method == "learned" ? Leftover{} : noise_left(report, check.metres_per_unit);
   if (noise.what.empty()) noise = noise_not_measured(check, report);
   if (!noise.what.empty() && reason.what.empty()) reasons.push_back(noise);
   add(
       FindingKind::spike,
       [](const Found& found) { return counted(found.count, "spike") + " left"; },
-      plan.method == "auto" || plan.method == "learned" ? listing : "--method auto repairs them");
+      report.method == "auto" || report.method == "learned" ? listing
+                                                            : "--method auto repairs them");
   const bool is_joints = take.has_joints();
   add(
       FindingKind::slide,
@@ -173,9 +183,9 @@ std::vector<Leftover> reasons_unchanged(const Take& take, const CleanReport& rep
         return fmt::format("{} of standing feet left, {} at most", counted(found.count, "slide"),
                            found.worst);
       },
-      !is_joints           ? "markers are measured points and are not moved to hold feet"
-      : plan.settings.feet ? "--feet force also holds intentional slides"
-                           : "--feet auto holds the feet");
+      !is_joints      ? "markers are measured points and are not moved to hold feet"
+      : settings.feet ? "--feet force also holds intentional slides"
+                      : "--feet auto holds the feet");
   add(
       FindingKind::sink,
       [](const Found& found) {
@@ -193,30 +203,12 @@ std::vector<Leftover> reasons_unchanged(const Take& take, const CleanReport& rep
   return reasons;
 }
 
-std::vector<std::string> meaningless_flags(const Take& take, const CleanPlan& plan) {
-  const auto is_given = [&](std::string_view flag) {
-    return std::find(plan.asked.begin(), plan.asked.end(), flag) != plan.asked.end();
-  };
-  std::vector<std::string> lines;
-  if (!take.has_joints()) {
-    if (is_given("max_change_deg"))
-      lines.emplace_back("--max-change-deg has no effect on markers; --max-change limits them");
-    if (is_given("root_position"))
-      lines.emplace_back("--root-position has no effect on markers, which have no root");
-    return lines;
-  }
-  if (is_given("max_change"))
-    lines.emplace_back("--max-change has no effect on joints; --max-change-deg limits them");
-  if (is_given("fix_swaps"))
-    lines.emplace_back("--fix-swaps has no effect on joints; only marker labels can be swapped");
-  if (is_given("unlabelled")) lines.emplace_back("--unlabelled has no effect on joints");
-  const bool has_gaps = plan.gaps || !take.observed.empty() || !take.observed_positions.empty();
-  if (!has_gaps && (is_given("fill") || is_given("fill_all"))) {
-    lines.push_back(
-        fmt::format("--{} has no effect: the take states no gaps; --gaps FILE lists them",
-                    is_given("fill") ? "fill" : "fill-all"));
-  }
-  return lines;
+}  // namespace
+
+void explain_unchanged(const Take& result, const CleanSettings& settings, CleanReport& report) {
+  if (settings.leftovers != Leftovers::all || !is_unchanged(report)) return;
+  std::vector<Leftover> reasons = reasons_unchanged(result, settings, report);
+  std::move(reasons.begin(), reasons.end(), std::back_inserter(report.leftovers));
 }
 
-}  // namespace kinemend::cli
+}  // namespace kinemend
