@@ -10,7 +10,7 @@
 #include <string>
 
 #include "io/c3d/c3d_layout.hpp"
-#include "io/c3d/c3d_parameter_writer.hpp"
+#include "io/c3d/c3d_parameters.hpp"
 #include "kinemend/io.hpp"
 
 namespace {

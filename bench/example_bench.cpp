@@ -12,11 +12,11 @@
 #include "kinemend/clean.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/methods.hpp"
-#include "methods/prior/leading_eigenvectors.hpp"
+#include "methods/prior/window_bases.hpp"
 #include "nn/gemm.hpp"
 #include "noisy_walk.hpp"
 #include "papers/lou2010_example/example_filter.hpp"
-#include "papers/lou2010_example/mssa.hpp"
+#include "papers/lou2010_example/filter_bases.hpp"
 #include "papers/lou2010_example/pattern_penalty.hpp"
 
 namespace {

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "io/motion/half_angles.hpp"
 #include "io/motion/motion_columns.hpp"
 #include "io/motion/motion_rows.hpp"
 #include "kinemend/experimental/random.hpp"

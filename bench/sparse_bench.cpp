@@ -14,10 +14,9 @@
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/methods.hpp"
 #include "noisy_walk.hpp"
-#include "papers/xiao2015_sparse/batch_omp.hpp"
 #include "papers/xiao2015_sparse/descent_solver.hpp"
+#include "papers/xiao2015_sparse/dictionary.hpp"
 #include "papers/xiao2015_sparse/dual_solver.hpp"
-#include "papers/xiao2015_sparse/ksvd.hpp"
 #include "papers/xiao2015_sparse/sparse_filter.hpp"
 #include "papers/xiao2015_sparse/sparse_prior.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/text/cell_rows.hpp"
+#include "io/text/cells.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/io.hpp"
 

@@ -1,5 +1,4 @@
 #include "io/npz/zip_archive.hpp"
-#include "io/npz/zip_records.hpp"
 #include "read_law.hpp"
 
 namespace {

@@ -7,7 +7,7 @@
 
 #include "kinemend/experimental/kinematics.hpp"
 #include "lab/damage/targets.hpp"
-#include "motion/leading_eigenvector.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend::corrupt {
 

@@ -9,7 +9,7 @@
 #include "kinemend/experimental/kinematics.hpp"
 #include "lab/damage/damage_kind.hpp"
 #include "lab/damage/targets.hpp"
-#include "motion/calibration.hpp"
+#include "motion/take.hpp"
 
 namespace kinemend {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "kinemend/error.hpp"
-#include "motion/name_pattern.hpp"
+#include "motion/names.hpp"
 
 namespace kinemend::corrupt {
 

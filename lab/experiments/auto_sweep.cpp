@@ -9,9 +9,9 @@
 
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/kinematics.hpp"
-#include "methods/auto/smooth_chart.hpp"
 #include "methods/auto/spikes.hpp"
 #include "methods/auto/track_cleaning.hpp"
+#include "methods/auto/track_vectors.hpp"
 #include "page.hpp"
 
 namespace kinemend::papers {

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "lou.hpp"
-#include "papers/lou2010_example/example_tuning.hpp"
+#include "papers/lou2010_example/example.hpp"
 
 namespace kinemend::papers {
 namespace {

@@ -9,7 +9,7 @@
 #include "kinemend/rotation.hpp"
 #include "mall_networks.hpp"
 #include "page.hpp"
-#include "papers/mall2017_recurrent/gap_network.hpp"
+#include "papers/mall2017_recurrent/filter_network.hpp"
 
 namespace kinemend::papers {
 namespace {

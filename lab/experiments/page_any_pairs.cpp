@@ -9,7 +9,6 @@
 #include "compared.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "made_pairs.hpp"
-#include "methods/learned/measured_smoothing.hpp"
 #include "methods/learned/motion_filter.hpp"
 #include "page.hpp"
 #include "system_pairs.hpp"

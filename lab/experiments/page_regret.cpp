@@ -1,4 +1,4 @@
-// Figures of docs/methods/regret.md: the default beside every method of the program, on every kind
+// Figures of docs/measured/regret.md: the default beside every method of the program, on every kind
 // of noise and source, with each method's changes to clean takes.
 #include <algorithm>
 #include <map>

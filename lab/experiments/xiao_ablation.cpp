@@ -2,7 +2,7 @@
 // part, on a second of the paper's own sequences, with the default loss and lambda.
 #include <utility>
 
-#include "papers/xiao2015_sparse/sparse_tuning.hpp"
+#include "papers/xiao2015_sparse/sparse.hpp"
 #include "xiao.hpp"
 
 namespace kinemend::papers {

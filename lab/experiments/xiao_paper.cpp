@@ -7,7 +7,7 @@
 
 #include "base/quantiles.hpp"
 #include "papers/xiao2015_sparse/descent_solver.hpp"
-#include "papers/xiao2015_sparse/ksvd.hpp"
+#include "papers/xiao2015_sparse/dictionary.hpp"
 
 namespace kinemend::papers {
 

@@ -8,12 +8,11 @@
 #include <span>
 #include <utility>
 
-#include "base/file_bytes.hpp"
+#include "base/files.hpp"
 #include "cleaner/pieces.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/io.hpp"
-#include "methods/learned/learned_body.hpp"
 #include "methods/learned/motion_channels.hpp"
 #include "motion_training.hpp"
 #include "program.hpp"

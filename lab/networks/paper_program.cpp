@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "base/file_bytes.hpp"
+#include "base/files.hpp"
 #include "filter_training.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/io.hpp"

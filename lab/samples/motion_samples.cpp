@@ -11,8 +11,8 @@
 #include "lab/samples/motion_noise.hpp"
 #include "lab/samples/sequence_damage.hpp"
 #include "lab/samples/warped_sequence.hpp"
-#include "methods/learned/body_calibration.hpp"
-#include "methods/learned/measured_smoothing.hpp"
+#include "methods/learned/motion_channels.hpp"
+#include "methods/learned/motion_filter.hpp"
 
 namespace kinemend {
 

@@ -9,8 +9,8 @@
 #include "lab/training/training_sequences.hpp"
 #include "lab/training/trainings.hpp"
 #include "papers/lou2010_example/entries.hpp"
-#include "papers/lou2010_example/example_prior.hpp"
-#include "papers/lou2010_example/mssa.hpp"
+#include "papers/lou2010_example/example.hpp"
+#include "papers/lou2010_example/filter_bases.hpp"
 
 namespace kinemend {
 

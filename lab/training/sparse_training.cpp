@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "base/file_bytes.hpp"
+#include "base/files.hpp"
 #include "base/parallel.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/convert.hpp"
@@ -18,8 +18,8 @@
 #include "lab/training/training_sequences.hpp"
 #include "lab/training/training_stages.hpp"
 #include "lab/training/trainings.hpp"
+#include "papers/xiao2015_sparse/dictionary.hpp"
 #include "papers/xiao2015_sparse/entries.hpp"
-#include "papers/xiao2015_sparse/ksvd.hpp"
 #include "papers/xiao2015_sparse/sparse_prior.hpp"
 
 namespace kinemend {

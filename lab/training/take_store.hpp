@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "base/spool.hpp"
+#include "base/files.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "base/named_table.hpp"
+#include "base/options.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/version.hpp"
 #include "lab/training/training_stages.hpp"

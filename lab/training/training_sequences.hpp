@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "base/spool.hpp"
+#include "base/files.hpp"
 #include "kinemend/experimental/body.hpp"
 #include "kinemend/experimental/pose_matrix.hpp"
 #include "kinemend/lab/train.hpp"

@@ -10,7 +10,7 @@
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "lab/training/mixture_fit.hpp"
-#include "methods/prior/window_cosines.hpp"
+#include "methods/prior/window_bases.hpp"
 
 namespace kinemend {
 

@@ -1,7 +1,7 @@
 // Adds windows up, finds their leading directions, and cross-validates what lies outside of these.
 #include "lab/training/window_moments.hpp"
 
-#include "methods/prior/leading_eigenvectors.hpp"
+#include "methods/prior/window_bases.hpp"
 
 namespace kinemend {
 

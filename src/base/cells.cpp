@@ -1,10 +1,12 @@
-// Splits small tables into lines and cells, and quotes cells.
+// Splits small tables into lines and cells, quotes cells, and finds where JSON is nested too
+// deeply.
 #include "base/cells.hpp"
 
 #include <algorithm>
 #include <charconv>
 
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/json_depth.hpp"
 
 namespace kinemend {
 
@@ -107,6 +109,26 @@ std::optional<std::int64_t> whole_number(std::string_view cell, std::int64_t lea
   if (error != std::errc() || end != cell.data() + cell.size()) return std::nullopt;
   if (value < least || value > most) return std::nullopt;
   return value;
+}
+
+std::string_view json_within_depth(std::string_view text) {
+  std::size_t depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string) {
+      // The character after a backslash does not end the string.
+      if (c == '\\') ++i;
+      in_string = c != '"';
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '[' || c == '{') {
+      if (++depth > deepest_json) return text.substr(0, i);
+    } else if ((c == ']' || c == '}') && depth > 0) {
+      --depth;
+    }
+  }
+  return text;
 }
 
 }  // namespace kinemend

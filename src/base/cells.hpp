@@ -1,5 +1,5 @@
-// Small tables that people edit: cells separated by commas, quoted if necessary; `#` starts a
-// comment.
+// Reads small tables that people edit: cells are separated by commas and quoted if necessary; `#`
+// starts a comment.
 #pragma once
 
 #include <cstddef>

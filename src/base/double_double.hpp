@@ -1,8 +1,10 @@
-// Numbers of about 106 bits as sums of two doubles, using additions and multiplications of doubles
-// only: the same on every system (Dekker 1971, Knuth 1969).
+// Represents numbers of about 106 bits as sums of two doubles, with 2 pi among them. Only additions
+// and multiplications of doubles are used, which are the same on every system (Dekker 1971, Knuth
+// 1969).
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 namespace kinemend {
 
@@ -77,3 +79,17 @@ inline DoubleDouble square_root(DoubleDouble a) {
 }
 
 }  // namespace kinemend
+
+namespace kinemend::portable {
+
+inline constexpr DoubleDouble two_pi{0x1.921fb54442d18p+2, 0x1.1a62633145c07p-52};
+
+/// Adding this before truncation rounds to the nearest; std::lround would be a function call.
+inline constexpr double to_nearest = 0.5;
+
+/// v, with |v| < 2^63 unit, truncated to a multiple of `unit`, a power of two.
+constexpr double upper_bits(double v, double unit) {
+  return static_cast<double>(static_cast<std::int64_t>(v / unit)) * unit;
+}
+
+}  // namespace kinemend::portable

@@ -1,4 +1,5 @@
-// The functions of <cmath> that systems round differently, the same on every system and processor.
+// Declares the functions of the standard library that systems lack or round differently. They give
+// the same bits on every system and processor.
 #pragma once
 
 namespace kinemend::portable {
@@ -45,3 +46,14 @@ struct SineAndCosine {
 [[nodiscard]] float asinh(float x);
 
 }  // namespace kinemend::portable
+
+namespace kinemend {
+
+/// Like std::bit_cast, which the standard library of Emscripten lacks.
+template <class To, class From>
+constexpr To bits_as(const From& from) {
+  static_assert(sizeof(To) == sizeof(From));
+  return __builtin_bit_cast(To, from);
+}
+
+}  // namespace kinemend

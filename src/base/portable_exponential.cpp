@@ -5,10 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "base/bits.hpp"
 #include "base/double_double.hpp"
 #include "base/portable.hpp"
-#include "base/portable_pi.hpp"
 
 namespace kinemend::portable {
 

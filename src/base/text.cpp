@@ -1,5 +1,6 @@
-// Formats text for display: tables, wrapped lines, figures, colours, and escaped text.
-#include "kinemend/experimental/text.hpp"
+// Formats text for display: tables, wrapped lines, figures, measured values and colours. It escapes
+// characters that must not reach a terminal and shortens quoted text.
+#include "base/text.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +8,8 @@
 #include <cmath>
 
 #include "base/portable.hpp"
-#include "base/quote.hpp"
+#include "kinemend/experimental/letter_case.hpp"
+#include "kinemend/experimental/text.hpp"
 
 namespace kinemend {
 
@@ -205,6 +207,78 @@ std::string printable(std::string_view text) {
       boundary(result, result.size() - (longest_message - head_of_message - omitted.size() - 2));
   return fmt::format("{} {} {}", result.substr(0, boundary(result, head_of_message)), omitted,
                      result.substr(tail));
+}
+
+std::string quote(std::string_view found) {
+  // Characters; chosen by hand.
+  constexpr std::size_t longest = 40;
+  if (found.empty()) return "the end of the file";
+  std::string text = "\"";
+  for (std::size_t count = 0; !found.empty(); ++count) {
+    if (count == longest) return text + "...\"";
+    const Character character = first_character(found);
+    if (character.is_valid && !commands_terminal(character.code)) {
+      text += found.substr(0, character.size);
+    } else {
+      text += '.';
+    }
+    found.remove_prefix(character.size);
+  }
+  return text + "\"";
+}
+
+Character first_character(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char lead = byte(0);
+  if (lead < 0x80) return {lead, 1, true};
+  // Lead bytes of two to four bytes, and the lowest code that needs that many.
+  const std::size_t size = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+  constexpr std::uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
+  if (lead < 0xC2 || lead > 0xF4 || text.size() < size) return {};
+  std::uint32_t code = lead & (0xFFU >> (size + 1));
+  for (std::size_t i = 1; i < size; ++i) {
+    if ((byte(i) & 0xC0) != 0x80) return {};
+    code = code << 6 | (byte(i) & 0x3FU);
+  }
+  const bool is_surrogate = code >= 0xD800 && code <= 0xDFFF;
+  if (code < least[size] || code > 0x10FFFF || is_surrogate) return {};
+  return {code, size, true};
+}
+
+bool commands_terminal(std::uint32_t code) {
+  const bool is_control = code < 0x20 || (code >= 0x7F && code <= 0x9F);
+  const bool turns = code == 0x061C || code == 0x200E || code == 0x200F ||
+                     (code >= 0x202A && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
+  return is_control || turns || code == 0x2028 || code == 0x2029 || code == 0xFEFF;
+}
+
+char lower_case(char letter) {
+  return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& letter : lower) letter = lower_case(letter);
+  return lower;
+}
+
+bool same_but_for_case(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char x, char y) { return lower_case(x) == lower_case(y); });
+}
+
+ShownUnit shown_unit(std::string_view unit) {
+  constexpr double mm_per_m = 1000;
+  if (unit == "m") return {mm_per_m, "mm"};
+  return {1, unit.empty() ? "units" : std::string(unit)};
+}
+
+std::string measure_text(double value, std::string_view unit) {
+  // Shorter lengths are shown in millimetres. Chosen by hand.
+  constexpr double small_m = 0.1;
+  const bool is_long = unit == "m" && std::fabs(value) >= small_m;
+  const ShownUnit shown = is_long ? ShownUnit{1, "m"} : shown_unit(unit);
+  return fmt::format("{} {}", figure(shown.factor * value), shown.name);
 }
 
 }  // namespace kinemend

@@ -10,7 +10,7 @@
 #include "base/quantiles.hpp"
 #include "body/body_frame.hpp"
 #include "body/body_trend.hpp"
-#include "motion/leading_eigenvector.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend::representation {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kinemend/experimental/body.hpp"
-#include "motion/leading_eigenvector.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend::representation {
 

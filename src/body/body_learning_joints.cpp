@@ -7,12 +7,11 @@
 #include <limits>
 #include <utility>
 
-#include "body/body_alignment.hpp"
 #include "body/body_frame.hpp"
 #include "body/body_learning.hpp"
 #include "body/body_rotations.hpp"
 #include "kinemend/error.hpp"
-#include "motion/name_pattern.hpp"
+#include "motion/names.hpp"
 
 namespace kinemend::representation {
 

@@ -13,7 +13,7 @@
 #include "body/body_rest.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/convert.hpp"
-#include "motion/name_pattern.hpp"
+#include "motion/names.hpp"
 
 namespace kinemend::representation {
 

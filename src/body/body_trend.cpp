@@ -9,7 +9,7 @@
 
 #include "base/portable.hpp"
 #include "base/quantiles.hpp"
-#include "body/rotation_channels.hpp"
+#include "body/representation.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 
 namespace kinemend::representation {

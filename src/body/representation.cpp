@@ -1,5 +1,5 @@
 // Turns rotations and positions of a clip into a matrix of channels without a body, and back.
-#include "kinemend/experimental/representation.hpp"
+#include "body/representation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/portable.hpp"
-#include "body/rotation_channels.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/representation.hpp"
 
 namespace kinemend {
 

@@ -10,7 +10,7 @@
 
 #include "check/checks.hpp"
 #include "kinemend/error.hpp"
-#include "motion/calibration.hpp"
+#include "motion/take.hpp"
 
 namespace kinemend {
 

@@ -6,7 +6,7 @@
 
 #include "check/checks.hpp"
 #include "feet/body_points.hpp"
-#include "feet/sole_point.hpp"
+#include "feet/floor.hpp"
 #include "kinemend/check.hpp"
 
 namespace kinemend::check {

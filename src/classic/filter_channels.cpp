@@ -1,11 +1,14 @@
 // Groups pieces over the same frames into blocks of channels, filters these, and separates them
-// again.
+// again. Compares a cutoff with half the frame rate.
 #include "classic/filter_channels.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <tuple>
 
-#include "body/rotation_channels.hpp"
+#include "body/representation.hpp"
+#include "kinemend/experimental/text.hpp"
 
 namespace kinemend {
 
@@ -162,6 +165,15 @@ void filter_channels(Piece<Quat>& piece, const ChannelFilter& filter) {
 
 void filter_channels(Piece<Vec3>& piece, const ChannelFilter& filter) {
   filter_block({&piece, 1}, filter);
+}
+
+bool is_below_nyquist(double cutoff_hz, double frame_rate_hz) {
+  return cutoff_hz < frame_rate_hz / 2;
+}
+
+std::string cutoff_warning(std::string_view option, double cutoff_hz, double frame_rate_hz) {
+  return fmt::format("{}: {} Hz is not below the Nyquist frequency of {} Hz (half the frame rate)",
+                     option, figure(cutoff_hz), figure(frame_rate_hz / 2));
 }
 
 }  // namespace kinemend

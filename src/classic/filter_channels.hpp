@@ -1,7 +1,10 @@
-// Runs a linear filter on the channels of a take's tracks, several tracks side by side.
+// Runs a linear filter on the channels of a take's tracks, several tracks side by side. Checks
+// cutoffs against the Nyquist frequency; all methods share the text of the warning.
 #pragma once
 
 #include <functional>
+#include <string>
+#include <string_view>
 
 #include "cleaner/pieces.hpp"
 #include "kinemend/experimental/pose_matrix.hpp"
@@ -22,5 +25,11 @@ void filter_channels(const TakeView& take, ChannelChoice choice, const TrackSink
 /// The same for one piece, with rotations as channels of quaternions.
 void filter_channels(Piece<Quat>& piece, const std::function<void(PoseMatrix&)>& filter);
 void filter_channels(Piece<Vec3>& piece, const std::function<void(PoseMatrix&)>& filter);
+
+/// A cutoff must be below half the frame rate, or the filter removes nothing.
+bool is_below_nyquist(double cutoff_hz, double frame_rate_hz);
+/// "cutoff_hz: 100 Hz is not below the Nyquist frequency of 60 Hz (half the frame rate)", the same
+/// in every method.
+std::string cutoff_warning(std::string_view option, double cutoff_hz, double frame_rate_hz);
 
 }  // namespace kinemend

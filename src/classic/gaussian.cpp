@@ -6,12 +6,12 @@
 
 #include "base/portable.hpp"
 #include "classic/entries.hpp"
-#include "cleaner/lanes.hpp"
+#include "cleaner/live.hpp"
 #include "cleaner/orientation_filter.hpp"
-#include "cleaner/windowed.hpp"
+#include "cleaner/pieces.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/methods.hpp"
-#include "motion/sample_steps.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend {
 

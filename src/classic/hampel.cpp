@@ -7,7 +7,7 @@
 #include "base/quantiles.hpp"
 #include "classic/entries.hpp"
 #include "classic/medians.hpp"
-#include "cleaner/windowed.hpp"
+#include "cleaner/live.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/methods.hpp"
 

@@ -6,11 +6,10 @@
 
 #include "classic/entries.hpp"
 #include "classic/linear_dynamics.hpp"
-#include "classic/linear_smoother.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
 #include "methods/prior/prior_cleaning.hpp"
-#include "methods/prior/prior_hold.hpp"
+#include "methods/prior/prior_fall_backs.hpp"
 #include "models/model_reading.hpp"
 
 namespace kinemend {

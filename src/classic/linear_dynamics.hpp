@@ -1,9 +1,12 @@
-// Motion as a linear dynamical system that is learned from clips (Lou & Chai 2010, section 4.2).
+// Learns motion as a linear dynamical system from clips (Lou & Chai 2010, section 4.2), and filters
+// and smooths motion with it.
 #pragma once
 
 #include <Eigen/Core>
+
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/experimental/pose_matrix.hpp"
@@ -72,5 +75,23 @@ LinearDynamics at_rate(const LinearDynamics& dynamics, double rate_hz);
 /// inconsistent tensor.
 void store_dynamics(const LinearDynamics& dynamics, Model& model);
 LinearDynamics dynamics_of(const Model& model);
+
+/// The measurements in a pose matrix.
+struct MeasurementFacts {
+  std::span<const std::uint8_t> observed;  ///< F x D, 0 where missing; empty: all observed
+  /// D, standard deviations in degrees, at least 0 (raised to 1e-3).
+  std::span<const double> noise_deg;
+};
+
+/// Replaces each frame by its expectation given the frames up to it (Kalman 1960). The dynamics are
+/// at the rate of the poses (`at_rate`).
+void filter_with_dynamics(PoseMatrix& poses, const MeasurementFacts& facts,
+                          const LinearDynamics& dynamics);
+
+/// Replaces each frame by its expectation given all frames, by a second pass over the filter's
+/// (Bryson & Frazier 1963, which inverts no covariance). The cost is linear in frames; gains are
+/// recomputed until they converge, after each change of the observed channels.
+void smooth_with_dynamics(PoseMatrix& poses, const MeasurementFacts& facts,
+                          const LinearDynamics& dynamics);
 
 }  // namespace kinemend

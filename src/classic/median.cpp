@@ -3,7 +3,7 @@
 
 #include "classic/entries.hpp"
 #include "classic/medians.hpp"
-#include "cleaner/windowed.hpp"
+#include "cleaner/live.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/methods.hpp"
 

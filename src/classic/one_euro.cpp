@@ -1,6 +1,6 @@
 // The method `one-euro`: a causal low-pass filter whose cutoff grows with the speed.
-#include "classic/cutoff.hpp"
 #include "classic/entries.hpp"
+#include "classic/filter_channels.hpp"
 #include "classic/track_kalman.hpp"
 #include "cleaner/live.hpp"
 #include "kinemend/methods.hpp"

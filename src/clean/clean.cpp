@@ -15,8 +15,8 @@
 #include "clean/steps.hpp"
 #include "cleaner/pieces.hpp"
 #include "kinemend/experimental/threads.hpp"
-#include "methods/auto/measured_noise.hpp"
-#include "motion/calibration.hpp"
+#include "methods/auto/auto.hpp"
+#include "motion/take.hpp"
 
 namespace kinemend {
 

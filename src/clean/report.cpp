@@ -6,9 +6,8 @@
 #include <string_view>
 #include <utility>
 
-#include "base/measure.hpp"
+#include "base/text.hpp"
 #include "clean/changes.hpp"
-#include "metrics/peaks.hpp"
 #include "metrics/track_noise.hpp"
 
 namespace kinemend {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "cleaner/rotation_track.hpp"
+#include "cleaner/pieces.hpp"
 
 /// The construction of Lee & Shin (2002), in the form of Courty (2008), eq. 2-3: a filter with the
 /// mask m_-k .. m_k (sum 1) acts on orientations as

@@ -277,4 +277,17 @@ Vec3& position_in(const TakeView& take, std::size_t track, Frame& frame) {
   return frame.positions[take.joints ? track - take.owners : track];
 }
 
+VectorTrack::VectorTrack(std::size_t frame_count)
+    : frames(frame_count),
+      x(frame_count + lane_room),
+      y(frame_count + lane_room),
+      z(frame_count + lane_room) {}
+
+RotationTrack::RotationTrack(std::size_t frame_count)
+    : frames(frame_count),
+      w(frame_count + lane_room, 1.0),
+      x(frame_count + lane_room),
+      y(frame_count + lane_room),
+      z(frame_count + lane_room) {}
+
 }  // namespace kinemend

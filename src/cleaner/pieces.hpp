@@ -1,4 +1,5 @@
-// Tracks as input of filters: pieces without long gaps, of rotations and of positions alike.
+// Prepares tracks for filters: as pieces without long gaps, of rotations and of positions alike,
+// and with one array for each component, padded for vector loads.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +13,7 @@
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "kinemend/cleaner.hpp"
+#include "kinemend/rotation.hpp"
 
 namespace kinemend {
 
@@ -92,6 +94,65 @@ void filter_pieces(const TakeView& take, const TrackSink& sink,
     }
     progress.step();
   });
+}
+
+/// Padding after the last frame of a track, so that full vectors can be loaded and stored there.
+/// The number of doubles in the widest vectors, by definition.
+inline constexpr std::size_t lane_room = 8;
+
+/// Vectors over time, one array per component. The arrays are `lane_room` longer than `frames`.
+struct VectorTrack {
+  std::size_t frames = 0;
+  std::vector<double> x, y, z;
+
+  explicit VectorTrack(std::size_t frame_count = 0);
+  Vec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+  void set(std::size_t i, Vec3 v) { x[i] = v.x, y[i] = v.y, z[i] = v.z; }
+};
+
+/// Rotations of one joint over time, one array per component, initially the identity. The arrays
+/// are `lane_room` longer than `frames`.
+struct RotationTrack {
+  std::size_t frames = 0;
+  std::vector<double> w, x, y, z;
+
+  explicit RotationTrack(std::size_t frame_count = 0);
+  Quat operator[](std::size_t i) const { return {w[i], x[i], y[i], z[i]}; }
+  void set(std::size_t i, Quat q) { w[i] = q.w, x[i] = q.x, y[i] = q.y, z[i] = q.z; }
+};
+
+inline RotationTrack to_lanes(const std::vector<Quat>& samples) {
+  RotationTrack track(samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) track.set(i, samples[i]);
+  return track;
+}
+
+inline VectorTrack to_lanes(const std::vector<Vec3>& samples) {
+  VectorTrack track(samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) track.set(i, samples[i]);
+  return track;
+}
+
+/// 1 for an observed sample, 0 for any other, followed by `lane_room` zeros. Empty if all were
+/// observed.
+inline std::vector<double> lane_weights(const std::vector<std::uint8_t>& observed) {
+  std::vector<double> weights(observed.begin(), observed.end());
+  if (!weights.empty()) weights.resize(weights.size() + lane_room);
+  return weights;
+}
+template <class Sample>
+std::vector<double> lane_weights(const Piece<Sample>& piece) {
+  return lane_weights(piece.observed);
+}
+
+/// Runs `filter(track)` on the samples of a piece. Unobserved rotations are interpolated between
+/// the filtered ones.
+template <class Sample, class Filter>
+void filter_lanes(Piece<Sample>& piece, const Filter& filter) {
+  auto track = to_lanes(piece.samples);
+  filter(track);
+  for (std::size_t i = 0; i < piece.samples.size(); ++i) piece.samples[i] = track[i];
+  if constexpr (std::is_same_v<Sample, Quat>) bridge_rotations(piece);
 }
 
 }  // namespace kinemend

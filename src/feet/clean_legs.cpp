@@ -9,13 +9,11 @@
 #include <string>
 #include <utility>
 
-#include "feet/blocks.hpp"
+#include "feet/leg_motion.hpp"
 #include "feet/leg_solver.hpp"
 #include "feet/placement.hpp"
-#include "feet/pose_update.hpp"
-#include "feet/steps.hpp"
 #include "kinemend/error.hpp"
-#include "motion/calibration.hpp"
+#include "motion/take.hpp"
 
 namespace kinemend {
 

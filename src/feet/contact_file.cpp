@@ -1,4 +1,4 @@
-// Reads and writes contacts as text.
+// Reads and writes contacts as text, with the names of the parts of a foot.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,12 +8,12 @@
 #include <string_view>
 #include <tuple>
 
-#include "base/quote.hpp"
+#include "base/text.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/letter_case.hpp"
 #include "kinemend/feet.hpp"
-#include "motion/name_pattern.hpp"
+#include "motion/names.hpp"
 
 namespace kinemend {
 
@@ -184,5 +184,7 @@ std::vector<FootContact> parse_contacts(std::string_view text, std::string_view 
   }
   return reader.finish();
 }
+
+std::string_view to_string(FootPart part) { return part == FootPart::heel ? "heel" : "toe"; }
 
 }  // namespace kinemend

@@ -6,8 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "feet/blocks.hpp"
-#include "feet/sole_point.hpp"
+#include "feet/floor.hpp"
 #include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/experimental/letter_case.hpp"
 
@@ -18,7 +17,7 @@ namespace {
 constexpr auto heel = static_cast<std::size_t>(FootPart::heel);
 constexpr auto toe = static_cast<std::size_t>(FootPart::toe);
 // The heel's distance behind the ankle, as a share of that from ankle to toe
-// (docs/feet-details.md). Chosen by hand, not swept.
+// (docs/details/feet.md). Chosen by hand, not swept.
 constexpr double heel_behind = 0.25;
 
 std::size_t index_of(std::int32_t joint) { return static_cast<std::size_t>(joint); }

@@ -1,4 +1,5 @@
-// The legs of a clip, frame by frame, as the cleaning steps use them.
+// The legs of a clip, frame by frame, as the cleaning steps use them, and the blocks of frames on
+// which they run in parallel.
 #pragma once
 
 #include <array>
@@ -6,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/parallel.hpp"
 #include "feet/body_points.hpp"
 #include "kinemend/feet.hpp"
 
@@ -74,5 +76,14 @@ void set_heels(const Take& clip, Up up, LegMotion& motion);
 
 /// Returns heel and toe of each leg as points 2 l and 2 l + 1; the heel represents a missing toe.
 BodyPoints sole_points(const LegMotion& motion);
+
+/// Calls work(first, end) for blocks that together are [first, end), in any order and in several
+/// threads.
+template <class Work>
+void for_blocks(std::size_t first, std::size_t end, const Work& work) {
+  // For speed, not swept.
+  constexpr std::size_t least = 256;  // frames, a share of work
+  for_each_range(first, end, least, work);
+}
 
 }  // namespace kinemend::feet

@@ -16,7 +16,7 @@
 #include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/experimental/subjects.hpp"
 #include "kinemend/feet.hpp"
-#include "motion/take_change.hpp"
+#include "motion/conversions.hpp"
 
 namespace kinemend {
 

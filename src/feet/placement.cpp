@@ -9,7 +9,6 @@
 #include "feet/clean_legs.hpp"
 #include "feet/floor.hpp"
 #include "feet/leg_solver.hpp"
-#include "feet/steps.hpp"
 
 namespace kinemend::feet {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "feet/soles.hpp"
+#include "feet/contacts.hpp"
 
 namespace kinemend::feet {
 

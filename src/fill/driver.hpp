@@ -1,18 +1,34 @@
-// Fills the gaps of a take of joints or markers in rounds.
+// Fills the gaps of a take of joints or markers in rounds. A request says how a gap may be filled;
+// a doubted sample beside it may be a spike.
 #pragma once
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "fill/filling.hpp"
-#include "fill/request.hpp"
+#include "fill/marker_methods.hpp"
+#include "fill/methods.hpp"
 #include "fill/track.hpp"
 #include "kinemend/fill.hpp"
 
 namespace kinemend::fill {
+
+/// The request for one gap, from the settings of a run or a row of a plan.
+struct GapRequest {
+  const Method* method = nullptr;
+  std::size_t donor = MarkerRequest::no_marker;  ///< used by `pattern`
+  double longest_gap_s = 0;                      ///< 0: the limit of the method's rules
+  bool fill_all = false;                         ///< also fills gaps that the rules refuse
+  double max_error = 0, max_error_deg = 0;       ///< as `FillSettings`; 0: no limit
+  bool unlabelled = false;                       ///< unlabelled markers are evidence
+  std::optional<Filling> refusal = {};   ///< set if the gap must stay open, whatever the method
+  const LearnedFill* learned = nullptr;  ///< for a learned method
+
+  MarkerRequest of_marker() const { return {donor, longest_gap_s, fill_all}; }
+};
 
 /// A missing span that may be filled.
 struct OpenGap {
@@ -94,6 +110,29 @@ std::size_t donor_of(const Take& clip, const std::string& name);
 inline bool lies_within(const Gap& gap, const FillSettings& settings) {
   return !settings.range ||
          (gap.first_frame >= settings.range->first && gap.last_frame <= settings.range->second);
+}
+
+/// The number of samples on either side of a gap that may be spikes: 0 or 2.
+struct Doubt {
+  std::size_t before = 0, behind = 0;
+
+  bool any() const { return before + behind > 0; }
+  FrameSpan widened(FrameSpan gap) const { return {gap.first - before, gap.last + behind}; }
+  friend bool operator==(const Doubt&, const Doubt&) = default;
+};
+
+/// A sample beside a gap has no neighbour on one side that would distinguish a spike from motion.
+/// It is doubted if its second difference exceeds three times any other within half a second, and
+/// exceeds `least` (file units or degrees). A doubted sample is a spike only if it is also far from
+/// a filling that does not use it.
+Doubt doubt_beside(const Track& track, FrameSpan gap, double frame_rate_hz, double least);
+
+/// Returns the number of frames on either side of a gap that `doubt_beside` reads.
+std::size_t doubt_reach(double frame_rate_hz);
+
+/// Returns the size of an offset between two samples of the track, in file units or degrees.
+inline double size_of(const Track& track, Vec3 offset) {
+  return track.is_position ? norm(offset) : norm(offset) * degrees_per_radian;
 }
 
 }  // namespace kinemend::fill

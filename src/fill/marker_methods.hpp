@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "fill/curves.hpp"
-#include "fill/filling.hpp"
 #include "fill/samples.hpp"
+#include "fill/track.hpp"
 
 namespace kinemend::fill {
 

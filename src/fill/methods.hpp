@@ -11,7 +11,7 @@
 #include "fill/curves.hpp"
 #include "fill/judgement.hpp"
 #include "fill/marker_methods.hpp"
-#include "fill/pose_regression.hpp"
+#include "fill/regression.hpp"
 #include "kinemend/fill.hpp"
 
 namespace kinemend::fill {

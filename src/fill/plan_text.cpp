@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "base/cells.hpp"
-#include "base/quote.hpp"
-#include "fill/plan_rows.hpp"
+#include "base/text.hpp"
+#include "fill/plan.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/gap_plan.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "fill/methods.hpp"
-#include "fill/plan_rows.hpp"
+#include "fill/plan.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/gap_plan.hpp"
 

@@ -1,15 +1,18 @@
-// One track of rotations or positions as vectors, with its gaps.
+// One track of rotations or positions as vectors, with its gaps, and the result of filling a span
+// of it.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/frame_span.hpp"
 #include "kinemend/rotation.hpp"
 #include "kinemend/take.hpp"
-#include "motion/rotation_chart.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend::fill {
 
@@ -90,5 +93,28 @@ Track without_span(const Track& track, FrameSpan span, double frame_rate_hz);
 std::vector<std::size_t> evenly(const std::vector<std::size_t>& frames, std::size_t most);
 /// Returns the span's frames, or `most` of them.
 std::vector<std::size_t> frames_of(FrameSpan span, std::size_t most = SIZE_MAX);
+
+/// The result of filling a span of a track by one method.
+struct Filling {
+  std::vector<Vec3> values = {};  ///< of the span's frames, in the track's vectors; empty: refused
+  std::string method = {};        ///< the method that made them, or was tried last
+  std::string reason = {};        ///< the reason for the refusal
+  /// Root mean square distance to the ground truth, file units or degrees; 0: unknown.
+  double expected_error = 0;
+  /// Refused because other tracks are missing now; a later round may succeed.
+  bool may_wait = false;
+  /// Made from other tracks, so that it is evidence for them in turn; a curve is not.
+  bool is_evidence = true;
+  /// Markers whose movement it was made from; empty for a curve, and for joints.
+  std::vector<std::size_t> markers_used = {};
+  /// The reason why the requested model left the gap to `auto`; empty: no model was requested, or
+  /// it filled the gap.
+  std::string left_to_auto = {};
+
+  bool made() const { return !values.empty(); }
+  static Filling refused(std::string_view method, std::string reason, bool may_wait = false) {
+    return {{}, std::string(method), std::move(reason), 0, may_wait};
+  }
+};
 
 }  // namespace kinemend::fill

@@ -2,8 +2,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "base/descriptor.hpp"
-#include "base/file_bytes.hpp"
+#include "base/files.hpp"
 #include "base/platform/files.hpp"
 #include "base/platform/temporary_file.hpp"
 #include "kinemend/io.hpp"

@@ -11,10 +11,9 @@
 #include "feet/live_feet.hpp"
 #include "kinemend/experimental/live.hpp"
 #include "kinemend/stream.hpp"
-#include "live/frame_reader.hpp"
-#include "live/frame_writer.hpp"
-#include "live/live_header.hpp"
-#include "live/running_changes.hpp"
+#include "live/frame_lines.hpp"
+#include "live/live_lines.hpp"
+#include "live/stream_measures.hpp"
 
 namespace kinemend {
 

@@ -1,5 +1,5 @@
-// A live filter for bones that become known one by one: for a new bone it restarts unnoticeably
-// with the last frames.
+// Filters live the bones that VMC may name, which become known one by one: for a new bone the
+// filter restarts unnoticeably with the last frames.
 #pragma once
 
 #include <array>
@@ -9,13 +9,39 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "feet/live_feet.hpp"
 #include "kinemend/stream.hpp"
-#include "live/vmc_bones.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
+
+/// Bones are numbered from 0: the root, those of Unity's humanoid, then added ones.
+class VmcBones {
+ public:
+  static constexpr std::size_t root = 0, hips = 1;
+
+  explicit VmcBones(const std::vector<std::string>& more);
+
+  std::size_t count() const { return names_.size(); }
+  const std::string& name(std::size_t bone) const { return names_[bone]; }
+  /// Returns -1 if no bone has that name. Matching ignores case.
+  std::int32_t find(std::string_view name) const;
+
+  /// Returns a take without frames, of the root and of the bones that `present` marks, in the order
+  /// of their numbers. Each bone's parent is its nearest present ancestor. `offsets`: for each
+  /// bone.
+  Take take_of(const std::vector<std::uint8_t>& present, const std::vector<Vec3>& offsets,
+               double frame_rate_hz) const;
+
+ private:
+  std::vector<std::string> names_;
+  std::vector<std::string> keys_;  ///< in lower case
+  std::vector<std::int32_t> parents_;
+};
 
 /// Poses of all bones of the table at one time.
 struct VmcFrame {

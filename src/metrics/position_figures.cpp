@@ -1,12 +1,17 @@
-// Error figures of positions and their accelerations.
+// Computes error figures of positions and their accelerations, and measures how far feet slide
+// while they stand.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/experimental/letter_case.hpp"
 #include "kinemend/metrics.hpp"
-#include "metrics/pairing.hpp"
+#include "metrics/compare.hpp"
 
 namespace kinemend {
 
@@ -88,6 +93,78 @@ MeanAndDeviation rmse_per_marker_m(const Take& reference, const Take& other, dou
   const auto figure = rmse_per_marker(positions_from(reference, first_frame),
                                       positions_from(other, first_frame), reference.joint_count());
   return {figure.mean * metres_per_unit, figure.deviation * metres_per_unit};
+}
+
+namespace {
+
+double along(Vec3 v, Axis axis) { return axis == Axis::x ? v.x : axis == Axis::y ? v.y : v.z; }
+
+double horizontal(Vec3 v, Axis up) {
+  const double height = along(v, up);
+  return std::sqrt(std::max(0.0, dot(v, v) - height * height));
+}
+
+double floor_height(const std::vector<Vec3>& track, Axis up) {
+  std::vector<double> heights;
+  heights.reserve(track.size());
+  for (const Vec3 p : track) heights.push_back(along(p, up));
+  return metrics::percentile_of(std::move(heights), 2);
+}
+
+std::vector<Vec3> track_of(const std::vector<Vec3>& positions, std::size_t joints,
+                           std::size_t joint, std::size_t first_frame) {
+  std::vector<Vec3> track;
+  for (std::size_t i = first_frame * joints + joint; i < positions.size(); i += joints) {
+    track.push_back(positions[i]);
+  }
+  return track;
+}
+
+}  // namespace
+
+std::vector<std::size_t> foot_joints(const Skeleton& skeleton) {
+  static constexpr std::array<std::string_view, 5> fragments{"foot", "ankle", "heel", "toe",
+                                                             "ball"};
+  std::vector<std::size_t> found;
+  for (std::size_t j = 0; j < skeleton.joint_count(); ++j) {
+    const std::string name = lower_case(skeleton.names[j]);
+    const auto in_name = [&](std::string_view fragment) {
+      return name.find(fragment) != std::string::npos;
+    };
+    if (std::any_of(fragments.begin(), fragments.end(), in_name)) found.push_back(j);
+  }
+  return found;
+}
+
+FootSlide foot_slide(const Take& reference, const Take& other, const FootSlideSettings& settings,
+                     std::size_t first_frame) {
+  metrics::check_pair(reference, other, first_frame);
+  const auto joints = settings.joints.empty() ? foot_joints(reference.skeleton) : settings.joints;
+  for (const std::size_t j : joints) {
+    if (j >= reference.joint_count()) {
+      throw Error(ErrorKind::usage,
+                  fmt::format("foot joint {} of {} joints", j, reference.joint_count()));
+    }
+  }
+  const double height = body_height(reference.skeleton);
+  const double largest_step =
+      settings.contact_speed * height / std::max(reference.frame_rate_hz, 1e-9);
+  const auto wanted = joint_positions(reference), found = joint_positions(other);
+  FootSlide slide;
+  for (const std::size_t j : joints) {
+    const auto truth = track_of(wanted, reference.joint_count(), j, first_frame);
+    const auto track = track_of(found, reference.joint_count(), j, first_frame);
+    const double ceiling = floor_height(truth, settings.up) + settings.contact_height * height;
+    for (std::size_t f = 1; f < truth.size(); ++f) {
+      const bool low =
+          along(truth[f - 1], settings.up) < ceiling && along(truth[f], settings.up) < ceiling;
+      if (!low || norm(truth[f] - truth[f - 1]) >= largest_step) continue;
+      slide.per_frame += horizontal(track[f] - track[f - 1], settings.up);
+      ++slide.contact_steps;
+    }
+  }
+  if (slide.contact_steps > 0) slide.per_frame /= static_cast<double>(slide.contact_steps);
+  return slide;
 }
 
 }  // namespace kinemend

@@ -10,7 +10,7 @@
 #include "base/portable.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/metrics.hpp"
-#include "metrics/pairing.hpp"
+#include "metrics/compare.hpp"
 
 namespace kinemend {
 

@@ -11,7 +11,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/quote.hpp"
+#include "base/text.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/content_hash.hpp"
 #include "kinemend/experimental/json_depth.hpp"

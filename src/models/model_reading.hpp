@@ -1,11 +1,14 @@
-// Reads models for the methods that work with them. The public functions, which know all methods,
-// are in `registry/models.cpp`.
+// Reads models, and the numbers of networks in them, for the methods that work with them;
+// cmake/embed_models.cmake compiles the models in models/ into the program. The public functions,
+// which know all methods, are in `registry/methods.cpp`.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "kinemend/experimental/model.hpp"
 
@@ -26,5 +29,23 @@ std::shared_ptr<const Model> shipped_model_of(const ModelKind& kind);
 /// Like `model_for`, by the kind of model.
 std::shared_ptr<const Model> model_of(const ModelKind& kind, const std::string& path,
                                       std::shared_ptr<const Model> given = nullptr);
+
+[[noreturn]] void refuse_network(const std::string& what);
+
+/// A whole number of the model, between `least` and `most`.
+std::size_t whole_number(const Model& model, const std::string& name, std::size_t least,
+                         std::size_t most);
+/// A tensor of `count` numbers, all above zero if `is_positive`.
+std::vector<float> network_numbers(const Model& model, const char* name, std::size_t count,
+                                   bool is_positive);
+void check_width(const std::string& layer, std::size_t found, std::size_t expected);
+
+struct EmbeddedModel {
+  const char* method;  ///< the file's name without its extension
+  const char* bytes;
+  std::size_t size;
+};
+extern const EmbeddedModel* const embedded_models;
+extern const std::size_t embedded_model_count;
 
 }  // namespace kinemend

@@ -8,7 +8,7 @@
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
-#include "motion/take_change.hpp"
+#include "motion/conversions.hpp"
 
 namespace kinemend {
 

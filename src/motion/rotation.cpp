@@ -1,10 +1,13 @@
-// The basic operations on rotations: exponential and logarithm, angles, slerp, and signs of tracks.
-#include "kinemend/rotation.hpp"
+// Implements the basic operations on rotations: exponential and logarithm, angles, slerp, signs of
+// tracks, and means (chordal, Karcher's, and in a tangent space).
+#include "motion/rotation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "base/portable.hpp"
+#include "kinemend/rotation.hpp"
 
 namespace kinemend {
 
@@ -64,4 +67,84 @@ double wrap_angle(double angle, double half_turn) {
   return angle - 2 * half_turn * std::floor((angle + half_turn) / (2 * half_turn));
 }
 
+namespace {
+
+double weight_of(std::span<const double> weights, std::size_t i) {
+  return weights.empty() ? 1.0 : weights[i];
+}
+
+// sum_i w_i Log(r^-1 q_i) / sum_i w_i
+Vec3 mean_tangent(Quat reference, std::span<const Quat> rotations,
+                  std::span<const double> weights) {
+  Vec3 sum;
+  double total = 0;
+  for (std::size_t i = 0; i < rotations.size(); ++i) {
+    const double w = weight_of(weights, i);
+    sum += w * log(conjugate(reference) * rotations[i]);
+    total += w;
+  }
+  return total > 0 ? (1 / total) * sum : Vec3{};
+}
+
+}  // namespace
+
+Quat chordal_mean(std::span<const Quat> rotations, std::span<const double> weights) {
+  if (rotations.empty()) return {};
+  rotation::Matrix4 moment{};
+  for (std::size_t i = 0; i < rotations.size(); ++i) {
+    const std::array<double, 4> q{rotations[i].w, rotations[i].x, rotations[i].y, rotations[i].z};
+    for (std::size_t r = 0; r < 4; ++r) {
+      for (std::size_t c = 0; c < 4; ++c) moment[r][c] += weight_of(weights, i) * q[r] * q[c];
+    }
+  }
+  return rotation::leading_eigenvector(moment, rotations.front());
+}
+
+Quat log_mean(Quat reference, std::span<const Quat> rotations, std::span<const double> weights) {
+  return normalized(reference * exp(mean_tangent(reference, rotations, weights)));
+}
+
+Quat karcher_mean(std::span<const Quat> rotations, std::span<const double> weights) {
+  Quat mean = chordal_mean(rotations, weights);
+  for (int iteration = 0; iteration < 50; ++iteration) {
+    const Vec3 step = mean_tangent(mean, rotations, weights);
+    mean = normalized(mean * exp(step));
+    if (norm(step) < 1e-14) break;
+  }
+  return mean;
+}
+
 }  // namespace kinemend
+
+namespace kinemend::rotation {
+
+Quat leading_eigenvector(Matrix4 matrix, Quat fallback) {
+  // Repeated squaring, with the trace kept at 1, leaves the projection on the leading eigenvector.
+  const double size = matrix[0][0] + matrix[1][1] + matrix[2][2] + matrix[3][3];
+  if (!(size > 0)) return normalized(fallback);
+  for (auto& row : matrix) {
+    for (double& entry : row) entry /= size;
+  }
+  for (int squaring = 0; squaring < 48; ++squaring) {
+    Matrix4 square{};
+    for (std::size_t r = 0; r < 4; ++r) {
+      for (std::size_t c = r; c < 4; ++c) {
+        for (std::size_t k = 0; k < 4; ++k) square[r][c] += matrix[r][k] * matrix[c][k];
+      }
+    }
+    const double trace = square[0][0] + square[1][1] + square[2][2] + square[3][3];
+    const double scale = 1 / trace;
+    for (std::size_t r = 0; r < 4; ++r) {
+      for (std::size_t c = r; c < 4; ++c) matrix[r][c] = matrix[c][r] = scale * square[r][c];
+    }
+    if (trace > 1 - 1e-15) break;  // the matrix has rank one
+  }
+  std::size_t largest = 0;
+  for (std::size_t r = 1; r < 4; ++r) {
+    if (matrix[r][r] > matrix[largest][largest]) largest = r;
+  }
+  const auto& row = matrix[largest];
+  return normalized({row[0], row[1], row[2], row[3]});
+}
+
+}  // namespace kinemend::rotation

@@ -1,15 +1,21 @@
-// The rules of a skeleton, and its joints by name.
-#include "kinemend/skeleton.hpp"
-
+// Checks the rules of a skeleton, computes the global positions of its joints (forward kinematics),
+// and estimates the height of a body and the unit that its lengths are in.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <utility>
+#include <vector>
 
+#include "base/quantiles.hpp"
 #include "kinemend/error.hpp"
-#include "motion/take_checks.hpp"
+#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/skeleton.hpp"
+#include "kinemend/take.hpp"
+#include "motion/take.hpp"
 
 namespace kinemend {
 
@@ -111,6 +117,127 @@ std::vector<Channel> make_channels(bool with_position, RotationOrder order) {
                                             static_cast<int>(order.axes[i])));
   }
   return channels;
+}
+
+namespace {
+
+// Returns a joint's offset from its parent in one frame.
+Vec3 offset_of(const Take& clip, std::size_t frame, std::size_t joint,
+               std::size_t& next_translated) {
+  if (joint == 0) return clip.root_position(frame);
+  const std::size_t width = clip.translated_joints.size();
+  if (next_translated < width &&
+      clip.translated_joints[next_translated] == static_cast<std::int32_t>(joint)) {
+    return clip.position(frame, ++next_translated);
+  }
+  return clip.skeleton.offsets[joint];
+}
+
+void forward_kinematics_into(const Take& clip, std::size_t frame, Pose& pose) {
+  const Skeleton& skeleton = clip.skeleton;
+  std::size_t next_translated = 0;
+  for (std::size_t j = 0; j < clip.joint_count(); ++j) {
+    const Vec3 offset = offset_of(clip, frame, j, next_translated);
+    const Quat local = skeleton.rest_rotations[j] * clip.rotation(frame, j);
+    if (skeleton.parents[j] < 0) {
+      pose.rotations[j] = local;
+      pose.positions[j] = offset;
+    } else {
+      const auto parent = static_cast<std::size_t>(skeleton.parents[j]);
+      pose.rotations[j] = pose.rotations[parent] * local;
+      pose.positions[j] = pose.positions[parent] + rotate(pose.rotations[parent], offset);
+    }
+  }
+}
+
+Pose empty_pose(const Take& clip) {
+  return {std::vector<Quat>(clip.joint_count()), std::vector<Vec3>(clip.joint_count())};
+}
+
+}  // namespace
+
+Pose forward_kinematics(const Take& clip, std::size_t frame) {
+  Pose pose = empty_pose(clip);
+  forward_kinematics_into(clip, frame, pose);
+  return pose;
+}
+
+std::vector<Vec3> joint_positions(const Take& clip, bool with_end_sites) {
+  const auto& end_sites = clip.skeleton.end_sites;
+  const std::size_t width = clip.joint_count() + (with_end_sites ? end_sites.size() : 0);
+  std::vector<Vec3> positions;
+  positions.reserve(clip.frame_count() * width);
+  Pose pose = empty_pose(clip);
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    forward_kinematics_into(clip, f, pose);
+    positions.insert(positions.end(), pose.positions.begin(), pose.positions.end());
+    if (!with_end_sites) continue;
+    for (const EndSite& site : end_sites) {
+      const auto parent = static_cast<std::size_t>(site.parent);
+      positions.push_back(pose.positions[parent] + rotate(pose.rotations[parent], site.offset));
+    }
+  }
+  return positions;
+}
+
+double body_height(const Skeleton& skeleton) {
+  Take rest;
+  rest.skeleton = skeleton;
+  rest.positions.resize(1);
+  rest.rotations.resize(skeleton.joint_count());
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
+  for (const Vec3 p : joint_positions(rest, true)) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return std::max({high.x - low.x, high.y - low.y, high.z - low.z, 0.0});
+}
+
+std::optional<LengthUnit> guess_length_unit(const Skeleton& skeleton) {
+  // The CMU database's unit is 1 / 0.45 inch. The ranges of heights do not overlap.
+  static constexpr std::array<LengthUnit, 5> units{
+      {{"m", 1.0}, {"CMU unit", 0.0254 / 0.45}, {"inch", 0.0254}, {"cm", 0.01}, {"mm", 0.001}}};
+  const double height = body_height(skeleton);
+  for (const LengthUnit& unit : units) {
+    const double metres = height * unit.metres;
+    if (metres >= 1.2 && metres <= 2.5) return unit;
+  }
+  return std::nullopt;
+}
+
+double body_height(const Take& clip) {
+  // Frames spread evenly over the take, for speed; ratio of the body height to the quartile of the
+  // distances; heights of people. Chosen by hand, not swept.
+  constexpr std::size_t most_frames = 64;
+  constexpr double heights_per_quartile = 4.2;
+  constexpr double usual_m = 1.75, tallest_m = 2.2;
+  std::vector<double> distances;
+  const std::size_t frames = clip.frame_count(), sampled = std::min(frames, most_frames);
+  std::vector<Vec3> seen;
+  for (std::size_t i = 0; i < sampled; ++i) {
+    const std::size_t f = sampled < 2 ? 0 : i * (frames - 1) / (sampled - 1);
+    seen.clear();
+    for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+      if (clip.holds_positions(m) && clip.is_observed(f, m)) seen.push_back(clip.position(f, m));
+    }
+    for (std::size_t a = 0; a < seen.size(); ++a) {
+      for (std::size_t b = a + 1; b < seen.size(); ++b)
+        distances.push_back(norm(seen[a] - seen[b]));
+    }
+  }
+  const double unit_m = metres_per_unit(clip.unit);
+  const double quartile = distances.empty() ? 0 : of_rank(distances, distances.size() / 4);
+  if (!(quartile > 0)) return unit_m > 0 ? usual_m / unit_m : 1.0;
+  const double height = heights_per_quartile * quartile;
+  return unit_m > 0 ? std::min(height, tallest_m / unit_m) : height;
+}
+
+double likely_metres_per_unit(const Take& take) {
+  if (!take.has_joints()) return metres_per_unit(take.unit);
+  if (take.metres_per_unit > 0) return take.metres_per_unit;
+  const auto guess = guess_length_unit(take.skeleton);
+  return guess ? guess->metres : 0;
 }
 
 }  // namespace kinemend

@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/named_table.hpp"
+#include "base/options.hpp"
 #include "kinemend/experimental/letter_case.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/take.hpp"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "base/bits.hpp"
+#include "base/portable.hpp"
 
 namespace kinemend {
 

@@ -1,13 +1,19 @@
-// Takes the curves of a track from takes before and after.
-#include "kinemend/experimental/curves.hpp"
-
+// Takes the curves of a track from takes before and after, and draws them as SVG.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
+#include <string_view>
 
+#include "base/portable.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/curves.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
+#include "kinemend/experimental/svg.hpp"
+#include "kinemend/experimental/text.hpp"
+#include "report/drawing.hpp"
 
 namespace kinemend {
 
@@ -114,6 +120,206 @@ TrackCurves marker_curves(const Take& before, const Take& after, std::size_t mar
       curves.difference[f] = norm(after.position(f, marker) - before.position(f, marker));
   }
   return curves;
+}
+
+namespace {
+
+using Point = Svg::Point;
+
+// Chosen by hand.
+constexpr double left = 64, right = 12, top = 28, bottom = 22, space = 10;  // pixels
+// The drawn frames and their horizontal positions.
+struct Span {
+  std::size_t first = 0, count = 0;
+  double width = 0;
+
+  double x(double frame) const {
+    const double steps = std::max(static_cast<double>(count) - 1, 1.0);
+    return left + (width - left - right) * (frame - static_cast<double>(first)) / steps;
+  }
+};
+
+struct Panel {
+  double top = 0, height = 0, low = 0, high = 1;
+
+  double y(double value) const { return top + height * (high - value) / (high - low); }
+};
+
+std::string_view band_colour(std::string_view kind) {
+  if (kind == "spike") return "#ffa8a8";
+  if (kind == "gap") return "#ffd43b";
+  if (kind == "slide") return "#b197fc";
+  return "#dee2e6";
+}
+
+void widen(const std::vector<double>& curve, const Span& span, double& low, double& high) {
+  for (std::size_t i = 0; i < span.count; ++i) {
+    const double value = curve[span.first + i];
+    if (!std::isfinite(value)) continue;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+}
+
+// Returns a panel that holds the curves with a margin; `least` is the smallest range of values that
+// it shows.
+Panel panel_of(const std::vector<const std::vector<double>*>& curves, const Span& span, double y,
+               double height, double least) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const auto* curve : curves) widen(*curve, span, low, high);
+  if (low > high) low = high = 0;
+  const double room = std::max(0.08 * (high - low), (least - (high - low)) / 2);
+  return {y, height, low - room, high + room};
+}
+
+// Lines break at missing samples. Where several frames share a pixel, its least and largest values
+// represent them.
+std::vector<std::vector<Point>> lines_of(const std::vector<double>& curve, const Span& span,
+                                         const Panel& panel) {
+  const auto pixels = static_cast<std::size_t>(span.width);
+  const std::size_t stride =
+      std::max(span.count / std::max(pixels, std::size_t{1}), std::size_t{1});
+  std::vector<std::vector<Point>> lines(1);
+  const auto add = [&](std::size_t frame) {
+    lines.back().push_back({span.x(static_cast<double>(frame)), panel.y(curve[frame])});
+  };
+  for (std::size_t f = span.first; f < span.first + span.count; f += stride) {
+    const std::size_t end = std::min(f + stride, span.first + span.count);
+    std::size_t low = end, high = end;
+    bool breaks = false;
+    for (std::size_t g = f; g < end; ++g) {
+      if (!std::isfinite(curve[g])) {
+        breaks = true;
+        continue;
+      }
+      if (low == end || curve[g] < curve[low]) low = g;
+      if (high == end || curve[g] > curve[high]) high = g;
+    }
+    if (low != end) {
+      add(std::min(low, high));
+      if (low != high) add(std::max(low, high));
+    }
+    if (breaks && !lines.back().empty()) lines.emplace_back();
+  }
+  // A single sample between two gaps is drawn as a dot.
+  for (std::vector<Point>& line : lines) {
+    if (line.size() == 1) line.push_back({line[0].x + 0.1, line[0].y});
+  }
+  return lines;
+}
+
+// Returns a round step, about `count` of which fit in `range`.
+double round_step(double range, double count) {
+  const double step = range / count, power = portable::pow(10.0, std::floor(portable::log10(step)));
+  for (const double digit : {1.0, 2.0, 5.0}) {
+    if (digit * power >= step) return digit * power;
+  }
+  return 10 * power;
+}
+
+// Draws level lines at round values.
+void draw_levels(Svg& svg, const Panel& panel, const Span& span) {
+  const double step = round_step(panel.high - panel.low, 4);
+  svg.open_group(fmt::format("font-size=\"11\" fill=\"{}\" text-anchor=\"end\"", inks::quiet));
+  for (double k = std::ceil(panel.low / step); k * step <= panel.high; ++k) {
+    const double y = panel.y(k * step);
+    svg.line({left, y}, {span.width - right, y}, fmt::format("stroke=\"{}\"", inks::grid));
+    svg.text(left - 5, y + 4, "", fmt::format("{:.4g}", k == 0 ? 0.0 : k * step));
+  }
+  svg.close_group();
+}
+
+// Draws frame numbers below the panels.
+void draw_frames(Svg& svg, const TrackCurves& curves, const Span& span, double y) {
+  if (span.count == 0) return;
+  const auto number = [&](std::size_t frame) { return frame_number(frame, curves.first_frame); };
+  const double step = std::max(round_step(static_cast<double>(span.count), 8), 1.0);
+  svg.open_group(fmt::format("font-size=\"11\" fill=\"{}\" text-anchor=\"middle\"", inks::quiet));
+  const auto last = static_cast<double>(number(span.first + span.count - 1));
+  for (double n = step * std::ceil(static_cast<double>(number(span.first)) / step); n <= last;
+       n += step) {
+    svg.text(span.x(n - static_cast<double>(curves.first_frame)), y, "", fmt::format("{:.0f}", n));
+  }
+  svg.close_group();
+}
+
+void draw_bands(Svg& svg, const TrackCurves& curves, std::span<const ReportFinding> findings,
+                const Span& span, double bottom_y) {
+  const std::size_t last = span.first + span.count;
+  for (const ReportFinding& finding : findings) {
+    const bool is_other = !finding.quantity.empty() && finding.quantity != curves.quantity;
+    const bool is_here = !is_other && finding.track == curves.name &&
+                         finding.last_frame >= span.first && finding.first_frame < last;
+    // Continuous smoothing would cover the whole drawing.
+    if (!is_here || finding.kind == "noise") continue;
+    const double from =
+        span.x(static_cast<double>(std::max(finding.first_frame, span.first)) - 0.5);
+    const double to = span.x(static_cast<double>(std::min(finding.last_frame, last - 1)) + 0.5);
+    const double x = std::max(from, left), width = std::min(to, span.width - right) - x;
+    svg.rectangle(x, top, std::max(width, 1.0), bottom_y - top,
+                  fmt::format("fill=\"{}\" opacity=\".5\"", band_colour(finding.kind)));
+  }
+}
+
+void draw_curve(Svg& svg, const std::vector<double>& curve, const Span& span, const Panel& panel,
+                std::string_view ink, double width) {
+  svg.path(lines_of(curve, span, panel),
+           fmt::format("fill=\"none\" stroke-linejoin=\"round\" stroke=\"{}\" stroke-width=\"{}\"",
+                       ink, width));
+}
+
+void draw_key(Svg& svg, double x, std::string_view ink, std::string_view name) {
+  svg.line({x, 14}, {x + 22, 14}, fmt::format("stroke=\"{}\" stroke-width=\"2\"", ink));
+  svg.text(x + 27, 18, fmt::format("fill=\"{}\"", inks::text), name);
+}
+
+}  // namespace
+
+std::string curves_svg(const TrackCurves& curves, std::span<const ReportFinding> findings,
+                       const CurveStyle& style) {
+  const std::size_t frames = curves.difference.size();
+  const std::size_t first = std::min(style.first_frame, frames);
+  const std::size_t last = frames == 0 ? 0 : std::min(style.last_frame, frames - 1);
+  const Span span{first, last < first || frames == 0 ? 0 : last - first + 1, style.width};
+  const std::size_t panels = curves.axes.size() + (style.one_take ? 0 : 1);
+  const double last_y = top + static_cast<double>(panels) * (style.panel_height + space) - space;
+  const std::string name = xml_escaped(printable_name(curves.name));
+  const std::string unit = curves.unit.empty() ? "" : ", " + xml_escaped(printable(curves.unit));
+  Svg svg(style.width, last_y + bottom, style.one_take ? name : name + " before and after");
+  svg.open_group(inks::font);
+  svg.text(left, 18, fmt::format("font-weight=\"600\" fill=\"{}\"", inks::text), name + unit);
+  if (!style.one_take) {
+    draw_key(svg, style.width - 310, inks::before, "before");
+    draw_key(svg, style.width - 215, inks::after, "after");
+    draw_key(svg, style.width - 130, inks::difference, "difference");
+  }
+  for (std::size_t p = 0; p < panels; ++p) {
+    const double y = top + static_cast<double>(p) * (style.panel_height + space);
+    svg.rectangle(left, y, style.width - left - right, style.panel_height, "fill=\"#f8f9fa\"");
+  }
+  draw_bands(svg, curves, findings, span, last_y);
+  // Nearly constant curves are not magnified to fill their panel. File units, or degrees. Chosen by
+  // hand.
+  constexpr double least_range = 1e-6;
+  for (std::size_t p = 0; p < panels; ++p) {
+    const bool is_axis = p < curves.axes.size();
+    const double y = top + static_cast<double>(p) * (style.panel_height + space);
+    const Panel panel =
+        is_axis ? panel_of({&curves.before[p], &curves.after[p]}, span, y, style.panel_height,
+                           least_range)
+                : panel_of({&curves.difference}, span, y, style.panel_height, least_range);
+    draw_levels(svg, panel, span);
+    if (is_axis) {
+      if (!style.one_take) draw_curve(svg, curves.before[p], span, panel, inks::before, 1);
+      draw_curve(svg, curves.after[p], span, panel, inks::after, 1.5);
+      svg.text(left + 6, y + 15, fmt::format("fill=\"{}\"", inks::text), curves.axes[p]);
+    } else {
+      draw_curve(svg, curves.difference, span, panel, inks::difference, 1);
+    }
+  }
+  draw_frames(svg, curves, span, last_y + 15);
+  svg.close_group();
+  return std::move(svg).finish();
 }
 
 }  // namespace kinemend

@@ -1,10 +1,15 @@
-// The tables of all figures, with their units and the functions that read them.
+// Defines the tables of all figures, with their units and the functions that read them, counts the
+// changes of a cleaning, and finds the limits that figures exceed.
 #include "report/figures.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <iterator>
 #include <vector>
+
+#include "report/texts.hpp"
 
 namespace kinemend {
 
@@ -199,6 +204,162 @@ std::string_view to_string(MarkerFit fit) {
       return "gain-offset";
   }
   return "unknown";
+}
+
+std::size_t count_spans(const CleanReport& report, Action action) {
+  return static_cast<std::size_t>(
+      std::count_if(report.spans.begin(), report.spans.end(),
+                    [&](const ReportSpan& span) { return span.action == action; }));
+}
+
+std::size_t count_bursts(const CleanReport& report) {
+  // The least length of a burst. Chosen by hand.
+  constexpr std::size_t fewest_frames = 3;
+  return static_cast<std::size_t>(
+      std::count_if(report.spans.begin(), report.spans.end(), [](const ReportSpan& span) {
+        return span.action == Action::despiked &&
+               span.last_frame - span.first_frame + 1 >= fewest_frames;
+      }));
+}
+
+std::size_t tracks_counted(const CleanReport& report) {
+  return static_cast<std::size_t>(
+      std::count_if(report.tracks.begin(), report.tracks.end(),
+                    [](const TrackSummary& track) { return track.is_position; }));
+}
+
+std::size_t tracks_changed(const CleanReport& report) {
+  return static_cast<std::size_t>(
+      std::count_if(report.tracks.begin(), report.tracks.end(),
+                    [](const TrackSummary& track) { return track.frames_changed > 0; }));
+}
+
+std::size_t frames_repaired(const CleanReport& report) {
+  std::vector<bool> repaired(report.frames, false);
+  for (const ReportSpan& span : report.spans) {
+    if (span.action != Action::despiked && span.action != Action::filled) continue;
+    for (std::size_t f = span.first_frame; f <= span.last_frame && f < repaired.size(); ++f)
+      repaired[f] = true;
+  }
+  return static_cast<std::size_t>(std::count(repaired.begin(), repaired.end(), true));
+}
+
+std::size_t gaps_left(const CleanReport& report) {
+  std::size_t gaps = 0;
+  for (const TrackSummary& track : report.tracks) gaps += track.gaps_left;
+  return gaps;
+}
+
+double frames_per_second(const CleanReport& report) {
+  return report.seconds > 0 ? static_cast<double>(report.frames) / report.seconds : 0;
+}
+
+bool is_changed(const CleanReport& report, std::int32_t track) {
+  return track < 0 ? report.root_max_change > 0 : report.tracks[track].frames_changed > 0;
+}
+
+std::string track_name(const CleanReport& report, std::int32_t track) {
+  return track < 0 ? "root position" : report.tracks[track].name;
+}
+
+std::size_t frames_adjusted(const FeetReport& report) {
+  const std::size_t frames = report.root_changed.size();
+  const std::size_t joints = frames > 0 ? report.changed.size() / frames : 0;
+  std::size_t adjusted = 0;
+  for (std::size_t f = 0; f < frames; ++f) {
+    const auto row = report.changed.begin() + static_cast<std::ptrdiff_t>(f * joints);
+    const auto end = row + static_cast<std::ptrdiff_t>(joints);
+    adjusted += report.root_changed[f] != 0 || std::find(row, end, 1) != end ? 1 : 0;
+  }
+  return adjusted;
+}
+
+std::size_t contacts_held(const FeetReport& report) {
+  return static_cast<std::size_t>(std::count(report.held.begin(), report.held.end(), 1));
+}
+
+namespace {
+
+const FigureLimit* limit_of(std::string_view figure, std::span<const FigureLimit> limits) {
+  const auto found = std::find_if(limits.begin(), limits.end(),
+                                  [&](const FigureLimit& limit) { return limit.figure == figure; });
+  return found == limits.end() ? nullptr : &*found;
+}
+
+// Returns a limit's option on the command line: "--max-gap-s".
+std::string option_of(const FigureRule& rule) {
+  std::string name(rule.limit);
+  std::replace(name.begin(), name.end(), '_', '-');
+  return "--" + name;
+}
+
+std::vector<std::string> passed(const TakeFacts& take, const CheckReport& report,
+                                std::span<const FigureLimit> limits) {
+  std::vector<std::string> lines;
+  for (const CheckFigure& figure : check_figure_table()) {
+    const FigureLimit* const limit = limit_of(figure.rule.name, limits);
+    const std::optional<double> value = figure.get(report.figures);
+    if (limit == nullptr || !value || *value <= limit->value) continue;
+    const std::string unit = unit_of(figure, report);
+    std::string line = fmt::format(
+        "{}: {}: {} is above the limit {}", take.input == "-" ? "standard input" : take.input,
+        figure.rule.label, with_unit(*value, unit), with_unit(limit->value, unit));
+    const auto worst =
+        std::find_if(report.findings.begin(), report.findings.end(), [&](const Finding& finding) {
+          return std::find(figure.kinds.begin(), figure.kinds.end(), finding.kind) !=
+                 figure.kinds.end();
+        });
+    if (worst != report.findings.end()) line += "; " + finding_sentence(*worst, take, report);
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+// Returns why a figure of a comparison is unknown.
+std::string_view unknown_for(const FigureRule& rule, const CompareOutcome& outcome) {
+  if (outcome.markers) return "the take is too short, or its rate too low";
+  return rule.name.starts_with("foot_slide") ? "no foot has ground contact"
+                                             : "the unit of length is unknown";
+}
+
+std::vector<std::string> passed(const TakeFacts& /*take*/, const CompareOutcome& outcome,
+                                std::span<const FigureLimit> limits) {
+  std::vector<std::string> lines;
+  std::size_t known = 0;
+  for_each_figure(outcome, [&](const FigureRule& rule, const std::optional<double>& value) {
+    const FigureLimit* const limit = limit_of(rule.name, limits);
+    if (limit == nullptr) return;
+    ++known;
+    if (!value) {
+      lines.push_back(fmt::format("{} is unknown because {}: {} cannot be checked", rule.name,
+                                  unknown_for(rule, outcome), option_of(rule)));
+    } else if (rule.more_is_better ? !(*value >= limit->value) : !(*value <= limit->value)) {
+      lines.push_back(fmt::format("{} {:.4g} is {} the limit {:.4g}", rule.name, *value,
+                                  rule.more_is_better ? "below" : "above", limit->value));
+    }
+  });
+  if (known == limits.size()) return lines;
+  const std::size_t of_joints = comparison_figure_table().size();
+  const std::span<const FigureRule> all = comparison_figures();
+  for (const FigureRule& rule : outcome.markers ? all.first(of_joints) : all.subspan(of_joints)) {
+    if (limit_of(rule.name, limits) != nullptr)
+      lines.push_back(fmt::format("{} is a figure of {}: {} cannot be checked", rule.name,
+                                  outcome.markers ? "joints" : "markers", option_of(rule)));
+  }
+  return lines;
+}
+
+template <class Result>
+std::vector<std::string> passed(const TakeFacts& /*take*/, const Result& /*result*/,
+                                std::span<const FigureLimit> /*limits*/) {
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::string> passed_limits(const Report& report, std::span<const FigureLimit> limits) {
+  return std::visit([&](const auto& result) { return passed(report.take, result, limits); },
+                    report.result);
 }
 
 }  // namespace kinemend

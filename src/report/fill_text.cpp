@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "base/measure.hpp"
+#include "base/text.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "report/figures.hpp"

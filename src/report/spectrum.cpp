@@ -11,7 +11,7 @@
 #include "kinemend/experimental/svg.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/rotation.hpp"
-#include "report/inks.hpp"
+#include "report/drawing.hpp"
 
 namespace kinemend {
 

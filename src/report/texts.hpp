@@ -1,4 +1,4 @@
-// The text of each command's result, and the words shared by them.
+// Declares the text of each command's result, and the words that these texts share.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
-// Whittaker smoothing with order and strength of largest marginal likelihood for each channel, then
-// with strength that follows the motion in time.
+// Chooses the strength of smoothing for each channel by the likelihood of models, then lets it
+// follow the motion. The noise is white, or a first-order autoregressive process, whose spectrum is
+// flat up to a corner and falls with the square of the frequency beyond it.
 #pragma once
 
 #include <array>
@@ -61,7 +62,7 @@ std::vector<std::size_t> most_likely_models(const PoseMatrix& matrix,
                                             std::span<const double> noise_variance,
                                             const ModelGrid& grid, std::size_t group = 1);
 
-/// Chosen by hand; docs/methods/auto-details.md states what other values do (`smoothing.adaptive`).
+/// Chosen by hand; docs/details/auto.md states what other values do (`smoothing.adaptive`).
 struct AdaptiveSettings {
   /// Window of the moving average of squared differences, applied twice; at least three frames.
   double window_s = 0.05;
@@ -94,5 +95,26 @@ void for_each_of_one_order(std::span<const SmoothingModel> models,
 /// Columns `channels` of a matrix as a block; the rest of the block is zero.
 ChannelBlock gather(const PoseMatrix& matrix, std::span<const std::size_t> channels);
 void scatter(const ChannelBlock& block, std::span<const std::size_t> channels, PoseMatrix& matrix);
+
+/// The precision of such noise of variance 1 on eight channels: `weight` along the diagonal,
+/// `coupling` of each frame with the next. A missing sample has neither, and noise after it is
+/// independent of that before.
+struct NoisePrecision {
+  ChannelBlock weight, coupling;
+  BlockRow log_determinant{}, observed{};  ///< of unused channels 0
+
+  explicit NoisePrecision(std::size_t frames) : weight(frames, 1), coupling(frames) {}
+  /// Sets the precision of one channel; `missing` is empty if no sample is missing. `correlation`:
+  /// of neighbouring frames, from 0 to below 1.
+  void set_channel(std::size_t channel, double correlation, std::span<const std::uint8_t> missing);
+};
+
+/// The parts of a channel's evidence: -2 log p(y) under noise of variance s is `squares / s +
+/// logarithms + differences log s`, up to terms that all models share.
+struct ColouredEvidence {
+  BlockRow squares{}, logarithms{}, differences{};
+};
+ColouredEvidence evidence_of(const ChannelBlock& y, const NoisePrecision& precision,
+                             const SmoothingModel& model);
 
 }  // namespace kinemend::signal

@@ -1,10 +1,15 @@
-// Extends matrices beyond their ends by point reflection, for filters that work in place.
+// Checks the arguments of filters, and extends matrices beyond their ends by point reflection, for
+// filters that work in place.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <span>
+#include <string>
 #include <vector>
 
+#include "kinemend/error.hpp"
 #include "kinemend/experimental/pose_matrix.hpp"
 
 namespace kinemend::signal {
@@ -48,6 +53,15 @@ void for_each_chunk(PoseMatrix& matrix, std::size_t radius, const Work& work) {
     std::memmove(window.data(), window.data() + count * channels, 2 * radius * row_bytes);
     held = 2 * radius;
   }
+}
+
+inline void require(bool condition, const std::string& message) {
+  if (!condition) throw Error(ErrorKind::usage, message);
+}
+
+inline void require_marks(const PoseMatrix& matrix, std::span<const std::uint8_t> marks) {
+  require(marks.empty() || marks.size() == matrix.frames * matrix.channels,
+          "the marks of missing samples are not as many as the samples");
 }
 
 }  // namespace kinemend::signal

@@ -6,14 +6,13 @@
 
 #include "base/parallel.hpp"
 #include "base/portable.hpp"
-#include "signal/leave_one_out_kernels.hpp"
 #include "signal/whittaker_kernels.hpp"
 
 namespace kinemend::signal {
 
 namespace {
 
-// Order of the differences (docs/methods/auto-details.md, "Spikes").
+// Order of the differences (docs/details/auto.md, "Spikes").
 constexpr std::size_t order = 2;
 // Rows of the fit that are computed at a time; they fit the L2 cache. For speed, not swept.
 constexpr std::size_t tile_frames = 2048;

@@ -1,5 +1,5 @@
 // The recursions of leave-one-out predictions, compiled once for each instruction set.
-#include "signal/leave_one_out_kernels.hpp"
+#include "signal/whittaker_kernels.hpp"
 
 #include "base/simd.hpp"
 #include "signal/leave_one_out.hpp"

@@ -1,5 +1,5 @@
 // Tests of measured values as text: their units and digits.
-#include "base/measure.hpp"
+#include "base/text.hpp"
 
 #include <gtest/gtest.h>
 

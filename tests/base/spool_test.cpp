@@ -1,5 +1,5 @@
 // Tests of spools, in memory and in a temporary file.
-#include "base/spool.hpp"
+#include "base/files.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "base/quote.hpp"
+#include "base/text.hpp"
 
 namespace kinemend::test {
 namespace {

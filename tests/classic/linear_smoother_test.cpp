@@ -1,5 +1,5 @@
 // Tests of the linear smoother, against the conditional expectation in dense algebra.
-#include "classic/linear_smoother.hpp"
+#include "classic/linear_dynamics.hpp"
 
 #include <gtest/gtest.h>
 

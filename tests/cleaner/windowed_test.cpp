@@ -1,5 +1,5 @@
 // Tests of live methods with a window, with the simplest such method.
-#include "cleaner/windowed.hpp"
+#include "cleaner/live.hpp"
 
 #include <gtest/gtest.h>
 

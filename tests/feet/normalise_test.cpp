@@ -7,7 +7,7 @@
 #include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/experimental/normalise.hpp"
 #include "kinemend/lab/synth.hpp"
-#include "motion/take_change.hpp"
+#include "motion/conversions.hpp"
 
 namespace kinemend::test {
 namespace {

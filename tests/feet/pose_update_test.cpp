@@ -1,5 +1,5 @@
 // Tests of the pose update, against the minimum of its cost.
-#include "feet/pose_update.hpp"
+#include "feet/leg_solver.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,6 @@
 #include <numeric>
 
 #include "fill/methods.hpp"
-#include "fill/trials.hpp"
 #include "kinemend/gaps.hpp"
 #include "kinemend/lab/synth.hpp"
 

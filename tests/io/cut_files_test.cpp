@@ -7,7 +7,7 @@
 
 #include "io/acclaim/acclaim.hpp"
 #include "io/support.hpp"
-#include "io/text/cut_text.hpp"
+#include "io/text/text.hpp"
 
 namespace kinemend {
 namespace {

@@ -1,5 +1,5 @@
 // Tests of lines that arrive in chunks of any size.
-#include "live/line_splitter.hpp"
+#include "live/live_lines.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Tests of the headers of live streams: their end, their maximum length, and their errors.
-#include "live/live_header.hpp"
+#include "live/live_lines.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,8 +7,7 @@
 
 #include "kinemend/experimental/live.hpp"
 #include "kinemend/methods.hpp"
-#include "live/live_header.hpp"
-#include "live/neuron_lines.hpp"
+#include "live/live_lines.hpp"
 
 namespace kinemend::test {
 namespace {

@@ -10,8 +10,8 @@
 #include "kinemend/error.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/stream.hpp"
-#include "live/vmc_bones.hpp"
 #include "live/vmc_packets.hpp"
+#include "live/vmc_stream.hpp"
 
 namespace kinemend::test {
 namespace {

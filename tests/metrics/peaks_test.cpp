@@ -1,5 +1,5 @@
 // Tests of peak speeds and the noise in them, by simulation.
-#include "metrics/peaks.hpp"
+#include "metrics/track_noise.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "base/file_bytes.hpp"
+#include "base/files.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/content_hash.hpp"
 #include "kinemend/experimental/model.hpp"

@@ -1,5 +1,5 @@
 // Tests of processing only the frames after a calibration pose.
-#include "motion/calibration.hpp"
+#include "motion/take.hpp"
 
 #include <gtest/gtest.h>
 

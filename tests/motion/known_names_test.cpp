@@ -8,7 +8,7 @@
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/subjects.hpp"
 #include "kinemend/gaps.hpp"
-#include "motion/name_pattern.hpp"
+#include "motion/names.hpp"
 
 namespace kinemend {
 namespace {

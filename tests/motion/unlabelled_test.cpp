@@ -1,5 +1,5 @@
 // Tests which names mark unlabelled points.
-#include "motion/unlabelled.hpp"
+#include "motion/names.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,6 @@
 
 #include "kinemend/error.hpp"
 #include "layers_support.hpp"
-#include "nn/activation.hpp"
 #include "random_values.hpp"
 
 namespace kinemend::nn {

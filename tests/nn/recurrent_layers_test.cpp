@@ -1,5 +1,5 @@
 // Tests of LSTM layers, against LibTorch and frame by frame.
-#include "nn/recurrent_layers.hpp"
+#include "nn/layers.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "nn/activation.hpp"
 #include "nn/gemm.hpp"
+#include "nn/layers.hpp"
 #include "random_values.hpp"
 
 namespace kinemend::nn {

@@ -1,5 +1,5 @@
 // Tests of the precision and evidence of coloured noise, against dense matrices.
-#include "signal/coloured_noise.hpp"
+#include "signal/evidence.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Tests of running medians, against SciPy, and of sorting networks.
 #include <gtest/gtest.h>
 
-#include "signal/sorting_network.hpp"
+#include "signal/median.hpp"
 #include "signal/support.hpp"
 
 namespace kinemend::test {

@@ -1,5 +1,5 @@
 // Tests of selection by rank on each instruction set, against sorting.
-#include "signal/order_statistics.hpp"
+#include "signal/median.hpp"
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>

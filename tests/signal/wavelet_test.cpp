@@ -6,7 +6,7 @@
 
 #include "kinemend/error.hpp"
 #include "signal/support.hpp"
-#include "signal/wavelet_transform.hpp"
+#include "signal/wavelet.hpp"
 
 namespace kinemend::test {
 namespace {

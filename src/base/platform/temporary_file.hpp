@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "base/descriptor.hpp"
+#include "base/files.hpp"
 #include "base/platform/files.hpp"
 
 namespace kinemend::platform {

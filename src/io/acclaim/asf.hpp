@@ -1,13 +1,18 @@
-// The format ASF: recognises, reads and writes skeletons.
+// The format ASF: recognises, reads and writes skeletons, splits the text into words, and plans the
+// bones that a new file needs.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "io/text/number.hpp"
 #include "io/text/text.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/skeleton.hpp"
 
 namespace kinemend {
 
@@ -42,5 +47,79 @@ TakeResult read_asf(std::string bytes, std::string_view name, const ReadOptions&
 /// Writes the skeleton of a clip: the bytes it was read from if it is unchanged, else a file that
 /// fits the output of `write_amc`. Errors: `usage` if the format cannot hold the skeleton.
 std::string write_asf(const Take& clip);
+
+/// A bone for a joint, or a connecting bone from a joint to a child that is not at its end.
+struct PlannedBone {
+  std::string name;
+  std::int32_t parent = -1;  ///< index of a bone; -1 for the root
+  std::int32_t joint = -1;   ///< -1 for a connecting bone
+  Quat axis;                 ///< its frame at rest, in the world
+  Vec3 extent;               ///< from its beginning to its end, at rest, in the world
+  std::vector<AsfDof> dofs;
+};
+
+/// Returns the bones of a skeleton for ASF, in which a child begins at its parent's end. Bone 0 is
+/// the root, and parents precede their children. A joint becomes a bone of its name that ends where
+/// all its children are. If the children are apart, the bone has no length, and a bone without
+/// degrees of freedom leads to each child. Names that the format cannot hold are changed and stay
+/// different from each other. Errors: `usage` if the format cannot hold the skeleton.
+std::vector<PlannedBone> plan_bones(const Skeleton& skeleton);
+
+/// Adds the missing position channels of the root at the front, because ASF gives the root all
+/// three.
+Skeleton with_root_positions(Skeleton skeleton);
+
+/// Walks over the words of an ASF file: white space, commas and parentheses separate them, and #
+/// starts a comment.
+class AsfScanner {
+ public:
+  explicit AsfScanner(std::string_view bytes, std::size_t position = 0)
+      : bytes_(bytes), position_(position) {}
+
+  /// Returns the next word, empty at the end, without moving past it.
+  std::string_view peek() {
+    while (position_ < bytes_.size()) {
+      const char c = bytes_[position_];
+      if (c == '#') {
+        skip_line();
+      } else if (is_blank(c)) {
+        ++position_;
+      } else {
+        break;
+      }
+    }
+    std::size_t end = position_;
+    while (end < bytes_.size() && !is_blank(bytes_[end]) && bytes_[end] != '#') ++end;
+    return bytes_.substr(position_, end - position_);
+  }
+  /// Returns the next word and moves past it.
+  std::string_view next() {
+    const std::string_view word = peek();
+    position_ += word.size();
+    return word;
+  }
+  /// Returns the next word of this line, or empty, and moves past it.
+  std::string_view next_in_line() {
+    while (position_ < bytes_.size() && is_blank(bytes_[position_]) &&
+           !is_line_end(bytes_[position_])) {
+      ++position_;
+    }
+    const bool more =
+        position_ < bytes_.size() && !is_line_end(bytes_[position_]) && bytes_[position_] != '#';
+    return more ? next() : std::string_view{};
+  }
+  void skip_line() {
+    while (position_ < bytes_.size() && !is_line_end(bytes_[position_])) ++position_;
+  }
+
+  /// Returns the place of the next word, after a call of `peek`.
+  std::size_t position() const { return position_; }
+
+ private:
+  static bool is_blank(char c) { return is_space(c) || c == ',' || c == '(' || c == ')'; }
+
+  std::string_view bytes_;
+  std::size_t position_;
+};
 
 }  // namespace kinemend

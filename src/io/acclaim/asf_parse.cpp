@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "io/acclaim/asf.hpp"
-#include "io/acclaim/asf_scanner.hpp"
 #include "io/bvh/bvh_hierarchy.hpp"
 
 namespace kinemend {

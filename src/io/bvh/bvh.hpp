@@ -1,10 +1,17 @@
-// The format BVH: recognises, reads and writes it.
+// The format BVH: recognises, reads and writes it, keeps a file as it was read so that it can be
+// written back in its own layout, and holds the pieces of text that writers share.
 #pragma once
 
+#include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "io/motion/motion_document.hpp"
+#include "io/text/text.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -15,5 +22,33 @@ TakeResult read_bvh(std::string bytes, std::string_view name, const ReadOptions&
 /// Writes a clip. A clip read from BVH keeps its source's layout and the digits of every unchanged
 /// sample; any other clip gets a plain layout. Errors: `usage` if the format cannot hold the clip.
 std::string write_bvh(const Take& clip);
+
+/// A BVH file as it was read.
+struct BvhDocument : MotionDocument {
+  std::size_t hierarchy_end = 0;    ///< after the last closing brace
+  ByteSpan frame_time;              ///< the number after `Frame Time:`
+  bool frame_time_is_none = false;  ///< the frame time is not a finite number
+
+  std::unique_ptr<RowReader> rows() const override;
+};
+
+/// Returns the frame time with the fewest decimals, at least six, that read back as the same rate.
+std::string frame_time_text(double frame_rate_hz);
+
+/// The style of `append_motion`.
+struct MotionStyle {
+  std::string_view line_end = "\n";
+  unsigned decimals = 6;
+  std::string_view frame_time;
+};
+
+/// Appends `MOTION` and all frames, one per line, with joints in the given order; angles continue
+/// the frame before. Errors: `usage` for values that are not finite.
+void append_motion(TextBuffer& out, const Take& clip, const std::vector<std::size_t>& joints,
+                   const MotionStyle& style);
+
+/// Returns the document's text with every changed sample replaced. The clip must have the
+/// document's skeleton and frame count, and its rate too if the file has no frame time.
+std::string rewrite_bvh(const Take& clip, const BvhDocument& document);
 
 }  // namespace kinemend

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "io/bvh/bvh_document.hpp"
+#include "io/bvh/bvh.hpp"
 #include "io/text/number.hpp"
 #include "io/text/text.hpp"
 #include "kinemend/skeleton.hpp"

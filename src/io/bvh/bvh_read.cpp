@@ -12,14 +12,11 @@
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "io/bvh/bvh.hpp"
-#include "io/bvh/bvh_document.hpp"
 #include "io/bvh/bvh_hierarchy.hpp"
 #include "io/motion/clip_rows.hpp"
-#include "io/motion/joined_numbers.hpp"
 #include "io/motion/motion_columns.hpp"
-#include "io/motion/motion_lines.hpp"
+#include "io/motion/motion_document.hpp"
 #include "io/motion/motion_rows.hpp"
-#include "io/text/cut_text.hpp"
 #include "io/text/text.hpp"
 
 namespace kinemend {

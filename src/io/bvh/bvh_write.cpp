@@ -1,15 +1,17 @@
-// Writes BVH with the hierarchy of the source if there is one, else in a plain layout.
+// Writes BVH: into the text of its source if only samples or the rate changed, with the source's
+// hierarchy if other frames are to be written, else in a plain layout.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "io/bvh/bvh.hpp"
-#include "io/bvh/bvh_document.hpp"
 #include "io/bvh/bvh_hierarchy.hpp"
-#include "io/bvh/bvh_text.hpp"
 #include "io/motion/motion_columns.hpp"
+#include "io/motion/motion_document.hpp"
+#include "io/motion/motion_rows.hpp"
 #include "io/motion/motion_write.hpp"
 #include "io/text/text.hpp"
 #include "kinemend/error.hpp"
@@ -191,6 +193,38 @@ std::string write_bvh(const Take& clip) {
   if (clip.frame_count() == document->frame_count && same_rate && same_translated)
     return rewrite_bvh(clip, *document);
   return write_with_hierarchy(clip, *document);
+}
+
+namespace {
+
+class BvhRowReader : public RowReader {
+ public:
+  explicit BvhRowReader(const BvhDocument& document)
+      : width_(MotionColumns(document.skeleton).count()),
+        rows_(document.bytes.data() + document.data_begin,
+              document.bytes.data() + document.data_end, document.commas) {}
+
+  void next(double* values, std::size_t frames, TokenSpan* tokens) override {
+    rows_.next(values, frames * width_, tokens);
+  }
+
+ private:
+  std::size_t width_;
+  MotionRows rows_;
+};
+
+}  // namespace
+
+std::unique_ptr<RowReader> BvhDocument::rows() const {
+  return std::make_unique<BvhRowReader>(*this);
+}
+
+std::string rewrite_bvh(const Take& clip, const BvhDocument& document) {
+  std::vector<DocumentEdit> edits;
+  if (clip.frame_rate_hz != document.frame_rate_hz || document.frame_time_is_none) {
+    edits.push_back({document.frame_time, frame_time_text(clip.frame_rate_hz)});
+  }
+  return rewrite_motion(clip, document, edits);
 }
 
 }  // namespace kinemend

@@ -6,7 +6,6 @@
 
 #include "io/c3d/c3d_document.hpp"
 #include "io/c3d/c3d_layout.hpp"
-#include "io/c3d/c3d_points.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "io/stated_rate.hpp"
+#include "io/reading_limits.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 
 namespace kinemend {

@@ -1,5 +1,5 @@
 // Writes header, parameters, points and analog samples as Intel floats.
-#include "io/c3d/c3d_writing.hpp"
+#include "io/c3d/c3d.hpp"
 
 #include <fmt/format.h>
 
@@ -9,11 +9,9 @@
 #include <optional>
 #include <vector>
 
-#include "io/c3d/c3d_analog.hpp"
-#include "io/c3d/c3d_carry.hpp"
+#include "io/c3d/c3d_document.hpp"
 #include "io/c3d/c3d_facts.hpp"
-#include "io/c3d/c3d_parameter_writer.hpp"
-#include "io/c3d/c3d_source_frames.hpp"
+#include "io/c3d/c3d_parameters.hpp"
 
 namespace kinemend {
 

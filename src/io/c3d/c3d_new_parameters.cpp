@@ -1,5 +1,5 @@
 // Fills the parameter groups from the take and from its source file.
-#include "io/c3d/c3d_writing.hpp"
+#include "io/c3d/c3d.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <optional>
 #include <set>
 
-#include "io/c3d/c3d_parameter_writer.hpp"
+#include "io/c3d/c3d_parameters.hpp"
 
 namespace kinemend {
 

@@ -1,11 +1,11 @@
 // Replaces the changed samples and the rate, and keeps every other byte.
-#include "io/c3d/c3d_writing.hpp"
+#include "io/c3d/c3d.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
-#include "io/c3d/c3d_source_frames.hpp"
+#include "io/c3d/c3d_document.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 
 namespace kinemend {

@@ -1,9 +1,9 @@
 // Encodes records, packs long arrays, and ends the file as readers expect.
 #include "io/fbx/fbx_builder.hpp"
 
-#include "base/bits.hpp"
+#include "base/portable.hpp"
+#include "io/fbx/fbx_tree.hpp"
 #include "io/fbx/fbx_values.hpp"
-#include "io/fbx/fbx_words.hpp"
 
 namespace kinemend {
 

@@ -8,13 +8,13 @@
 #include <optional>
 #include <vector>
 
-#include "base/bits.hpp"
+#include "base/portable.hpp"
 #include "io/fbx/fbx_builder.hpp"
 #include "io/fbx/fbx_rig.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/skeleton.hpp"
 #include "kinemend/take.hpp"
-#include "motion/component.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend {
 

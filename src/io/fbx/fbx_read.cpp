@@ -8,11 +8,11 @@
 #include <optional>
 #include <utility>
 
-#include "base/quote.hpp"
+#include "base/text.hpp"
 #include "io/fbx/fbx.hpp"
 #include "io/fbx/fbx_document.hpp"
-#include "io/fbx/fbx_properties.hpp"
-#include "io/memory_limit.hpp"
+#include "io/fbx/fbx_values.hpp"
+#include "io/reading_limits.hpp"
 #include "kinemend/experimental/text.hpp"
 
 namespace kinemend {

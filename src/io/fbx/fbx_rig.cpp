@@ -1,12 +1,15 @@
-// Walks over the tree of models to find the joints among them.
+// Walks over the tree of models to find the joints, evaluates curves and layers, and chains the
+// transforms of the models.
 #include "io/fbx/fbx_rig.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
-#include "motion/component.hpp"
+#include "base/portable.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend {
 
@@ -222,6 +225,201 @@ Quat fbx_turn(Vec3 degrees, RotationOrder factors) {
   for (std::size_t i = 0; i < 3; ++i)
     angles[i] = radians * component(degrees, static_cast<std::size_t>(factors.axes[i]));
   return from_euler(angles, factors);
+}
+
+namespace {
+
+constexpr double degrees_per_radian = 180 / std::numbers::pi;
+
+Vec3 fbx_angles(Quat rotation, RotationOrder order) {
+  const std::array<double, 3> angles = to_euler(rotation, order);
+  Vec3 degrees;
+  for (std::size_t i = 0; i < 3; ++i)
+    component_of(degrees, static_cast<std::size_t>(order.axes[i])) = degrees_per_radian * angles[i];
+  return degrees;
+}
+
+Quat fbx_share(Quat rotation, double weight) {
+  const Quat near = rotation.w < 0 ? -rotation : rotation;
+  return weight == 1 ? near : exp(weight * log(near));
+}
+
+Vec3 mix_rotations(Vec3 below, Vec3 value, const FbxLayer& layer, RotationOrder order) {
+  const Quat under = fbx_turn(below, order), over = fbx_turn(value, order);
+  const Quat mixed = layer.is_override
+                         ? under * fbx_share(normalized(conjugate(under) * over), layer.weight)
+                         : under * fbx_share(over, layer.weight);
+  return fbx_angles(normalized(mixed), order);
+}
+
+Vec3 mix_scales(Vec3 below, Vec3 value, double weight) {
+  return {below.x * portable::pow(std::fabs(value.x), weight),
+          below.y * portable::pow(std::fabs(value.y), weight),
+          below.z * portable::pow(std::fabs(value.z), weight)};
+}
+
+// Returns the value of the layers below mixed with a layer.
+Vec3 mix_layer(Vec3 below, Vec3 value, const FbxLayer& layer, FbxVector vector,
+               RotationOrder order) {
+  if (vector == fbx_rotation && !layer.adds_rotations_by_channel)
+    return mix_rotations(below, value, layer, order);
+  if (layer.is_override) return below + layer.weight * (value - below);
+  if (vector == fbx_scaling) return mix_scales(below, value, layer.weight);
+  return below + layer.weight * value;
+}
+
+FbxMatrix scaled(const FbxMatrix& m, Vec3 s) {
+  FbxMatrix out;
+  for (std::size_t i = 0; i < 3; ++i)
+    out.rows[i] = {m.rows[i].x * s.x, m.rows[i].y * s.y, m.rows[i].z * s.z};
+  return out;
+}
+
+}  // namespace
+
+FbxMatrix operator*(const FbxMatrix& a, const FbxMatrix& b) {
+  FbxMatrix out;
+  for (std::size_t i = 0; i < 3; ++i)
+    out.rows[i] = a.rows[i].x * b.rows[0] + a.rows[i].y * b.rows[1] + a.rows[i].z * b.rows[2];
+  return out;
+}
+
+Vec3 operator*(const FbxMatrix& a, Vec3 v) {
+  return {dot(a.rows[0], v), dot(a.rows[1], v), dot(a.rows[2], v)};
+}
+
+FbxMatrix fbx_matrix(Quat rotation) {
+  const Vec3 x = rotate(rotation, {1, 0, 0}), y = rotate(rotation, {0, 1, 0}),
+             z = rotate(rotation, {0, 0, 1});
+  return {{Vec3{x.x, y.x, z.x}, Vec3{x.y, y.y, z.y}, Vec3{x.z, y.z, z.z}}};
+}
+
+bool invert_fbx_matrix(const FbxMatrix& matrix, FbxMatrix& inverse) {
+  const auto& [a, b, c] = matrix.rows;
+  const Vec3 bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
+  const double determinant = dot(a, bc);
+  const double size = norm(a) * norm(b) * norm(c);
+  if (!(std::fabs(determinant) > 1e-9 * size) || !std::isfinite(1 / determinant)) return false;
+  const double f = 1 / determinant;
+  inverse.rows = {Vec3{f * bc.x, f * ca.x, f * ab.x}, Vec3{f * bc.y, f * ca.y, f * ab.y},
+                  Vec3{f * bc.z, f * ca.z, f * ab.z}};
+  return true;
+}
+
+FbxMatrix fbx_step_matrix(const FbxRig& rig, const std::vector<FbxNodePose>& poses,
+                          const FbxRigNode& node) {
+  FbxMatrix matrix;
+  if (node.parent >= 0) matrix = poses[static_cast<std::size_t>(node.parent)].linear;
+  if (node.parent_joint < 0) return matrix;
+  const std::size_t above = rig.joints[static_cast<std::size_t>(node.parent_joint)];
+  return fbx_matrix(conjugate(poses[above].joint_turn)) * matrix;
+}
+
+FbxPoser::FbxPoser(const FbxScene& scene, const FbxMotion& motion, const FbxRig& rig)
+    : scene_(scene),
+      motion_(motion),
+      rig_(rig),
+      animated_(rig.nodes.size()),
+      cursors_(motion.curves.size()),
+      is_animated_(3 * rig.nodes.size()),
+      poses_(rig.nodes.size()) {
+  for (std::size_t n = 0; n < rig.nodes.size(); ++n) {
+    poses_[n].local = scene.models[rig.nodes[n].model].local;
+    for (std::size_t v = 0; v < 3; ++v) {
+      for (const FbxLayer& layer : motion.layers) {
+        const auto found = layer.vectors.find(3 * rig.nodes[n].model + v);
+        const bool counts = found != layer.vectors.end() && !layer.is_muted;
+        animated_[n][v].push_back(counts ? &found->second : nullptr);
+        is_animated_[3 * n + v] = is_animated_[3 * n + v] || counts;
+      }
+    }
+  }
+}
+
+const std::vector<FbxNodePose>& FbxPoser::at(std::int64_t time) {
+  for (std::size_t n = 0; n < poses_.size(); ++n) {
+    for (const FbxVector vector : {fbx_translation, fbx_rotation, fbx_scaling})
+      evaluate(n, vector, time);
+    place(n);
+  }
+  return poses_;
+}
+
+void FbxPoser::locals_over(std::size_t n, FbxVector vector, std::span<const std::int64_t> times,
+                           std::span<Vec3> out) {
+  if (!is_animated_[3 * n + vector]) {
+    std::fill(out.begin(), out.end(), scene_.models[rig_.nodes[n].model].local[vector]);
+  } else if (motion_.layers.size() > 1) {
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      evaluate(n, vector, times[i]);
+      out[i] = poses_[n].local[vector];
+    }
+  } else {
+    const FbxAnimatedVector& animated = *animated_[n][vector].front();
+    std::fill(out.begin(), out.end(), animated.constant);
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (animated.curves[a] < 0) continue;
+      const FbxCurve& curve = motion_.curves[static_cast<std::size_t>(animated.curves[a])];
+      std::size_t cursor = 0;
+      for (std::size_t i = 0; i < times.size(); ++i)
+        component_of(out[i], a) = fbx_value_at(curve, times[i], scene_.ticks_per_second, cursor);
+    }
+  }
+}
+
+Vec3 FbxPoser::layer_value(const FbxAnimatedVector& animated, std::int64_t time) {
+  Vec3 value = animated.constant;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (animated.curves[a] < 0) continue;
+    const auto curve = static_cast<std::size_t>(animated.curves[a]);
+    component_of(value, a) =
+        fbx_value_at(motion_.curves[curve], time, scene_.ticks_per_second, cursors_[curve]);
+  }
+  return value;
+}
+
+void FbxPoser::evaluate(std::size_t n, FbxVector vector, std::int64_t time) {
+  if (!is_animated_[3 * n + vector]) return;
+  // The first layer replaces the value at rest; the other layers are mixed with the layers below.
+  Vec3 value = scene_.models[rig_.nodes[n].model].local[vector];
+  for (std::size_t l = 0; l < motion_.layers.size(); ++l) {
+    const FbxAnimatedVector* const animated = animated_[n][vector][l];
+    if (animated == nullptr) continue;
+    const Vec3 layer = layer_value(*animated, time);
+    value =
+        l == 0 ? layer : mix_layer(value, layer, motion_.layers[l], vector, rig_.nodes[n].order);
+  }
+  poses_[n].local[vector] = value;
+}
+
+void FbxPoser::place(std::size_t n) {
+  const FbxRigNode& node = rig_.nodes[n];
+  const FbxModel& model = scene_.models[node.model];
+  FbxNodePose& pose = poses_[n];
+  const Quat turn =
+      node.pre * fbx_turn(pose.local[fbx_rotation], node.order) * conjugate(node.post);
+  const Vec3 centre = pose.local[fbx_translation] + model.rotation_offset + model.rotation_pivot;
+  if (node.parent < 0) {
+    pose.turn = normalized(turn);
+    pose.unscaled = fbx_matrix(pose.turn);
+    pose.centre = centre;
+  } else {
+    const auto p = static_cast<std::size_t>(node.parent);
+    const FbxNodePose& above = poses_[p];
+    const FbxModel& upper = scene_.models[rig_.nodes[p].model];
+    pose.turn = normalized(above.turn * turn);
+    const Vec3 pivots = upper.scaling_offset + upper.scaling_pivot - upper.rotation_pivot;
+    pose.centre =
+        above.centre + above.unscaled * pivots + above.linear * (centre - upper.scaling_pivot);
+    if (model.inherit_type == 1) {
+      pose.unscaled = above.linear * fbx_matrix(turn);
+    } else {
+      const FbxMatrix& upper_scales = model.inherit_type == 2 ? above.unscaled : above.linear;
+      pose.unscaled = fbx_matrix(pose.turn) * (fbx_matrix(conjugate(above.turn)) * upper_scales);
+    }
+  }
+  pose.linear = scaled(pose.unscaled, pose.local[fbx_scaling]);
+  pose.joint_turn = normalized(pose.turn * conjugate(node.tail));
 }
 
 }  // namespace kinemend

@@ -1,4 +1,4 @@
-// The models of an FBX file, their place in the tree and their animation.
+// Describes the models of an FBX file, their place in the tree and their animation.
 #pragma once
 
 #include <array>

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <limits>
 
-#include "io/fbx/fbx_words.hpp"
-#include "io/memory_limit.hpp"
+#include "io/fbx/fbx_tree.hpp"
+#include "io/reading_limits.hpp"
 #include "io/text/number.hpp"
 
 namespace kinemend {

@@ -1,4 +1,5 @@
-// Splits a glTF file into its JSON text and its binary chunk, and joins them again.
+// Splits a glTF file into its JSON text and its binary chunk, joins them again, and reads the URIs
+// of other data: inline base64, or a separate file.
 #pragma once
 
 #include <cstddef>
@@ -45,5 +46,18 @@ std::string reassembled_gltf(const GltfFile& file, std::string json,
                              const std::string* binary = nullptr);
 /// Returns a new binary file of JSON and one binary chunk, which is left out if empty.
 std::string new_glb(std::string_view json, std::string_view binary);
+
+/// Whether the URI itself contains the bytes.
+bool is_data_uri(std::string_view uri);
+/// Returns the base64 content of such a URI; empty if it is not base64 or is damaged.
+std::optional<std::string> bytes_of_data_uri(std::string_view uri);
+std::string base64_of(std::string_view bytes);
+
+/// Returns the relative path of a URI, percent-decoded; empty for a URI outside the folder of the
+/// file: absolute paths, schemes, drives, `..`.
+std::optional<std::string> relative_path_of_uri(std::string_view uri);
+/// Returns a file name as a URI: all characters except letters, digits and -._~ are
+/// percent-encoded.
+std::string uri_of_file_name(std::string_view name);
 
 }  // namespace kinemend

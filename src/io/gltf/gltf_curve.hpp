@@ -1,4 +1,5 @@
-// The keys of an animation's channel, and its value at any time.
+// Holds the keys of an animation's channel, gives its value at any time, and finds the frames of an
+// animation.
 #pragma once
 
 #include <cstddef>
@@ -60,5 +61,19 @@ std::vector<Quat> rotations_at(const GltfCurve& curve, const GltfTimes& times);
 
 /// Whether key i is frame i, for all keys and all frames.
 bool has_key_each_frame(const GltfCurve& curve, const GltfTimes& times);
+
+struct GltfGrid {
+  GltfTimes times;
+  bool is_of_keys = true;  ///< every key of a moving channel lies on a frame
+  /// The keys do not define a rate, because there are fewer than two times.
+  bool is_assumed = false;
+};
+
+/// Returns the coarsest grid of frames that contains all keys of the curves: the keys' own spacing
+/// if they are evenly spaced (half of the frames may lack keys), else a usual rate. Keys may
+/// deviate by a tenth of a frame and a millisecond, because decimals and single precision round
+/// them. Without such a grid the rate is `rate_hz`, or 30 Hz if it is 0. Constant curves are used
+/// only if all curves are constant.
+GltfGrid grid_of_curves(const std::vector<const GltfCurve*>& curves, double rate_hz);
 
 }  // namespace kinemend

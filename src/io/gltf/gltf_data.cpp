@@ -10,9 +10,8 @@
 #include <filesystem>
 #include <limits>
 
-#include "io/gltf/gltf_fields.hpp"
-#include "io/gltf/gltf_json_spans.hpp"
-#include "io/gltf/gltf_uri.hpp"
+#include "io/gltf/gltf_container.hpp"
+#include "io/gltf/gltf_json.hpp"
 #include "kinemend/error.hpp"
 
 namespace kinemend {

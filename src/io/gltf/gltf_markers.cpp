@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "io/gltf/gltf_matrix.hpp"
+#include "io/gltf/gltf_model.hpp"
 #include "io/gltf/gltf_motion.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/take.hpp"

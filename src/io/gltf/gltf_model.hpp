@@ -1,9 +1,12 @@
-// The parts of a glTF file that motion needs, as plain data.
+// Holds the parts of a glTF file that motion needs, as plain data, and decomposes the matrices of
+// nodes.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -100,5 +103,27 @@ GltfModel parse_gltf(const GltfFile& file);
 std::string name_of_node(const GltfModel& model, std::size_t node);
 /// Returns the name of an animation; `#2` for the second one if it has no name.
 std::string name_of_animation(const GltfModel& model, std::size_t animation);
+
+struct GltfPlacement {
+  Vec3 translation;
+  Quat rotation;
+  Vec3 scale{1, 1, 1};      ///< all negative if the matrix mirrors
+  bool is_sheared = false;  ///< the product of the parts differs from the matrix
+};
+
+/// Decomposes 16 numbers, column by column.
+GltfPlacement placement_of_matrix(std::span<const double> matrix);
+
+/// Returns the nearest rotation of a quaternion as written; identity for zero.
+Quat unit_rotation_of_any(Quat q);
+inline Quat unit_rotation(Quat q) {
+  const double square = dot(q, q);
+  // Within these limits the square neither overflows nor loses digits.
+  if (square > 1e-3 && square < 1e3) return (1 / std::sqrt(square)) * q;
+  return unit_rotation_of_any(q);
+}
+
+/// Returns the product by components.
+inline Vec3 scaled(Vec3 scale, Vec3 v) { return {scale.x * v.x, scale.y * v.y, scale.z * v.z}; }
 
 }  // namespace kinemend

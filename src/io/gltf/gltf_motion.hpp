@@ -1,15 +1,16 @@
-// Decodes the nodes and the animation of a glTF file as a take, and records the source of each
-// value.
+// Decodes the nodes and the animation of a glTF file as a take, records the source of each value,
+// and keeps the file so that it can be written back in place.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/gltf/gltf_curve.hpp"
-#include "io/gltf/gltf_time_grid.hpp"
+#include "io/gltf/gltf_data.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {
@@ -97,5 +98,22 @@ void note_gltf_keys(const GltfCurve& curve, GltfTrack& track, GltfMotion& motion
 /// Throws `unreadable_input` if the frames need far more memory than the file has bytes.
 void check_gltf_memory(const GltfFile& file, const GltfBuffers& buffers, std::size_t frames,
                        std::size_t bytes_per_frame);
+
+/// A glTF file as it was read, and the animation of the take.
+struct GltfDocument : SourceDocument {
+  GltfFile file;
+  GltfModel model;
+  GltfBuffers buffers;
+  std::size_t animation = GltfTrack::none;
+  bool has_markers = false;
+  double rate_hz = 0;  ///< requested rate for keys that are not on a grid of frames
+
+  /// Decodes the motion again, with the same numbers.
+  GltfMotion motion() const {
+    GltfBuffers loaded = buffers;
+    return has_markers ? decode_gltf_markers(file, model, loaded, animation, rate_hz)
+                       : decode_gltf_joints(file, model, loaded, animation, rate_hz);
+  }
+};
 
 }  // namespace kinemend

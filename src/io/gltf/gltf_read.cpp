@@ -6,9 +6,9 @@
 #include <memory>
 #include <utility>
 
-#include "base/quote.hpp"
+#include "base/text.hpp"
 #include "io/gltf/gltf.hpp"
-#include "io/gltf/gltf_document.hpp"
+#include "io/gltf/gltf_motion.hpp"
 #include "kinemend/error.hpp"
 
 namespace kinemend {

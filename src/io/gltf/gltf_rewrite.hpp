@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "io/gltf/gltf_document.hpp"
-#include "io/gltf/gltf_json_spans.hpp"
+#include "io/gltf/gltf_json.hpp"
+#include "io/gltf/gltf_motion.hpp"
 
 namespace kinemend {
 

@@ -1,12 +1,38 @@
-// Writes takes as glTF, into their source file if there is one, else as a new file.
+// Writes takes as glTF: into their source file, in its own container or in the other kind and with
+// the separate files, else as a new file.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 #include "io/gltf/gltf.hpp"
-#include "io/gltf/gltf_document.hpp"
+#include "io/gltf/gltf_container.hpp"
+#include "io/gltf/gltf_json.hpp"
+#include "io/gltf/gltf_motion.hpp"
 #include "io/gltf/gltf_new.hpp"
-#include "io/gltf/gltf_pack.hpp"
+#include "io/gltf/gltf_rewrite.hpp"
+#include "kinemend/error.hpp"
+#include "kinemend/io.hpp"
 
 namespace kinemend {
+
+/// The files of a take: the main file, and the separate files that it needs.
+struct GltfFiles {
+  std::string bytes;
+  std::vector<SideFile> beside;
+};
+
+/// Returns the file with its changes, binary or as text. A file without changes keeps its bytes if
+/// its container is the same. `output`: its path; empty: unknown, so that changed buffers are
+/// stored in the text. If the path is known, changed buffers in separate files get the name of the
+/// output, and other separate files are copied to its folder if needed.
+GltfFiles packed_gltf(const GltfDocument& document, const GltfChanges& changes, bool as_binary,
+                      const std::filesystem::path& output);
 
 namespace {
 
@@ -63,5 +89,201 @@ std::string write_glb(const Take& clip) { return write_as_gltf(clip, true); }
 std::string write_gltf(const Take& clip) { return write_as_gltf(clip, false); }
 std::string write_glb_markers(const Take& clip) { return write_as_gltf(clip, true); }
 std::string write_gltf_markers(const Take& clip) { return write_as_gltf(clip, false); }
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path folder_of(const fs::path& file) {
+  const fs::path parent = file.parent_path();
+  return parent.empty() ? fs::path(".") : parent;
+}
+
+bool is_same_place(const fs::path& a, const fs::path& b) {
+  std::error_code ignored;
+  return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
+}
+
+class GltfPacker {
+ public:
+  GltfPacker(const GltfDocument& document, const GltfChanges& changes, bool as_binary,
+             const fs::path& output)
+      : document_(document),
+        file_(document.file),
+        changes_(changes),
+        as_binary_(as_binary),
+        output_(output),
+        edits_(changes.edits) {}
+
+  GltfFiles pack() {
+    place_buffers();
+    copy_beside();
+    GltfFiles files;
+    files.beside = std::move(beside_);
+    const bool same_container = as_binary_ == file_.is_binary;
+    if (same_container && edits_.empty() && changes_.buffers.empty()) {
+      files.bytes = file_.bytes;
+      return files;
+    }
+    std::string json = edited_json(file_.json_text(), std::move(edits_));
+    if (same_container) {
+      files.bytes = reassembled_gltf(file_, std::move(json), changed(0));
+    } else {
+      files.bytes = as_binary_ ? new_glb(json, binary_) : without_padding(std::move(json));
+    }
+    return files;
+  }
+
+ private:
+  using Place = GltfBuffer::Place;
+
+  const std::string* changed(std::size_t buffer) const {
+    const auto found = changes_.buffers.find(buffer);
+    return found == changes_.buffers.end() ? nullptr : &found->second;
+  }
+
+  // Removes the chunk's trailing spaces, which belong to the container.
+  static std::string without_padding(std::string json) {
+    while (json.ends_with(' ')) json.pop_back();
+    return json;
+  }
+
+  std::string content(std::size_t buffer) const {
+    if (const std::string* const bytes = changed(buffer)) return *bytes;
+    return load_gltf_buffer(file_, document_.model, buffer);
+  }
+
+  void place_buffers() {
+    const auto& buffers = document_.model.buffers;
+    for (std::size_t b = 0; b < buffers.size(); ++b) {
+      const bool in_chunk = buffers[b].place == Place::binary_chunk;
+      if (as_binary_ && !file_.is_binary && b == 0 && buffers[b].place != Place::unknown &&
+          remove_uri(b)) {
+        binary_ = content(b);
+        if (changed(b) == nullptr) binary_.resize(std::min(binary_.size(), buffers[b].size));
+        first_moves_ = true;
+      } else if (in_chunk && !as_binary_) {
+        set_uri(b, data_uri(b));
+      } else if (!in_chunk && changed(b) != nullptr) {
+        place_changed(b);
+      }
+    }
+  }
+
+  std::string data_uri(std::size_t buffer) const {
+    const std::string_view text = file_.json_text();
+    const auto element = json_element(text, "buffers", buffer);
+    const auto uri = element ? json_member(text, *element, "uri") : std::nullopt;
+    const std::string_view old = uri ? text.substr(uri->begin + 1, uri->size - 2) : "";
+    const std::string_view head = is_data_uri(old) ? old.substr(0, old.find(',') + 1)
+                                                   : "data:application/octet-stream;base64,";
+    return std::string(head) + base64_of(content(buffer));
+  }
+
+  void place_changed(std::size_t buffer) {
+    if (document_.model.buffers[buffer].place != Place::beside || output_.empty())
+      return set_uri(buffer, data_uri(buffer));
+    const std::string name = free_name();
+    set_uri(buffer, uri_of_file_name(name));
+    beside_.push_back({output_.parent_path() / name, *changed(buffer)});
+  }
+
+  // Returns a file name based on the output's; never a file that the source needs, unless the
+  // output replaces the source.
+  std::string free_name() const {
+    const std::string stem = output_.stem().string();
+    const bool replaces = is_same_place(output_, file_.name);
+    for (std::size_t number = 1;; ++number) {
+      std::string name = number == 1 ? stem + ".bin" : fmt::format("{}_{}.bin", stem, number);
+      const fs::path place = output_.parent_path() / name;
+      const bool is_new = std::none_of(beside_.begin(), beside_.end(),
+                                       [&](const SideFile& file) { return file.path == place; });
+      if (is_new && (replaces || !is_needed_by_source(place))) return name;
+    }
+  }
+
+  bool is_needed_by_source(const fs::path& place) const {
+    const fs::path folder = folder_of(file_.name);
+    const auto is_it = [&](const std::string& path) {
+      return !path.empty() && is_same_place(folder / path, place);
+    };
+    const auto& buffers = document_.model.buffers;
+    const auto& images = document_.model.image_paths;
+    return std::any_of(buffers.begin(), buffers.end(),
+                       [&](const GltfBuffer& buffer) { return is_it(buffer.path); }) ||
+           std::any_of(images.begin(), images.end(), is_it);
+  }
+
+  // Copies the separate files of the source that the output names.
+  void copy_beside() {
+    if (output_.empty() || is_same_place(folder_of(output_), folder_of(file_.name))) return;
+    std::vector<std::string> paths = document_.model.image_paths;
+    const auto& buffers = document_.model.buffers;
+    for (std::size_t b = 0; b < buffers.size(); ++b) {
+      const bool stays = changed(b) == nullptr && !(first_moves_ && b == 0);
+      if (buffers[b].place == Place::beside && !buffers[b].path.empty() && stays)
+        paths.push_back(buffers[b].path);
+    }
+    std::sort(paths.begin(), paths.end());
+    paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
+    for (const std::string& path : paths) {
+      const fs::path from = folder_of(file_.name) / path;
+      std::error_code ignored;
+      if (fs::is_regular_file(from, ignored))
+        beside_.push_back({output_.parent_path() / path, read_file(from)});
+    }
+  }
+
+  std::optional<ByteSpan> buffer_object(std::size_t buffer) const {
+    return json_element(file_.json_text(), "buffers", buffer);
+  }
+
+  void set_uri(std::size_t buffer, const std::string& uri) {
+    const auto object = buffer_object(buffer);
+    if (!object) return;
+    const auto old = json_member(file_.json_text(), *object, "uri");
+    if (old) {
+      edits_.push_back({*old, "\"" + uri + "\""});
+    } else {
+      edits_.push_back({{object->begin + 1, 0}, "\"uri\":\"" + uri + "\","});
+    }
+  }
+
+  // Removes the member with its comma.
+  bool remove_uri(std::size_t buffer) {
+    const std::string_view text = file_.json_text();
+    const auto object = buffer_object(buffer);
+    const auto member = object ? json_named_member(text, *object, "uri") : std::nullopt;
+    if (!member) return false;
+    constexpr std::string_view blanks = " \t\r\n";
+    std::size_t begin = member->whole().begin, end = begin + member->whole().size;
+    const std::size_t next = text.find_first_not_of(blanks, end);
+    const std::size_t before = text.find_last_not_of(blanks, begin - 1);
+    if (next != text.npos && text[next] == ',') {
+      end = next + 1;
+    } else if (before != text.npos && text[before] == ',') {
+      begin = before;
+    }
+    edits_.push_back({{begin, end - begin}, ""});
+    return true;
+  }
+
+  const GltfDocument& document_;
+  const GltfFile& file_;
+  const GltfChanges& changes_;
+  bool as_binary_;
+  const fs::path& output_;
+  std::vector<JsonEdit> edits_;
+  std::vector<SideFile> beside_;
+  std::string binary_;
+  bool first_moves_ = false;  // whether buffer 0 becomes the chunk of a binary file
+};
+
+}  // namespace
+
+GltfFiles packed_gltf(const GltfDocument& document, const GltfChanges& changes, bool as_binary,
+                      const std::filesystem::path& output) {
+  return GltfPacker(document, changes, as_binary, output).pack();
+}
 
 }  // namespace kinemend

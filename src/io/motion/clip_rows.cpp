@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "io/memory_limit.hpp"
+#include "io/reading_limits.hpp"
 #include "io/text/number.hpp"
 
 namespace kinemend {

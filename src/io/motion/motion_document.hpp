@@ -1,4 +1,5 @@
-// Keeps a text file of frames as it was read so that it can be written back in its own layout.
+// Keeps a text file of frames as it was read so that a changed take can be written into it, and
+// repairs numbers that have no blank between them.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "io/motion/motion_columns.hpp"
 #include "io/motion/motion_rows.hpp"
-#include "io/motion/position_frame.hpp"
 #include "io/text/number.hpp"
 #include "kinemend/take.hpp"
 
@@ -59,5 +60,25 @@ struct MotionDocument : SourceDocument {
   virtual std::unique_ptr<RowReader> rows() const = 0;
   std::vector<double> channel_values() const override;
 };
+
+/// A piece of a document before its frames, and the text that replaces it.
+struct DocumentEdit {
+  ByteSpan place;
+  std::string text;
+};
+
+/// Returns the document's text with every changed sample replaced and the edits applied, which must
+/// be in the order of the text. The clip must have the document's skeleton and frame count. Angles
+/// continue the frame before.
+std::string rewrite_motion(const Take& clip, const MotionDocument& document,
+                           const std::vector<DocumentEdit>& edits = {});
+
+/// The message of the repair `numbers_joined`.
+inline constexpr std::string_view joined_numbers_text =
+    "two numbers have no blank between them: the sign starts the second";
+
+/// Inserts a blank at each of the places in the document's bytes, in ascending order, so that every
+/// program can read the output. Places behind the frames are ignored.
+void separate_numbers(MotionDocument& document, const std::vector<const char*>& places);
 
 }  // namespace kinemend

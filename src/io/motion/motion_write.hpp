@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "io/motion/position_frame.hpp"
-#include "io/text/text_buffer.hpp"
+#include "io/motion/motion_columns.hpp"
+#include "io/text/text.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {

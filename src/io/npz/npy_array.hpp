@@ -1,4 +1,5 @@
-// Arrays of NumPy as the members of an npz file hold them: a head in text, then the elements.
+// Reads and writes arrays of NumPy as the members of an npz file hold them: a head in text, then
+// the elements.
 #pragma once
 
 #include <cstddef>

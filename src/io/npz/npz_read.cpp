@@ -8,13 +8,12 @@
 #include <memory>
 #include <utility>
 
-#include "base/quote.hpp"
+#include "base/text.hpp"
 #include "io/held_samples.hpp"
-#include "io/memory_limit.hpp"
 #include "io/npz/npz.hpp"
 #include "io/npz/npz_document.hpp"
-#include "io/npz/zip_records.hpp"
-#include "io/stated_rate.hpp"
+#include "io/npz/zip_archive.hpp"
+#include "io/reading_limits.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 

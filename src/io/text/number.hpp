@@ -13,7 +13,7 @@
 #include <emmintrin.h>
 #endif
 
-#include "base/bits.hpp"
+#include "base/portable.hpp"
 
 namespace kinemend {
 

@@ -1,11 +1,14 @@
-// Tools that all readers of text share: lines, words, errors with their place, and repairs.
+// Tools that all readers and writers of text share: lines, words, errors with their place, repairs,
+// signs that a file was cut off (as by a full disk or a broken transfer), and a text under
+// construction.
 #pragma once
 
 #include <cstddef>
 #include <string>
 #include <string_view>
 
-#include "base/quote.hpp"
+#include "base/text.hpp"
+#include "io/text/number.hpp"
 #include "kinemend/error.hpp"
 
 namespace kinemend {
@@ -77,6 +80,49 @@ class TextScanner {
   std::size_t position_;
   std::size_t comments_ = 0;
   std::size_t first_comment_ = 0;
+};
+
+/// Whether the word can be the start of a number, such as `-`, `1.` or `2.5e-`.
+bool may_start_number(std::string_view word);
+
+/// Which lines the last one is compared with.
+enum class LikeLines : unsigned char { all, same_first_word };
+
+/// Whether the last number of `rows` may have lost digits: no white space follows it, and it has
+/// fewer digits after the point than the last number of each of the lines before it (100 at most, 3
+/// at least). Numbers end at white space and at `separator`.
+bool last_number_may_be_cut(std::string_view rows, CommaStyle commas, char separator = ' ',
+                            LikeLines like = LikeLines::all);
+
+/// Text under construction.
+class TextBuffer {
+ public:
+  explicit TextBuffer(std::size_t expected) { text_.resize(expected); }
+
+  void append(std::string_view piece) {
+    make_room(piece.size());
+    // The common case is one space between two numbers.
+    if (piece.size() == 1) {
+      text_[used_] = piece[0];
+    } else {
+      piece.copy(text_.data() + used_, piece.size());
+    }
+    used_ += piece.size();
+  }
+  void append_fixed(double value, unsigned decimals, CommaStyle commas = CommaStyle::none);
+  void append_shortest(double value, CommaStyle commas = CommaStyle::none);
+  std::string take() && {
+    text_.resize(used_);
+    return std::move(text_);
+  }
+
+ private:
+  void make_room(std::size_t count) {
+    if (text_.size() - used_ < count) text_.resize(text_.size() + text_.size() / 2 + count);
+  }
+
+  std::string text_;
+  std::size_t used_ = 0;
 };
 
 }  // namespace kinemend

@@ -1,4 +1,6 @@
-// The method `auto`: cleans the rotations and the positions of a take, each by its measured noise.
+// The method `auto` cleans the rotations and the positions of a take, each by its measured noise.
+#include "methods/auto/auto.hpp"
+
 #include <algorithm>
 #include <optional>
 #include <span>
@@ -9,10 +11,7 @@
 #include "base/quantiles.hpp"
 #include "cleaner/pieces.hpp"
 #include "kinemend/methods.hpp"
-#include "methods/auto/auto_scale.hpp"
 #include "methods/auto/entries.hpp"
-#include "methods/auto/measured_noise.hpp"
-#include "methods/auto/neighbours.hpp"
 #include "methods/auto/track_cleaning.hpp"
 #include "methods/auto/track_vectors.hpp"
 #include "methods/auto/vector_tracks.hpp"

@@ -7,12 +7,10 @@
 
 #include "base/parallel.hpp"
 #include "base/quantiles.hpp"
-#include "methods/auto/coloured_smoothing.hpp"
 #include "methods/auto/held_samples.hpp"
-#include "methods/auto/marker_distances.hpp"
+#include "methods/auto/noise_spectrum.hpp"
+#include "methods/auto/smoothing.hpp"
 #include "methods/auto/spikes.hpp"
-#include "methods/auto/track_smoother.hpp"
-#include "methods/auto/whitening.hpp"
 
 namespace kinemend {
 

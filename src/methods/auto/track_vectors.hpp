@@ -1,4 +1,5 @@
-// Converts a track of a take to vectors in degrees, and back.
+// Converts tracks of a take to vectors in degrees, and back: rotations about a smoothed copy of the
+// track, positions by a scale. Finds the tracks that move together.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +9,25 @@
 #include <vector>
 
 #include "kinemend/cleaner.hpp"
-#include "motion/rotation_chart.hpp"
+#include "kinemend/take_view.hpp"
+#include "methods/auto/tuning.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend {
+
+/// Degrees that `auto` takes a file unit for. Positions of joints: the turn that moves the end of a
+/// typical bone by a unit. Markers: 1150 degrees per body height (1 degree is 1.5 mm), since
+/// optical systems measure positions more finely than angles are measured.
+inline double degrees_per_unit(const TakeView& take) {
+  // Chosen by hand (docs/methods/auto.md), not swept.
+  constexpr double degrees_per_height = 1150;
+  return take.markers ? degrees_per_height / take.body_height
+                      : degrees_per_radian / radian_of_positions(take);
+}
+/// The same for a track of this space: rotations are in degrees.
+inline double degrees_per_unit(const TakeView& take, Space space) {
+  return space == Space::rotation ? 1 : degrees_per_unit(take);
+}
 
 struct TrackVectors {
   std::vector<Vec3> vectors;           ///< F; gaps are bridged
@@ -27,5 +44,18 @@ TrackVectors vectors_of(const TakeView& take, std::size_t number);
 CleanedTrack track_of(const TakeView& take, std::size_t number, std::span<const Vec3> vectors,
                       std::span<const std::uint8_t> spikes, bool smoothed,
                       const RotationChart* chart = nullptr);
+
+/// The chart of a track without gross spikes. Its reference is the track's Gaussian mean, cut at
+/// 2.5 deviations and symmetrically at the ends of the take; path[0] = 0. The signs of the
+/// quaternions do not matter.
+RotationChart smooth_chart(std::span<const Quat> track, double frame_rate_hz,
+                           const ChartTuning& tuning = {});
+
+/// For each of `tracks`, the indices in that list of the others that move with it. Rotations: the
+/// joints near it on the body. Markers: up to four others that keep their distance to it, nearest
+/// first: within 0.3 body heights, and usually constant to a 50th of one, in at most 50 frames.
+/// Positions of joints: none.
+std::vector<std::vector<std::size_t>> tracks_nearby(const TakeView& take,
+                                                    const std::vector<std::size_t>& tracks);
 
 }  // namespace kinemend

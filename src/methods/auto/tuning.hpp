@@ -2,7 +2,7 @@
 // kept. lab/experiments/figures/auto_sweep.csv (tools/sweep) states how half, 0.8, 1.25 and 2 times
 // each of them change the error on seven takes that no other table of `auto` uses.
 // auto_sweep_colour.csv states this for half and double of those of `ColourTuning` and
-// `HeldTuning`. docs/methods/auto-details.md summarises it.
+// `HeldTuning`. docs/details/auto.md summarises it.
 #pragma once
 
 #include <cstddef>

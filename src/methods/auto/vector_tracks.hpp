@@ -1,5 +1,5 @@
-// The data of the steps of `auto`: tracks of vectors in degrees, marks of samples, and measures of
-// noise.
+// Holds the data of the steps of `auto`, tracks of vectors in degrees and marks of samples, and
+// measures their white noise.
 #pragma once
 
 #include <array>

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "methods/learned/motion_bands.hpp"
+#include "methods/learned/motion_steps.hpp"
 
 namespace kinemend {
 

@@ -1,14 +1,58 @@
-// A take as input of the learned cleaner's network: features of each channel, thirty times a second
-// whatever the frame rate.
+// Makes the input of the learned cleaner's network from a take: features of each channel, thirty
+// times a second whatever the frame rate. They come from Gaussian means over a range of widths,
+// which the cleaner mixes.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "methods/learned/smoother_bank.hpp"
-
 namespace kinemend {
+
+/// The channel itself, and its means over Gaussians of these deviations, seconds: each band between
+/// two of them is half an octave. Chosen by hand; the network has learned with them.
+inline constexpr std::array<double, 10> bank_widths_s{0.0125, 0.0177, 0.025,  0.0354, 0.05,
+                                                      0.0708, 0.1,    0.1415, 0.2,    0.283};
+inline constexpr std::size_t bank_levels = bank_widths_s.size() + 1;
+
+/// F frames x C channels with `reach` more on either side, where each channel continues as its
+/// point reflection about the end of a line fitted to its outermost tenth of a second. Straight
+/// lines thus continue, and noise of the last sample does not shift the continuation.
+struct ExtendedChannels {
+  std::size_t frames = 0, channels = 0, reach = 0;
+  std::vector<float> values;  ///< (F + 2 reach) x C
+
+  /// Frame `frame`, from -reach to F + reach - 1.
+  const float* row(std::ptrdiff_t frame) const {
+    return values.data() +
+           (frame + static_cast<std::ptrdiff_t>(reach)) * static_cast<std::ptrdiff_t>(channels);
+  }
+};
+
+/// The kernels at one frame rate, cut at 3.3 deviations and normalised to sum 1.
+class SmootherBank {
+ public:
+  explicit SmootherBank(double frame_rate_hz);
+
+  std::size_t reach() const noexcept { return reach_; }
+  /// `values`: F x C, at least one frame.
+  ExtendedChannels extended(std::span<const float> values, std::size_t channels) const;
+  /// Continues channels beyond their end: writes `rows` rows, `row` numbers apart, after the one at
+  /// `end`, which is the last of `frames`.
+  void extend(float* end, std::ptrdiff_t row, std::size_t channels, std::size_t frames,
+              std::size_t rows) const;
+  /// Level 0 to `bank_levels` - 1 of frames [first, first + count), which may exceed the ends by
+  /// `input.reach` less `reach()`: count x C.
+  void level(const ExtendedChannels& input, std::size_t level, std::ptrdiff_t first,
+             std::size_t count, std::span<float> result) const;
+
+ private:
+  double frame_rate_hz_;
+  std::size_t reach_ = 0;
+  std::vector<std::vector<float>> taps_;  // of each level, from the middle outwards
+};
 
 // Steps of the network per second: every fourth frame at 120 Hz. A model file is made for it.
 // Chosen by hand, not swept.
@@ -113,5 +157,65 @@ class MotionReader {
   ExtendedChannels extended_;
   MotionStrengths strengths_;
 };
+
+/// Weights of the frames about a step from the middle outwards, for quick bands and for slow ones.
+struct BandHats {
+  std::vector<float> quick, slow;
+
+  explicit BandHats(double frame_rate_hz);
+  /// Frames on either side of a step that are needed.
+  std::ptrdiff_t margin() const { return static_cast<std::ptrdiff_t>(slow.size()); }
+};
+
+/// Levels about some steps, and the mean squares of the bands at each.
+struct BandBlock {
+  std::ptrdiff_t first_frame = 0;
+  std::size_t frames = 0, channels = 0;
+  std::vector<std::vector<float>> levels;  ///< each frames x C
+  std::vector<float> squares;              ///< steps x C x motion_bands
+  std::vector<float> sums;                 ///< scratch, C
+
+  float level_at(std::size_t level, std::ptrdiff_t frame, std::size_t channel) const {
+    return levels[level][static_cast<std::size_t>(frame - first_frame) * channels + channel];
+  }
+};
+/// Reads the bands of steps at these ascending frames. Does not allocate if `block` was read before
+/// with as many.
+void read_bands(const SmootherBank& bank, const ExtendedChannels& extended, const BandHats& hats,
+                std::span<const std::ptrdiff_t> frames, BandBlock& block);
+
+/// Sums over steps; the strengths of channels are their means.
+struct StrengthSums {
+  std::vector<double> squares;      ///< C x motion_bands
+  std::vector<double> sum, square;  ///< C, of the slowest level
+  double steps = 0;
+
+  explicit StrengthSums(std::size_t channels);
+  /// `squares`: C x motion_bands of one step; `slowest`: C, its slowest level, about any fixed
+  /// origin. `weight` -1 removes a step.
+  void add(std::span<const float> squares, std::span<const float> slowest, double weight);
+  /// Requires at least one added step. `expects_slow_noise`: as of `MotionTake`.
+  void strengths(std::span<const std::uint8_t> is_position, bool expects_slow_noise,
+                 MotionStrengths& result) const;
+};
+
+/// The smoothing by the measured noise at a step of a channel.
+struct MeasuredAt {
+  float level = 0, change = 0;  ///< degrees, degrees per 1/120 s
+  float taken_out = 0;          ///< mean square about the step
+  bool is_known = false;
+};
+
+/// Destinations in `MotionSteps` of one channel and step.
+struct StepRow {
+  float *features, *levels, *changes, *scales;
+};
+StepRow step_row(MotionSteps& steps, std::size_t channel, std::size_t step);
+
+/// Writes step `step` of a block, at `frame`, of channel `channel`. `missing`: share of unmeasured
+/// samples about it.
+void write_step(const BandBlock& block, std::size_t step, std::ptrdiff_t frame, std::size_t channel,
+                double frame_rate_hz, const MotionStrengths& strengths, float missing,
+                const MeasuredAt& measured, const StepRow& row);
 
 }  // namespace kinemend

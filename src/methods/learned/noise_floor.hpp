@@ -1,4 +1,5 @@
-// Bounds the removals of the learned cleaner by the noise that the take shows.
+// Bounds the removals of the learned cleaner by the noise that the take shows, for whole takes and
+// frame by frame, and measures the errors that it finds.
 //
 // Measurement noise is present all the time and on all tracks. The removals of a cleaner from a
 // noisy track thus have a floor, visible in quiet moments. Its false removals from a clean track of
@@ -10,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "kinemend/cleaner.hpp"
 #include "kinemend/take_view.hpp"
 #include "methods/learned/motion_filter.hpp"
 
@@ -69,5 +71,65 @@ std::vector<double> keep_to_noise_floor(const MotionTake& take,
 /// One per track of `numbers`: 1 if it is stepped.
 std::vector<std::uint8_t> stepped_tracks(const TakeView& take,
                                          std::span<const std::size_t> numbers);
+
+/// Mean squares per axis of a track, degrees squared.
+struct TrackError {
+  double removed = 0, left = 0;
+  double quick = 0;        ///< the part of `removed` that changes within 1/25 s
+  double correlation = 0;  ///< of the removed error from frame to frame
+
+  double all() const { return removed + left; }
+};
+
+/// The errors of channels 3 `track` to 3 `track` + 2.
+TrackError track_error(const MotionTake& take, const MotionResult& result, std::size_t track);
+
+/// Whether a change exceeds a tenth of the remaining error. Smaller changes are not made: a clean
+/// track keeps its samples.
+bool is_worth_a_change(const TrackError& error);
+
+/// The removed noise of the tracks that are worth a change: the median, degrees per axis.
+ColouredNoise removed_noise(std::span<const TrackError> errors);
+
+/// Slow noise of those tracks: the median, degrees per axis; 0 if errors are small or vary from
+/// frame to frame.
+double slow_noise(std::span<const TrackError> errors);
+
+/// `keep_to_noise_floor` for a stream: windows end at the frame, floors are those of the last 16
+/// seconds, and no noise is measured. A stream is noisy after three seconds at the earliest, and a
+/// track that the model does not know has no floor in the first `shortest_floor_s`.
+class LiveNoiseFloor {
+ public:
+  /// `counts`: one per track, 1 if it helps decide whether the stream is noisy.
+  LiveNoiseFloor(double frame_rate_hz, std::vector<std::uint8_t> counts);
+
+  /// Moves `cleaned` (3 per track, degrees) of the next frame towards `samples`. `is_known`:
+  /// whether the model knows the body now; `may_be_known`: one per track, 1 if its joint belongs to
+  /// the body. Does not allocate.
+  void bound(std::span<const float> samples, bool is_known,
+             std::span<const std::uint8_t> may_be_known, std::span<float> cleaned);
+
+ private:
+  void look_back(bool is_known, std::span<const std::uint8_t> may_be_known);
+  bool has_floor(std::size_t track, double& floor);
+  double middle_of_last(std::size_t track);
+
+  double frame_rate_hz_;
+  std::vector<std::uint8_t> counts_, moves_;
+  bool is_noisy_ = false;
+  std::vector<float> first_;  // tracks x 3: the first samples
+  std::size_t tracks_, window_, lag_, hop_, spike_;
+  std::vector<double> last_;  // spike_ x tracks: squared lengths of removals
+  std::size_t frames_ = 0;
+  std::vector<float> removals_;    // window x tracks x 3, a ring
+  std::vector<double> squares_;    // window x tracks: medians of those
+  std::vector<double> changes_;    // window x tracks: half their squared changes
+  std::vector<double> sums_;       // tracks: of `squares_`
+  std::vector<double> lost_;       // tracks: root mean squares of the window
+  std::vector<double> levels_;     // kept levels x tracks: root mean squares at every hop, a ring
+  std::vector<double> floors_;     // tracks
+  std::vector<double> quartiles_;  // tracks, of `changes_`
+  std::vector<double> sorted_;
+};
 
 }  // namespace kinemend

@@ -10,16 +10,15 @@
 #include <optional>
 #include <utility>
 
-#include "base/file_bytes.hpp"
+#include "base/files.hpp"
 #include "base/quantiles.hpp"
 #include "cleaner/pieces.hpp"
 #include "kinemend/experimental/representation.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "kinemend/methods.hpp"
-#include "methods/auto/auto_scale.hpp"
+#include "methods/auto/track_vectors.hpp"
 #include "methods/auto/vector_tracks.hpp"
 #include "methods/prior/prior_fall_backs.hpp"
-#include "methods/prior/prior_hold.hpp"
 
 namespace kinemend {
 
@@ -157,12 +156,12 @@ Vec3 turn_of(const PoseMatrix& poses, std::size_t frame, std::size_t part) {
 }
 
 // Turn from one frame to the next, at least, and in medians of such turns where noise is strong.
-// Chosen by hand, not swept; docs/methods/wiener-details.md states what leaving flips to `auto`
+// Chosen by hand, not swept; docs/details/wiener.md states what leaving flips to `auto`
 // brings.
 constexpr double flip_deg = 60, flip_medians = 6;
 // Half window of the running median that removes the spikes that `auto` left. Chosen by hand, not
 // swept. The share of samples that do not turn too far is not swept either;
-// docs/methods/wiener-details.md states what leaving turns of 150 degrees to `auto` brings.
+// docs/details/wiener.md states what leaving turns of 150 degrees to `auto` brings.
 constexpr std::size_t flip_half_frames = 3;
 constexpr double most_turns = 0.98;  // a few are noise
 

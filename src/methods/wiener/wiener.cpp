@@ -1,4 +1,4 @@
-// The method `wiener`: its options and its cleaner.
+// Defines the method `wiener`: its options and its cleaner.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -8,9 +8,9 @@
 #include "base/quantiles.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
-#include "methods/auto/whitening.hpp"
+#include "methods/auto/smoothing.hpp"
 #include "methods/prior/prior_cleaning.hpp"
-#include "methods/prior/prior_hold.hpp"
+#include "methods/prior/prior_fall_backs.hpp"
 #include "methods/wiener/entries.hpp"
 #include "methods/wiener/wiener_prior.hpp"
 #include "methods/wiener/wiener_steps.hpp"

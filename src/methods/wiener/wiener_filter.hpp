@@ -1,4 +1,4 @@
-// The posterior mean of a take under the prior of `wiener`, window by window.
+// Computes the posterior mean of a take under the prior of `wiener`, window by window.
 #pragma once
 
 #include <cstddef>

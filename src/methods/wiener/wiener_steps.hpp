@@ -1,5 +1,5 @@
-// The steps around the Wiener filter: detection of dense outliers, and the guard that compares the
-// filter with others.
+// Declares the steps around the Wiener filter: the detection of dense outliers, and the guard that
+// compares the filter with others.
 #pragma once
 
 #include <cstdint>

@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "base/portable.hpp"
-#include "cleaner/lanes.hpp"
-#include "cleaner/windowed.hpp"
+#include "cleaner/live.hpp"
+#include "cleaner/pieces.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
-#include "motion/sample_steps.hpp"
+#include "motion/rotation.hpp"
 #include "papers/courty2008_bilateral/bilateral_filter.hpp"
 #include "papers/courty2008_bilateral/entries.hpp"
 

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "cleaner/orientation_filter.hpp"
-#include "motion/sample_steps.hpp"
+#include "motion/rotation.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "papers/courty2008_bilateral/bilateral_filter.cpp"

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "cleaner/rotation_track.hpp"
+#include "cleaner/pieces.hpp"
 
 namespace kinemend {
 

@@ -1,11 +1,12 @@
-// Non-local pose means of a whole take (Dean 2016), and the bandwidth of the least expected error.
+// Computes non-local pose means of a whole take (Dean 2016), and the bandwidth of the least
+// expected error.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include "cleaner/rotation_track.hpp"
+#include "cleaner/pieces.hpp"
 
 namespace kinemend {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include "cleaner/rotation_track.hpp"
+#include "cleaner/pieces.hpp"
 
 namespace kinemend {
 

@@ -1,4 +1,7 @@
-// The method `example` (Lou & Chai 2010): its options and its cleaner.
+// Defines the method `example` (Lou & Chai 2010): its options, its cleaner, and its model, from
+// which the most probable weights for a given noise follow.
+#include "papers/lou2010_example/example.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -7,17 +10,15 @@
 #include <vector>
 
 #include "base/portable.hpp"
+#include "kinemend/error.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
-#include "methods/prior/example_rest.hpp"
 #include "methods/prior/prior_cleaning.hpp"
-#include "methods/prior/prior_hold.hpp"
+#include "methods/prior/prior_fall_backs.hpp"
 #include "models/model_reading.hpp"
 #include "papers/lou2010_example/entries.hpp"
 #include "papers/lou2010_example/example_filter.hpp"
-#include "papers/lou2010_example/example_prior.hpp"
-#include "papers/lou2010_example/example_tuning.hpp"
-#include "papers/lou2010_example/window_bases.hpp"
+#include "papers/lou2010_example/filter_bases.hpp"
 
 namespace kinemend {
 
@@ -26,7 +27,7 @@ namespace {
 // The weight below which a sample is rejected. Chosen by hand, not swept.
 constexpr double rejected_weight = 0.01;
 // Missing samples settle last, and weigh little in the objective. Chosen by hand;
-// docs/methods/example-details.md states what other tolerances do.
+// docs/details/example.md states what other tolerances do.
 constexpr double tolerance_of_gaps = 1e-3;
 // The paper's p and lambda (sections 3.2 and 3.3). The paper's solver makes short steps, so its
 // tolerance is lower; that is chosen by hand, not swept.
@@ -233,6 +234,87 @@ Method example_method() {
           example_table().specs(),
           [](const OptionValues& values) { return make_example(example_table().parse(values)); },
           true};
+}
+
+namespace {
+
+// Variances below this are rounding, square degrees. Not swept.
+constexpr double least_kept_variance = 1e-6;
+
+const std::vector<double>& variances(const Tensor& tensor, const char* name) {
+  for (const double value : tensor.values) {
+    if (value < 0) {
+      throw Error(ErrorKind::unreadable_input,
+                  std::string("the model's ") + name + " have a negative variance");
+    }
+  }
+  return tensor.values;
+}
+
+}  // namespace
+
+void store_example(const ExamplePrior& prior, Model& model) {
+  const FilterBases& b = prior.bases;
+  model.rate_hz = prior.rate_hz;
+  model.numbers["energy"] = b.total_energy;
+  model.tensors["bases"] = {TensorType::f16, {b.window_frames, b.channels, b.count}, b.bases};
+  model.tensors["eigenvalues"] = {TensorType::f32, {b.count}, b.eigenvalues};
+  model.tensors["mean"] = {TensorType::f32, {b.channels}, b.mean};
+  model.tensors["residual"] = {TensorType::f32, {b.channels}, b.residual};
+  Tensor limits{TensorType::f32, {b.channels, 2}, {}};
+  for (std::size_t c = 0; c < b.channels; ++c) {
+    limits.values.push_back(prior.lowest[c]);
+    limits.values.push_back(prior.highest[c]);
+  }
+  model.tensors["limits"] = limits;
+}
+
+ExamplePrior example_of(const Model& model) {
+  ExamplePrior prior;
+  prior.rate_hz = model.rate_hz;
+  // Braces alone would be taken as a number of dimensions.
+  using Shape = std::vector<std::size_t>;
+  const Tensor& bases = model.tensor("bases", 3);
+  FilterBases& b = prior.bases;
+  b.window_frames = bases.shape[0];
+  b.channels = bases.shape[1];
+  b.count = bases.shape[2];
+  if (b.channels != model.layout.channel_count() || b.window_frames == 0) {
+    throw Error(ErrorKind::unreadable_input, "the model's bases are not those of its body");
+  }
+  b.bases = bases.values;
+  b.eigenvalues = variances(model.tensor("eigenvalues", Shape{b.count}), "eigenvalues");
+  b.mean = model.tensor("mean", Shape{b.channels}).values;
+  b.residual = variances(model.tensor("residual", Shape{b.channels}), "residuals");
+  b.total_energy = model.number("energy");
+  const Tensor& limits = model.tensor("limits", Shape{b.channels, 2});
+  for (std::size_t c = 0; c < b.channels; ++c) {
+    prior.lowest.push_back(limits.values[2 * c]);
+    prior.highest.push_back(limits.values[2 * c + 1]);
+  }
+  return prior;
+}
+
+ExampleWeights probable_weights(const ExamplePrior& prior, const WindowBases& bases,
+                                std::span<const double> noise, double welsch_deviations) {
+  // The number of windows over a frame.
+  const double overlap =
+      std::ceil(static_cast<double>(bases.frames) / static_cast<double>(bases.hop));
+  const double windows = std::max(overlap, 1.0);
+  ExampleWeights weights;
+  for (std::size_t c = 0; c < bases.channels; ++c) {
+    const double residual = std::max(prior.bases.residual[c], least_kept_variance);
+    weights.data.push_back(1 / (noise[c] * noise[c]));
+    weights.welsch.push_back(welsch_deviations * noise[c]);
+    // Motion outside the bases is smooth: samples between two frames of the model are not
+    // independent.
+    weights.prior.push_back(1 / (2 * windows * static_cast<double>(bases.hop) * residual));
+  }
+  for (std::size_t k = 0; k < bases.count; ++k) {
+    weights.coefficients.push_back(
+        1 / (2 * windows * std::max(prior.bases.eigenvalues[k], least_kept_variance)));
+  }
+  return weights;
 }
 
 }  // namespace kinemend

@@ -1,4 +1,5 @@
-// The networks of Mall et al. 2017, for inference: EBF, its ablations BF and NN, and EBD.
+// Runs the networks of Mall et al. 2017 on takes: EBF, its ablations BF and NN, and EBD, which
+// fills gaps.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +9,7 @@
 
 #include "kinemend/experimental/body.hpp"
 #include "kinemend/experimental/model.hpp"
-#include "nn/recurrent_layers.hpp"
+#include "nn/layers.hpp"
 #include "papers/mall2017_recurrent/predicted_filter.hpp"
 
 namespace kinemend {
@@ -75,5 +76,22 @@ FilterNetwork filter_network_of(const Model& model);
 std::vector<float> run(const FilterNetwork& network, std::span<const float> features);
 /// The take after the network at the take's own rate, F x C.
 std::vector<float> filtered(const FilterNetwork& network, const FilterTake& take);
+
+/// Poses (F x D) with the joints' unobserved samples filled by an EBD: straight lines over the
+/// gaps, plus the network's additions. The additions at the ends of a gap are subtracted again,
+/// decaying over a tenth of a second, so that the fill meets the measurements. The network runs at
+/// its own rate. The root, the place and joints that were never seen keep straight lines. Observed
+/// samples keep their values.
+PoseMatrix filled_by_network(const FilterNetwork& network, const BodyLayout& layout,
+                             const BodyChannels& channels);
+
+/// Reads a network that fills gaps. Errors: `ErrorKind::usage` for a model of the cleaning method.
+FilterNetwork gap_network_of(const Model& model);
+
+/// Whether two models have the same channels of the same body.
+bool are_same(const BodyLayout& one, const BodyLayout& other);
+
+/// Whether a take's rate is that of the network, whose filters have fixed lengths in frames.
+bool has_rate_of(const FilterNetwork& network, double frame_rate_hz);
 
 }  // namespace kinemend

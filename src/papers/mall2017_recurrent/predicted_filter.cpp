@@ -5,7 +5,7 @@
 #include <cassert>
 
 #include "base/portable.hpp"
-#include "nn/activation.hpp"
+#include "nn/layers.hpp"
 
 namespace kinemend {
 

@@ -1,4 +1,6 @@
-// The method `sparse` (Xiao et al. 2015): its options and its cleaner.
+// Defines the method `sparse` (Xiao et al. 2015): its options and its cleaner.
+#include "papers/xiao2015_sparse/sparse.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -9,15 +11,12 @@
 #include "base/quantiles.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
-#include "methods/prior/example_rest.hpp"
 #include "methods/prior/prior_cleaning.hpp"
 #include "methods/prior/prior_fall_backs.hpp"
-#include "methods/prior/prior_hold.hpp"
 #include "models/model_reading.hpp"
 #include "papers/xiao2015_sparse/entries.hpp"
 #include "papers/xiao2015_sparse/sparse_filter.hpp"
 #include "papers/xiao2015_sparse/sparse_prior.hpp"
-#include "papers/xiao2015_sparse/sparse_tuning.hpp"
 
 namespace kinemend {
 

@@ -7,7 +7,7 @@
 
 #include "base/portable.hpp"
 #include "base/quantiles.hpp"
-#include "methods/prior/window_cosines.hpp"
+#include "methods/prior/window_bases.hpp"
 #include "papers/xiao2015_sparse/descent_solver.hpp"
 #include "papers/xiao2015_sparse/dual_solver.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Index;
 
-// Windows in memory at once, and their values. Chosen by hand; docs/methods/sparse-details.md
+// Windows in memory at once, and their values. Chosen by hand; docs/details/sparse.md
 // states what more noise does.
 constexpr std::size_t least_windows = 16, most_windows = 256, chunk_values = std::size_t{1} << 20;
 constexpr double least_noise = 1e-5;  // body heights

@@ -1,4 +1,5 @@
-// The points of a body that the method `sparse` knows, from a body's channels and back.
+// Converts a body's channels to the points that the method `sparse` knows, and back. Poses are in
+// the local coordinates of Xiao et al. 2015, section 3.1.1.
 #pragma once
 
 #include <cstddef>
@@ -57,5 +58,28 @@ std::vector<std::uint8_t> observed_points(const SparsePoints& points, const Body
 PoseMatrix channels_of(const SparsePoints& points, const BodyLayout& layout,
                        const PoseMatrix& positions, const PoseMatrix& guide,
                        double stiffness = 0.2);
+
+/// The points that define a pose's frame; -1: the body has none. Without a root, poses stay in the
+/// frame of the body; without one of the others they are only translated.
+struct LocalPoints {
+  std::int32_t root = -1;
+  std::int32_t left_hip = -1, right_hip = -1, neck = -1;
+};
+
+/// x_local = turn (x - origin)
+struct LocalFrame {
+  Quat turn;
+  Vec3 origin;
+};
+
+/// The frame of each pose of `positions` (F x 3 P): the root at the origin, the plane of the hips
+/// and the neck parallel to XY, the ray from between the hips to the neck along +Y, the left hip at
+/// +X. If the three are nearly on a line or a point, the frame is turned as in the last pose in
+/// which they are not (before the first such pose, as in that one).
+std::vector<LocalFrame> local_frames(const PoseMatrix& positions, const LocalPoints& points);
+
+/// Convert to local coordinates and back, exactly.
+void to_local(const std::vector<LocalFrame>& frames, PoseMatrix& positions);
+void from_local(const std::vector<LocalFrame>& frames, PoseMatrix& positions);
 
 }  // namespace kinemend

@@ -1,5 +1,5 @@
-// The prior of the method `sparse` (Xiao et al. 2015): windows of the parts of a body as sums of
-// few atoms.
+// The prior of the method `sparse` (Xiao et al. 2015) describes windows of the parts of a body as
+// sums of few atoms.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,6 @@
 
 #include "kinemend/experimental/model.hpp"
 #include "papers/xiao2015_sparse/dictionary.hpp"
-#include "papers/xiao2015_sparse/sparse_local.hpp"
 #include "papers/xiao2015_sparse/sparse_points.hpp"
 
 namespace kinemend {

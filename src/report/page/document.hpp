@@ -1,4 +1,4 @@
-// The document of a page: its program, and its parts of data.
+// Builds the document of a page from its program and its parts of data.
 #pragma once
 
 #include <cstddef>

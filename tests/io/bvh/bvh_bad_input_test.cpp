@@ -1,7 +1,7 @@
 // A bad BVH file is refused with a one-line message that names the position.
 #include <map>
 
-#include "io/motion/motion_lines.hpp"
+#include "io/motion/motion_rows.hpp"
 #include "io/support.hpp"
 
 namespace kinemend {

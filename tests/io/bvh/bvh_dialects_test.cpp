@@ -1,5 +1,5 @@
 // Tests of the BVH reader on the layouts and repairs of many programs.
-#include "io/bvh/bvh_document.hpp"
+#include "io/bvh/bvh.hpp"
 #include "io/bvh/bvh_hierarchy.hpp"
 #include "io/support.hpp"
 

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
+#include "io/bvh/bvh.hpp"
 #include "io/bvh/bvh_hierarchy.hpp"
-#include "io/bvh/bvh_text.hpp"
 #include "io/support.hpp"
 #include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/experimental/random.hpp"

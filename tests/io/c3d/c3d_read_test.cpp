@@ -3,7 +3,7 @@
 #include <map>
 
 #include "c3d_support.hpp"
-#include "io/c3d/c3d_words.hpp"
+#include "io/c3d/c3d_source.hpp"
 
 namespace kinemend {
 namespace {

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "io/c3d/c3d_analog.hpp"
 #include "io/c3d/c3d_document.hpp"
 #include "io/c3d/c3d_facts.hpp"
 #include "kinemend/error.hpp"

@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "c3d_support.hpp"
-#include "io/c3d/c3d_parameter_writer.hpp"
+#include "io/c3d/c3d_parameters.hpp"
 #include "io/mended.hpp"
 
 namespace kinemend {

@@ -1,6 +1,6 @@
 #include "gltf_support.hpp"
-#include "io/gltf/gltf_json_spans.hpp"
-#include "io/gltf/gltf_uri.hpp"
+#include "io/gltf/gltf_container.hpp"
+#include "io/gltf/gltf_json.hpp"
 #include "kinemend/experimental/random.hpp"
 
 namespace kinemend {

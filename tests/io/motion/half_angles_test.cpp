@@ -1,6 +1,6 @@
 // Tests of sines and cosines of half angles, to the last digits, and of the rotations made from
 // them.
-#include "io/motion/half_angles.hpp"
+#include "io/motion/motion_columns.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@
 #include <limits>
 #include <vector>
 
-#include "io/motion/motion_columns.hpp"
 #include "kinemend/experimental/random.hpp"
 
 namespace kinemend {

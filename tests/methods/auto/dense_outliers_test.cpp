@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "methods/auto/dense_outliers.hpp"
 #include "methods/auto/spikes.hpp"
 #include "motion/random_rotations.hpp"
 

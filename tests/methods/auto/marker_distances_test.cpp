@@ -1,5 +1,5 @@
 // Tests of noise measured by distances between markers.
-#include "methods/auto/marker_distances.hpp"
+#include "methods/auto/noise_spectrum.hpp"
 
 #include <gtest/gtest.h>
 

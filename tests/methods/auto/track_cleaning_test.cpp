@@ -5,9 +5,9 @@
 #include <cmath>
 #include <functional>
 
-#include "methods/auto/smooth_chart.hpp"
+#include "methods/auto/smoothing.hpp"
 #include "methods/auto/spikes.hpp"
-#include "methods/auto/track_smoother.hpp"
+#include "methods/auto/track_vectors.hpp"
 #include "methods/auto/vector_tracks.hpp"
 #include "motion/random_rotations.hpp"
 

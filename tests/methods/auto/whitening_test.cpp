@@ -1,5 +1,5 @@
 // Tests of whitening, on noise of known covariance.
-#include "methods/auto/whitening.hpp"
+#include "methods/auto/smoothing.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Tests of the calibration of joint frames by the mean pose.
-#include "methods/learned/body_calibration.hpp"
+#include "methods/learned/motion_channels.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Tests how the network of `learned` sees the joints that its model knows.
-#include "methods/learned/learned_body.hpp"
+#include "methods/learned/motion_channels.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kinemend/experimental/random.hpp"
-#include "methods/learned/live_motion_filter.hpp"
+#include "methods/learned/learned_live.hpp"
 #include "motion_support.hpp"
 
 namespace kinemend {

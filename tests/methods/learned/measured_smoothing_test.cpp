@@ -1,5 +1,5 @@
 // Tests of joining the network's result with measured smoothing.
-#include "methods/learned/measured_smoothing.hpp"
+#include "methods/learned/motion_filter.hpp"
 
 #include <gtest/gtest.h>
 

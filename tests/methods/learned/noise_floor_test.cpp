@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "kinemend/experimental/random.hpp"
-#include "methods/learned/live_noise_floor.hpp"
 
 namespace kinemend {
 namespace {

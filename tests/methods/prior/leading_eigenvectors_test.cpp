@@ -1,5 +1,5 @@
 // Tests of leading eigenvectors, against a full solver.
-#include "methods/prior/leading_eigenvectors.hpp"
+#include "methods/prior/window_bases.hpp"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@
 #include "kinemend/lab/synth.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
-#include "methods/prior/prior_hold.hpp"
+#include "methods/prior/prior_fall_backs.hpp"
 #include "registry/marker_takes.hpp"
 #include "registry/takes.hpp"
 

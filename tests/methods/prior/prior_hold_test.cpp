@@ -1,5 +1,5 @@
 // Tests of the limit on how far a learned model may change a part of a take.
-#include "methods/prior/prior_hold.hpp"
+#include "methods/prior/prior_fall_backs.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,9 +12,8 @@
 #include "kinemend/experimental/signal.hpp"
 #include "lab/training/mixture_fit.hpp"
 #include "lab/training/wiener_fit.hpp"
-#include "methods/prior/window_cosines.hpp"
+#include "methods/prior/window_bases.hpp"
 #include "methods/wiener/wiener_filter.hpp"
-#include "methods/wiener/wiener_posterior.hpp"
 #include "methods/wiener/wiener_steps.hpp"
 #include "methods/wiener/wiener_windows.hpp"
 

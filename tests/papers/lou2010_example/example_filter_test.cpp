@@ -13,7 +13,6 @@
 #include "dense_algebra.hpp"
 #include "kinemend/experimental/random.hpp"
 #include "papers/lou2010_example/pattern_penalty.hpp"
-#include "papers/lou2010_example/stretches.hpp"
 #include "papers/lou2010_example/window_support.hpp"
 
 namespace kinemend {

@@ -1,5 +1,5 @@
 // Tests how `example` treats noise, strange motion, and motion outside its bases.
-#include "methods/prior/example_rest.hpp"
+#include "methods/prior/prior_fall_backs.hpp"
 #include "papers/lou2010_example/example_filter.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Tests of singular spectrum analysis, against the whole trajectory matrix and a full solver.
-#include "papers/lou2010_example/mssa.hpp"
+#include "papers/lou2010_example/filter_bases.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

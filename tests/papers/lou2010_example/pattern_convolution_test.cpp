@@ -1,5 +1,5 @@
 // Tests of the convolution with patterns, against the sum over all windows.
-#include "papers/lou2010_example/pattern_convolution.hpp"
+#include "papers/lou2010_example/pattern_penalty.hpp"
 
 #include <gtest/gtest.h>
 

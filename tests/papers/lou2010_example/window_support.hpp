@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "papers/lou2010_example/window_bases.hpp"
+#include "papers/lou2010_example/filter_bases.hpp"
 #include "random_values.hpp"
 
 namespace kinemend {

@@ -1,5 +1,5 @@
 // Tests of gaps filled by networks of known output.
-#include "papers/mall2017_recurrent/gap_network.hpp"
+#include "papers/mall2017_recurrent/filter_network.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Tests of batch orthogonal matching pursuit against a direct implementation.
-#include "papers/xiao2015_sparse/batch_omp.hpp"
+#include "papers/xiao2015_sparse/dictionary.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Tests of K-SVD, on signals of a known dictionary.
-#include "papers/xiao2015_sparse/ksvd.hpp"
+#include "papers/xiao2015_sparse/dictionary.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "papers/xiao2015_sparse/batch_omp.hpp"
 #include "papers/xiao2015_sparse/support.hpp"
 
 namespace kinemend::sparse {

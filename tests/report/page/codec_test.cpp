@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "kinemend/experimental/random.hpp"
-#include "report/page/channels.hpp"
 #include "report/page/page_parts.hpp"
 
 namespace kinemend::test {

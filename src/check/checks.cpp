@@ -1,0 +1,153 @@
+// Names kinds of findings, sorts findings by their importance, and finds runs of flagged frames
+// that chance does not explain.
+#include "check/checks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <tuple>
+
+#include "base/portable.hpp"
+
+namespace kinemend {
+
+std::string_view to_string(FindingKind kind) {
+  static constexpr std::array<std::string_view, 25> names{"gap",
+                                                          "spike",
+                                                          "frozen",
+                                                          "bridged",
+                                                          "noise",
+                                                          "swap",
+                                                          "rate",
+                                                          "unit",
+                                                          "length",
+                                                          "slide",
+                                                          "sink",
+                                                          "euler_flip",
+                                                          "repeated_frames",
+                                                          "zero_frames",
+                                                          "calibration",
+                                                          "left_out",
+                                                          "no_contact",
+                                                          "expected_noise",
+                                                          "joint_speed",
+                                                          "joint_acceleration",
+                                                          "penetration",
+                                                          "floating",
+                                                          "flight",
+                                                          "jump",
+                                                          "floor"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+std::string_view to_string(Severity severity) {
+  static constexpr std::array<std::string_view, 3> names{"note", "warning", "serious"};
+  return names[static_cast<std::size_t>(severity)];
+}
+
+namespace check {
+
+namespace {
+
+// Findings that affect most uses of a take come first.
+std::size_t rank_of(FindingKind kind) {
+  static constexpr std::array<FindingKind, 25> order{FindingKind::swap,
+                                                     FindingKind::zero_frames,
+                                                     FindingKind::jump,
+                                                     FindingKind::rate,
+                                                     FindingKind::unit,
+                                                     FindingKind::spike,
+                                                     FindingKind::gap,
+                                                     FindingKind::frozen,
+                                                     FindingKind::bridged,
+                                                     FindingKind::joint_speed,
+                                                     FindingKind::joint_acceleration,
+                                                     FindingKind::repeated_frames,
+                                                     FindingKind::length,
+                                                     FindingKind::slide,
+                                                     FindingKind::sink,
+                                                     FindingKind::no_contact,
+                                                     FindingKind::penetration,
+                                                     FindingKind::floating,
+                                                     FindingKind::noise,
+                                                     FindingKind::expected_noise,
+                                                     FindingKind::euler_flip,
+                                                     FindingKind::flight,
+                                                     FindingKind::floor,
+                                                     FindingKind::calibration,
+                                                     FindingKind::left_out};
+  return static_cast<std::size_t>(std::find(order.begin(), order.end(), kind) - order.begin());
+}
+
+}  // namespace
+
+void sort_worst_first(std::vector<Finding>& findings) {
+  const auto key = [](const Finding& f) {
+    return std::make_tuple(-static_cast<int>(f.severity), rank_of(f.kind), -f.figure, f.first_frame,
+                           std::string_view(f.track));
+  };
+  std::stable_sort(findings.begin(), findings.end(),
+                   [&](const Finding& a, const Finding& b) { return key(a) < key(b); });
+}
+
+}  // namespace check
+
+}  // namespace kinemend
+
+namespace kinemend::check {
+
+namespace {
+
+struct Counts {
+  std::size_t yes = 0;
+  std::size_t known = 0;
+
+  void add(Flag flag) {
+    yes += flag == Flag::yes;
+    known += flag != Flag::unknown;
+  }
+};
+
+// Laplace's rule of succession, which never gives a share of 0 or 1.
+double share_without(const Counts& all, const Counts& subset) {
+  return (static_cast<double>(all.yes - subset.yes) + 1) /
+         (static_cast<double>(all.known - subset.known) + 2);
+}
+
+}  // namespace
+
+std::vector<std::vector<FrameSpan>> improbable_runs(const FlagTable& table, std::size_t shortest) {
+  // Natural logarithm of the chance in docs/check.md, 1e-6. Chosen by hand, not swept.
+  constexpr double log_chance = -13.8;  // 1e-6
+  std::vector<Counts> of_step(table.steps), of_track(table.tracks);
+  std::vector<std::uint8_t> is_witness(table.tracks);
+  for (std::size_t n = 0; n < table.tracks; ++n) {
+    for (std::size_t t = 0; t < table.steps; ++t) of_track[n].add(table(t, n));
+    // A track that is flagged in most frames does not localise an event.
+    is_witness[n] = 2 * of_track[n].yes < of_track[n].known;
+    for (std::size_t t = 0; is_witness[n] != 0 && t < table.steps; ++t) of_step[t].add(table(t, n));
+  }
+  const auto is_improbable = [&](std::size_t track, const FrameSpan& run) {
+    const Counts inside{run.length(), run.length()};
+    if (is_witness[track] == 0) return false;
+    double others = 0;
+    for (std::size_t t = run.first; t <= run.last; ++t) {
+      if (of_step[t].known > 1)
+        others +=
+            static_cast<double>(of_step[t].yes - 1) / static_cast<double>(of_step[t].known - 1);
+    }
+    others /= static_cast<double>(run.length());
+    const double share = std::max(share_without(of_track[track], inside), others);
+    return share < 0.5 && static_cast<double>(run.length()) * portable::log(share) < log_chance;
+  };
+  std::vector<std::vector<FrameSpan>> runs(table.tracks);
+  for (std::size_t n = 0; n < table.tracks; ++n) {
+    const auto is_yes = [&](std::size_t t) { return table(t, n) == Flag::yes; };
+    for (const FrameSpan& run : runs_where(table.steps, is_yes)) {
+      if (run.length() >= shortest && is_improbable(n, run)) runs[n].push_back(run);
+    }
+  }
+  return runs;
+}
+
+}  // namespace kinemend::check

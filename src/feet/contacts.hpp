@@ -1,0 +1,42 @@
+// Heels and toes of a motion, and the contacts that are found from them.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "feet/floor.hpp"
+#include "feet/leg_motion.hpp"
+
+namespace kinemend::feet {
+
+/// Heels and toes of a motion and their speeds, from which contacts are detected.
+struct Soles {
+  BodyPoints body;                ///< as measured; points 2 l + part
+  std::vector<SolePoint> points;  ///< smoothed according to the noise; 2 l + part
+  std::vector<std::uint8_t> has;  ///< 2 l + part; 0 for a missing part
+  std::vector<double> paces;      ///< F: speed of the body relative to walking, at least 1
+  Up up;
+  double height = 0;  ///< of the body
+
+  static std::size_t point_of(std::size_t leg, FootPart part) {
+    return 2 * leg + static_cast<std::size_t>(part);
+  }
+  static std::size_t point_of(const FootContact& contact) {
+    return point_of(contact.leg, contact.part);
+  }
+  std::size_t legs() const { return points.size() / 2; }
+};
+
+Soles find_soles(const LegMotion& motion, Up up, const ContactSettings& settings);
+
+/// Returns the contacts by leg, part, then frame.
+std::vector<FootContact> find_contacts(const Soles& soles, const ContactSettings& settings);
+
+/// Throws `ErrorKind::usage` for settings out of range.
+void check_settings(const ContactSettings& settings);
+/// Throws `ErrorKind::usage` for contacts of legs, parts or frames that do not exist.
+void check_contacts(const std::vector<FootContact>& contacts, const LegMotion& motion,
+                    std::size_t first_frame);
+void sort_contacts(std::vector<FootContact>& contacts);
+
+}  // namespace kinemend::feet
