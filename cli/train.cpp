@@ -35,7 +35,7 @@ namespace kinemend::cli {
 namespace {
 
 /// The settings of a training.
-struct Training {
+struct TrainingRun {
   std::string method;
   OptionValues options;
   TrainSettings settings;
@@ -48,14 +48,14 @@ struct Training {
   bool force = false, json = false, quiet = false, skip_unreadable = false;
 };
 
-Take read_training_take(const Training& training, const std::string& path) {
+Take read_training_take(const TrainingRun& training, const std::string& path) {
   TakeResult read = read_take(std::filesystem::path(path), training.reading);
   warn_of_repairs(read.take.source, read.diagnostics);
   return std::move(read.take);
 }
 
 /// Returns nullopt, with a warning, for an unreadable take if those are skipped.
-std::optional<Take> training_take(const Training& training, const std::string& path) {
+std::optional<Take> training_take(const TrainingRun& training, const std::string& path) {
   std::optional<Take> take;
   try {
     take = read_training_take(training, path);
@@ -72,7 +72,7 @@ std::optional<Take> training_take(const Training& training, const std::string& p
   return take;
 }
 
-TrainingTakes takes_of(const Training& training, ProgressLine& progress) {
+TrainingTakes takes_of(const TrainingRun& training, ProgressLine& progress) {
   return {training.takes.size(), [&training, &progress](std::size_t index) {
             progress.clear();
             return training_take(training, training.takes[index]);
@@ -144,7 +144,7 @@ std::vector<std::string> training_inputs_of(const Arguments& arguments) {
 }
 
 /// Finds the checkpoint file and, with --resume, reads it.
-void find_checkpoint(const Arguments& arguments, Training& training) {
+void find_checkpoint(const Arguments& arguments, TrainingRun& training) {
   const bool goes_on = arguments.flag("resume");
   std::error_code ignored;
   const bool is_device = std::filesystem::exists(training.output, ignored) &&
@@ -172,8 +172,8 @@ void find_checkpoint(const Arguments& arguments, Training& training) {
   }
 }
 
-Training training_of(const Arguments& arguments) {
-  Training training;
+TrainingRun training_of(const Arguments& arguments) {
+  TrainingRun training;
   training.method = find_training(arguments.positionals.front()).name;
   training.options =
       parse_group_options(arguments.command->groups, training.method, arguments.group_texts);
@@ -229,7 +229,7 @@ std::string resuming_command(const Arguments& arguments) {
 }
 
 /// Tells the user how to continue a stopped training.
-void say_stopped(const Training& training, const Arguments& arguments) {
+void say_stopped(const TrainingRun& training, const Arguments& arguments) {
   if (!training.checkpoint.empty() && std::filesystem::exists(training.checkpoint)) {
     write_err(fmt::format("stopped; the work so far is in {}; to continue:\n  {}\n",
                           printable(training.checkpoint), resuming_command(arguments)));
@@ -238,12 +238,12 @@ void say_stopped(const Training& training, const Arguments& arguments) {
   }
 }
 
-void remove_checkpoint(const Training& training) {
+void remove_checkpoint(const TrainingRun& training) {
   std::error_code ignored;
   if (!training.checkpoint.empty()) std::filesystem::remove(training.checkpoint, ignored);
 }
 
-Model trained_model(Training& training, ProgressLine& progress) {
+Model trained_model(TrainingRun& training, ProgressLine& progress) {
   training.settings.progress = [&](std::string_view stage, double done) {
     if (platform::StopRequest::came()) throw TrainingStopped();
     if (!training.quiet) progress.show(stage, done);
@@ -261,7 +261,7 @@ Model trained_model(Training& training, ProgressLine& progress) {
 }
 
 int run_train(const Arguments& arguments) {
-  Training training = training_of(arguments);
+  TrainingRun training = training_of(arguments);
   std::optional<ThreadLimit> limit;
   if (const auto jobs = static_cast<std::size_t>(arguments.whole("jobs")); jobs > 0)
     limit.emplace(jobs);

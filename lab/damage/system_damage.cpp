@@ -23,7 +23,7 @@ namespace {
 constexpr std::uint64_t drift_stream = std::uint64_t{1} << 42;
 
 // Joints turn by an arc of this radius, a quarter of a body height of 1.7 m: 5 mm are 0.67 degrees.
-// By definition (docs/noise.md).
+// By definition (docs/details/noise.md).
 constexpr double lever_mm = 425;
 
 // If a heading drift is given, the place drifts in the ratio of the family `inertial`.

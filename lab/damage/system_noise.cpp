@@ -7,8 +7,8 @@ namespace kinemend::corrupt {
 
 std::span<const SystemFamily> system_families() {
   // The numbers are tuned until lab/experiments/system_noise.cpp measures the same at generated
-  // errors as at real ones (pairs of one motion, by a system and by optical markers); docs/noise.md
-  // shows both.
+  // errors as at real ones (pairs of one motion, by a system and by optical markers);
+  // docs/measured/noise.md shows both.
   static constexpr std::array<SystemFamily, 5> families{{
       // Tuned to pairs at 60 Hz and at 30 Hz simultaneously.
       {"video",

@@ -54,8 +54,8 @@ struct SystemFamily {
   std::string_view about;  ///< the systems that it describes
   SystemNoise noise;
 };
-/// Returns five families; docs/noise.md has their numbers as a table, and compares their figures
-/// with real ones.
+/// Returns five families; docs/details/noise.md has their numbers as a table, and compares their
+/// figures with real ones.
 std::span<const SystemFamily> system_families();
 
 /// Returns the noise with all sizes multiplied by `strength`.

@@ -1,4 +1,4 @@
-// Figures of docs/methods/learned.md: how much cleaning keeps of real motion, on motions outside
+// Figures of docs/measured/learned.md: how much cleaning keeps of real motion, on motions outside
 // the model's training.
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Figures of docs/methods/learned.md: markers of moving bodies, noisy and clean.
+// Figures of docs/measured/learned.md: markers of moving bodies, noisy and clean.
 #include <algorithm>
 #include <map>
 

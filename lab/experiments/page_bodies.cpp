@@ -1,5 +1,5 @@
-// Figures of docs/bodies.md: how little noise moves the frame of a body, and how similar the
-// channels are for one motion in two formats and for walks from other programs.
+// Figures of docs/measured/bodies.md: how little noise moves the frame of a body, and how similar
+// the channels are for one motion in two formats and for walks from other programs.
 #include <algorithm>
 #include <cmath>
 #include <map>

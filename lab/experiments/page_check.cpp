@@ -1,5 +1,5 @@
-// Figures of docs/check.md: detection of randomly exchanged marker labels; takes whose noise does
-// not show, and clean takes.
+// Figures of docs/measured/check.md: detection of randomly exchanged marker labels; takes whose
+// noise does not show, and clean takes.
 #include <map>
 
 #include "check/marker_support.hpp"

@@ -1,4 +1,4 @@
-// Figures of docs/live.md: error against delay, for live methods at several settings.
+// Figures of docs/measured/live.md: error against delay, for live methods at several settings.
 #include "live_takes.hpp"
 
 namespace kinemend::papers {

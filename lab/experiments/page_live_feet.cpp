@@ -1,4 +1,4 @@
-// Figures of docs/live.md: how far feet slide in a stream, before and after holding them.
+// Figures of docs/measured/live.md: how far feet slide in a stream, before and after holding them.
 #include <array>
 
 #include "feet/live_feet.hpp"

@@ -1,5 +1,5 @@
-// Figures of docs/methods/auto.md about real pairs: takes of video and depth cameras beside optical
-// markers of the same motion, cleaned.
+// Figures of docs/measured/auto.md about real pairs: takes of video and depth cameras beside
+// optical markers of the same motion, cleaned.
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,5 @@
-// Figures of docs/noise.md: errors of real systems, measured on one motion captured by two of them,
-// and of the damage `system` on the same motions, by the same code.
+// Figures of docs/measured/noise.md: errors of real systems, measured on one motion captured by two
+// of them, and of the damage `system` on the same motions, by the same code.
 #include <algorithm>
 #include <functional>
 

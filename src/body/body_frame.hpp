@@ -10,8 +10,8 @@
 
 namespace kinemend::representation {
 
-/// The floor (docs/bodies.md) is this quantile of the lowest heights, which are means over this
-/// time. Chosen by hand, not swept.
+/// The floor (docs/details/bodies.md) is this quantile of the lowest heights, which are means over
+/// this time. Chosen by hand, not swept.
 inline constexpr double floor_mean_s = 0.1, floor_quantile = 0.2;
 
 /// The motion of the first track's joint in upright axes.

@@ -147,7 +147,7 @@ void MarkerLearning::sum_distances(const Take& clip, const BodyMatch& match) {
 // themselves.
 double MarkerLearning::unsteadiness(std::size_t track) const {
   // The distance at which a neighbour has full weight, and the share of the neighbours
-  // (docs/bodies.md, "Anchors"). Chosen by hand, not swept.
+  // (docs/details/bodies.md, "Anchors"). Chosen by hand, not swept.
   constexpr double far = 0.15;  // body heights
   constexpr double share_of_others = 0.3;
   const std::size_t count = tracks_.size();

@@ -79,7 +79,7 @@ std::vector<Value> running_median(const std::vector<Value>& track, std::size_t h
 template <class Value>
 std::vector<Value> despiked(std::vector<Value> track, std::span<const double> weights,
                             double frame_rate_hz) {
-  // The window of the median: see docs/bodies.md, "Trend". Chosen by hand, not swept.
+  // The window of the median: see docs/details/bodies.md, "Trend". Chosen by hand, not swept.
   constexpr double median_s = 0.1;
   bridge(track, weights);
   const double half_window =

@@ -93,7 +93,7 @@ std::optional<std::size_t> next_seen(const Take& clip, std::size_t marker, std::
 
 std::optional<Exchange> exchange_of(const Take& clip, const Break& a, const Break& b) {
   // The mismatch as exchanged over that as labelled. A quarter is the "four times less" of
-  // docs/check.md. Chosen by hand, not swept.
+  // docs/details/check.md. Chosen by hand, not swept.
   constexpr double largest_doubt = 0.25;
   const double a_to_b = side_mismatch(clip, a.marker, a.before, b.marker, b.after);
   const double b_to_a = side_mismatch(clip, b.marker, b.before, a.marker, a.after);

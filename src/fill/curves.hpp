@@ -18,7 +18,7 @@ enum class Curve : std::uint8_t {
 };
 
 /// The velocity settings (`velocity_window_s`, `reach_s` and those below) were chosen on the takes
-/// that docs/methods/fill.md names; the supports and cutoffs are not swept.
+/// that docs/measured/fill.md names; the supports and cutoffs are not swept.
 struct CurveSettings {
   double frame_rate_hz = 0;
   double support_s = 0.5;           ///< samples that splines use on either side, 48 at least

@@ -374,8 +374,8 @@ namespace {
 
 using Methods = std::vector<const Method*>;
 
-// The usual errors weigh as much as this many trials; chosen on the takes that docs/methods/fill.md
-// names.
+// The usual errors weigh as much as this many trials; chosen on the takes that
+// docs/measured/fill.md names.
 constexpr double usual_trials = 4;
 // Differences below these sizes are ignored: a share of the skeleton's height, and degrees; not
 // swept.

@@ -13,7 +13,7 @@ namespace kinemend::fill {
 
 namespace {
 
-// The number of trials near the gap and elsewhere: chosen on the takes that docs/methods/fill.md
+// The number of trials near the gap and elsewhere: chosen on the takes that docs/measured/fill.md
 // names.
 constexpr std::size_t most_near = 6, most_elsewhere = 3, least_places = 3;
 // The evidence on either side of a gap; for speed.
@@ -117,7 +117,7 @@ namespace {
 
 // Exponents of the ratios of mean square differences, for the choice and for the expected error:
 // differences of candidates from each other, and from the straight line. They and `caution` are
-// regressed from artificial gaps in the takes that docs/methods/fill.md names; the bounds of the
+// regressed from artificial gaps in the takes that docs/measured/fill.md names; the bounds of the
 // ratio are not swept.
 constexpr double choice_exponent = 0.5;
 constexpr double error_exponent = 0.5, line_exponent = 0.3;

@@ -23,7 +23,7 @@ enum class CandidateKind : std::uint8_t {
 };
 
 /// A spline is hard to beat in gaps of up to this length: another candidate is preferred only if
-/// its mean square error is smaller by this factor. Chosen on the takes that docs/methods/fill.md
+/// its mean square error is smaller by this factor. Chosen on the takes that docs/measured/fill.md
 /// names.
 inline constexpr double short_gap_s = 0.1;
 inline constexpr double clearly_better = 4;

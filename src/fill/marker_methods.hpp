@@ -44,7 +44,7 @@ Filling fill_by_curve(const Samples& samples, const MarkerGap& gap, const Marker
 std::vector<Vec3> curve_positions(const Samples& samples, const MarkerGap& gap, Curve curve);
 
 /// Markers of one segment keep their distance to within this share of the body's radius (standard
-/// deviation). Chosen on the takes that docs/methods/fill.md names.
+/// deviation). Chosen on the takes that docs/measured/fill.md names.
 inline constexpr double segment_spread = 0.02;
 /// The number of other markers that a regression needs to know the body's rotation.
 inline constexpr std::size_t least_companions = 3;

@@ -165,8 +165,8 @@ namespace {
 
 constexpr std::string_view name = "auto";
 
-// Chosen on the takes that docs/methods/fill.md names. Both are shares of the body's radius: larger
-// expected errors are refused, and smaller ones are raised to the least.
+// Chosen on the takes that docs/measured/fill.md names. Both are shares of the body's radius:
+// larger expected errors are refused, and smaller ones are raised to the least.
 constexpr double largest_error = 0.125, least_error = 1e-4;
 constexpr std::array<std::size_t, 2> group_sizes = {6, 12};  // of companions
 constexpr std::array<double, 2> noises = {1e-4, 2e-2};       // clean samples, and jittery ones

@@ -145,7 +145,7 @@ std::vector<Vec3> LocalRegression::meet_ends(const Scene& scene, const Bridge& b
 
 namespace {
 
-// These and the memories were chosen on the takes that docs/methods/fill.md names.
+// These and the memories were chosen on the takes that docs/measured/fill.md names.
 // The slow part's share of the errors' variance, and its memory relative to the fast part's.
 constexpr double slow_share = 0.4;
 constexpr double slow_memory = 6;

@@ -131,7 +131,7 @@ class LocalRegression {
 };
 
 /// Returns the stiffnesses as shares of the body's radius; the last is rigid. Chosen on the takes
-/// that docs/methods/fill.md names.
+/// that docs/measured/fill.md names.
 inline std::array<double, 3> stiffnesses_of(double radius) {
   return {0.0015 * radius, 0.008 * radius, std::numeric_limits<double>::infinity()};
 }

@@ -17,7 +17,7 @@ namespace {
 // The support of the splines, doubled because it may contain other gaps, and a minimum of frames.
 constexpr double window_s = 0.5;
 constexpr std::size_t least_window = 64;
-// Chosen with the memories of `Bridge`, on the takes that docs/methods/fill.md names.
+// Chosen with the memories of `Bridge`, on the takes that docs/measured/fill.md names.
 constexpr std::size_t most_beside = 12;
 constexpr double beside_s = 0.5;
 constexpr std::size_t most_radius_frames = 64;  // for speed

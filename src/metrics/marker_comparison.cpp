@@ -60,8 +60,8 @@ namespace {
 using metrics::FittedMarker;
 using metrics::MarkerPair;
 
-// The bands of docs/noise.md and their filter, by definition; the fewest frames and the longest lag
-// are chosen by hand, not swept.
+// The bands of docs/measured/noise.md and their filter, by definition; the fewest frames and the
+// longest lag are chosen by hand, not swept.
 constexpr double cuts_hz[] = {2, 6, 15};
 constexpr std::size_t jitter_cut = 1;  // 6 Hz
 constexpr int filter_order = 4;

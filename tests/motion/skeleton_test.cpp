@@ -17,14 +17,14 @@ using testing::Property;
 using testing::Throws;
 using testing::ThrowsMessage;
 
-auto usage(const char* message) {
+auto skeleton_usage(const char* message) {
   return AllOf(Throws<Error>(Property(&Error::kind, ErrorKind::usage)),
                ThrowsMessage<Error>(message));
 }
 
 // Makes one change to a valid skeleton and returns a function that validates it.
 template <class Change>
-auto validating(Change change) {
+auto validating_skeleton(Change change) {
   Skeleton skeleton = chain_skeleton(4);
   change(skeleton);
   return [skeleton] { skeleton.validate(); };
@@ -34,7 +34,7 @@ TEST(SkeletonRules, AcceptGoodSkeletons) {
   EXPECT_NO_THROW(chain_skeleton(4).validate());
   EXPECT_NO_THROW(chain_skeleton(1).validate());
   // Several roots, repeated and empty names, channels in any order, and a repeated axis are valid.
-  EXPECT_NO_THROW(validating([](Skeleton& s) {
+  EXPECT_NO_THROW(validating_skeleton([](Skeleton& s) {
     s.add_joint("", -1, {}, {});
     s.add_joint(
         "joint1", 4, {0, 0, 0},
@@ -44,49 +44,51 @@ TEST(SkeletonRules, AcceptGoodSkeletons) {
 
 TEST(SkeletonRules, NameTheFirstJointThatBreaksOne) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT([] { Skeleton{}.validate(); }, usage("a skeleton has at least one joint"));
-  EXPECT_THAT(validating([](Skeleton& s) { s.parents.pop_back(); }),
-              usage("skeleton arrays differ in length"));
-  EXPECT_THAT(validating([](Skeleton& s) { s.offsets.emplace_back(); }),
-              usage("skeleton arrays differ in length"));
-  EXPECT_THAT(validating([](Skeleton& s) { s.rest_rotations.pop_back(); }),
-              usage("skeleton arrays differ in length"));
-  EXPECT_THAT(validating([](Skeleton& s) { s.channels.pop_back(); }),
-              usage("skeleton arrays differ in length"));
-  EXPECT_THAT(validating([](Skeleton& s) { s.parents[0] = 0; }), usage("joint 0 is not a root"));
-  EXPECT_THAT(validating([](Skeleton& s) { s.parents[2] = 2; }),
-              usage("joint 2 \"joint2\": parent 2 does not precede it"));
-  EXPECT_THAT(validating([](Skeleton& s) { s.parents[1] = 3; }),
-              usage("joint 1 \"joint1\": parent 3 does not precede it"));
-  EXPECT_THAT(validating([](Skeleton& s) { s.parents[1] = -2; }),
-              usage("joint 1 \"joint1\": parent -2 does not precede it"));
-  EXPECT_THAT(validating([&](Skeleton& s) { s.offsets[3].y = nan; }),
-              usage("joint 3 \"joint3\": offset is not finite"));
-  EXPECT_THAT(validating([](Skeleton& s) { s.rest_rotations[1].w = 1.1; }),
-              usage("joint 1 \"joint1\": rest rotation is not a unit quaternion"));
-  EXPECT_THAT(validating([&](Skeleton& s) { s.rest_rotations[1].x = nan; }),
-              usage("joint 1 \"joint1\": rest rotation is not a unit quaternion"));
-  EXPECT_THAT(validating([](Skeleton& s) {
+  EXPECT_THAT([] { Skeleton{}.validate(); }, skeleton_usage("a skeleton has at least one joint"));
+  EXPECT_THAT(validating_skeleton([](Skeleton& s) { s.parents.pop_back(); }),
+              skeleton_usage("skeleton arrays differ in length"));
+  EXPECT_THAT(validating_skeleton([](Skeleton& s) { s.offsets.emplace_back(); }),
+              skeleton_usage("skeleton arrays differ in length"));
+  EXPECT_THAT(validating_skeleton([](Skeleton& s) { s.rest_rotations.pop_back(); }),
+              skeleton_usage("skeleton arrays differ in length"));
+  EXPECT_THAT(validating_skeleton([](Skeleton& s) { s.channels.pop_back(); }),
+              skeleton_usage("skeleton arrays differ in length"));
+  EXPECT_THAT(validating_skeleton([](Skeleton& s) { s.parents[0] = 0; }),
+              skeleton_usage("joint 0 is not a root"));
+  EXPECT_THAT(validating_skeleton([](Skeleton& s) { s.parents[2] = 2; }),
+              skeleton_usage("joint 2 \"joint2\": parent 2 does not precede it"));
+  EXPECT_THAT(validating_skeleton([](Skeleton& s) { s.parents[1] = 3; }),
+              skeleton_usage("joint 1 \"joint1\": parent 3 does not precede it"));
+  EXPECT_THAT(validating_skeleton([](Skeleton& s) { s.parents[1] = -2; }),
+              skeleton_usage("joint 1 \"joint1\": parent -2 does not precede it"));
+  EXPECT_THAT(validating_skeleton([&](Skeleton& s) { s.offsets[3].y = nan; }),
+              skeleton_usage("joint 3 \"joint3\": offset is not finite"));
+  EXPECT_THAT(validating_skeleton([](Skeleton& s) { s.rest_rotations[1].w = 1.1; }),
+              skeleton_usage("joint 1 \"joint1\": rest rotation is not a unit quaternion"));
+  EXPECT_THAT(validating_skeleton([&](Skeleton& s) { s.rest_rotations[1].x = nan; }),
+              skeleton_usage("joint 1 \"joint1\": rest rotation is not a unit quaternion"));
+  EXPECT_THAT(validating_skeleton([](Skeleton& s) {
                 s.channels[2] = {Channel::x_rotation, Channel::x_rotation};
               }),
-              usage("joint 2 \"joint2\": a rotation channel follows itself"));
-  EXPECT_THAT(validating([](Skeleton& s) {
+              skeleton_usage("joint 2 \"joint2\": a rotation channel follows itself"));
+  EXPECT_THAT(validating_skeleton([](Skeleton& s) {
                 s.channels[2] = {Channel::x_rotation, Channel::y_position, Channel::x_rotation};
               }),
-              usage("joint 2 \"joint2\": a rotation channel follows itself"));
-  EXPECT_THAT(validating([](Skeleton& s) {
+              skeleton_usage("joint 2 \"joint2\": a rotation channel follows itself"));
+  EXPECT_THAT(validating_skeleton([](Skeleton& s) {
                 s.channels[2] = {Channel::x_rotation, Channel::y_rotation, Channel::x_rotation,
                                  Channel::y_rotation};
               }),
-              usage("joint 2 \"joint2\": 4 rotation channels, at most 3 are possible"));
-  EXPECT_THAT(validating([](Skeleton& s) {
+              skeleton_usage("joint 2 \"joint2\": 4 rotation channels, at most 3 are possible"));
+  EXPECT_THAT(validating_skeleton([](Skeleton& s) {
                 s.channels[1] = {Channel::x_position, Channel::y_position, Channel::x_position};
               }),
-              usage("joint 1 \"joint1\": a position channel occurs twice"));
-  const auto bad_end = usage("an end site has no parent joint or an offset that is not finite");
-  EXPECT_THAT(validating([](Skeleton& s) { s.end_sites[0].parent = 4; }), bad_end);
-  EXPECT_THAT(validating([](Skeleton& s) { s.end_sites[0].parent = -1; }), bad_end);
-  EXPECT_THAT(validating([&](Skeleton& s) { s.end_sites[0].offset.z = nan; }), bad_end);
+              skeleton_usage("joint 1 \"joint1\": a position channel occurs twice"));
+  const auto bad_end =
+      skeleton_usage("an end site has no parent joint or an offset that is not finite");
+  EXPECT_THAT(validating_skeleton([](Skeleton& s) { s.end_sites[0].parent = 4; }), bad_end);
+  EXPECT_THAT(validating_skeleton([](Skeleton& s) { s.end_sites[0].parent = -1; }), bad_end);
+  EXPECT_THAT(validating_skeleton([&](Skeleton& s) { s.end_sites[0].offset.z = nan; }), bad_end);
 }
 
 TEST(Skeleton, FindsTheFirstJointOfAName) {

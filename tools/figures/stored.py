@@ -62,7 +62,7 @@ class Store:
 
     def __init__(self, root: Path):
         self.root = root
-        self.folder = root / "bench" / "papers" / "figures"
+        self.folder = root / "lab" / "experiments" / "figures"
         self.files: dict[str, StoredFile] = {}
 
     def file(self, name: str) -> StoredFile:

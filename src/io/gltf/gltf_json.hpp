@@ -36,8 +36,8 @@ std::optional<std::vector<double>> gltf_numbers(const GltfJson& object, const ch
 /// Returns an array of indices below `limit`.
 std::vector<std::size_t> gltf_indices(const GltfJson& object, const char* key, std::size_t limit);
 
-// All functions take a text that a parser has accepted; for any other text they return meaningless
-// places within its bounds.
+// The functions below take a text that a parser has accepted; for any other text they return
+// meaningless places within its bounds.
 
 /// Returns the whole value of a text, without surrounding white space.
 ByteSpan json_root(std::string_view text);

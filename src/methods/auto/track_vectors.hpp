@@ -19,7 +19,7 @@ namespace kinemend {
 /// typical bone by a unit. Markers: 1150 degrees per body height (1 degree is 1.5 mm), since
 /// optical systems measure positions more finely than angles are measured.
 inline double degrees_per_unit(const TakeView& take) {
-  // Chosen by hand (docs/methods/auto.md), not swept.
+  // Chosen by hand (docs/details/auto.md), not swept.
   constexpr double degrees_per_height = 1150;
   return take.markers ? degrees_per_height / take.body_height
                       : degrees_per_radian / radian_of_positions(take);

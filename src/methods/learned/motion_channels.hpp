@@ -79,7 +79,7 @@ struct KnownBody {
 /// The widest motion of a known body: the median over its joints of the root mean square turn about
 /// the mean pose, in deviations of the training. Takes of CMU have 0.4 to 1.45, those above this
 /// limit are dances; a clean take of boxing has 1.5, gestures of single arms up to 3
-/// (docs/methods/learned.md).
+/// (docs/details/learned.md).
 inline constexpr double most_spread = 1.3;
 
 /// The joints of a take, read as the model's body.

@@ -18,7 +18,7 @@
 namespace kinemend {
 
 /// Length of the windows over which removals are averaged, seconds. Chosen on takes of other data
-/// sets (docs/methods/learned.md): 1 s lets markers lose three times as much.
+/// sets (docs/details/learned.md): 1 s lets markers lose three times as much.
 inline constexpr double floor_window_s = 0.5;
 /// The share of a track's windows that are quieter than its floor. A tenth removes less of the
 /// noise of video systems and protects no take more; a half lets gestures lose 1.7 degrees.

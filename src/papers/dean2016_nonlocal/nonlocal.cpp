@@ -30,7 +30,7 @@ struct CausalNonlocalSettings {
   std::size_t neighbours = 0;  ///< only the most similar patches; 0: all of the window
   /// The paper's sigma, radians; 0: `noise_share` times the noise measured in the frames so far.
   double bandwidth = 0;
-  double noise_share = 0.8;  ///< chosen by hand (docs/methods/nonlocal.md); no sweep is stored
+  double noise_share = 0.8;  ///< chosen by hand (docs/details/nonlocal.md); no sweep is stored
 };
 
 /// `joints`: those that belong to the pose. The root position is unchanged: earlier places of a

@@ -23,7 +23,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 // The arc of a channel's degree: one radian is a quarter of the body height. By definition
-// (docs/bodies.md). The lengths are chosen by hand, not swept.
+// (docs/details/bodies.md). The lengths are chosen by hand, not swept.
 constexpr double degrees_per_height = 4 * degrees_per_radian;
 constexpr double least_bone = 1e-4;                      // body heights
 constexpr double shortest_end = 0.02, usual_end = 0.05;  // for bones of unknown length

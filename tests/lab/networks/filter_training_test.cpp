@@ -1,6 +1,6 @@
 // Tests of the training of Mall et al.'s networks: it resumes to the same result and reduces the
 // error.
-#include "filter_training.hpp"
+#include "lab/networks/filter_training.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Tests of the training of `learned`, on small networks.
-#include "motion_training.hpp"
+#include "lab/networks/motion_training.hpp"
 
 #include <gtest/gtest.h>
 

@@ -26,7 +26,7 @@ std::string usage_error_of(const std::function<void()>& action) {
   return "no error";
 }
 
-TrainingTakes walks(std::size_t count) {
+TrainingTakes training_walks(std::size_t count) {
   return {count, [](std::size_t index) {
             SynthOptions options;
             options.duration_s = 4;
@@ -81,7 +81,7 @@ TEST(TrainModel, FillsInWhatDoesNotDependOnTheMethod) {
   settings.card = {"walks", "made up", "CC0", "a test", "none"};
   std::vector<double> done;
   settings.progress = [&](std::string_view, double share) { done.push_back(share); };
-  const Model model = train_model("kalman-learned", walks(2), {}, settings);
+  const Model model = train_model("kalman-learned", training_walks(2), {}, settings);
   EXPECT_EQ(model.method, "kalman-learned");
   EXPECT_EQ(model.takes, 2u);
   EXPECT_NEAR(model.seconds, 8, 0.2);
@@ -92,7 +92,7 @@ TEST(TrainModel, FillsInWhatDoesNotDependOnTheMethod) {
 
 TEST(TrainModel, GivesTheSameBytesForTheSameTakes) {
   for (const Training& method : trainings()) {
-    const auto bytes = [&] { return write_model(train_model(method.name, walks(2))); };
+    const auto bytes = [&] { return write_model(train_model(method.name, training_walks(2))); };
     const std::string first = bytes();
     EXPECT_EQ(bytes(), first) << method.name;
     EXPECT_EQ(write_model(parse_model(first, "a")), first) << method.name;
@@ -110,8 +110,8 @@ TEST(TrainModel, DrawsFromOneSeed) {
     TrainSettings settings;
     settings.names = {"Hips", "Left*"};
     settings.seed = seed;
-    return write_model(
-        train_model(method, walks(2), method == "wiener" ? few : OptionValues{}, settings));
+    return write_model(train_model(method, training_walks(2),
+                                   method == "wiener" ? few : OptionValues{}, settings));
   };
   EXPECT_NE(bytes("wiener", 1), bytes("wiener", 2));
   EXPECT_EQ(bytes("wiener", 2), bytes("wiener", 2));
