@@ -79,6 +79,15 @@ Flag noise_flag() {
   return flag;
 }
 
+Flag fill_flag() {
+  Flag flag = setting_flag(
+      "fill", "Cleaning",
+      "auto tests the methods on artificial gaps, picks one for each gap, and leaves a gap open "
+      "when none is reliable. kinemend fill -h lists the methods.");
+  flag.value_name = "METHOD";
+  return flag;
+}
+
 }  // namespace
 
 std::vector<Flag> clean_output_flags() {
@@ -107,10 +116,7 @@ std::vector<Flag> cleaning_flags() {
                    "Typical: 5 to 20 mm against jitter alone; spikes need more."),
       configurable(source_flag()),
       noise_flag(),
-      setting_flag(
-          "fill", "Cleaning",
-          "auto tests the methods on artificial gaps, picks one for each gap, and leaves a "
-          "gap open when none is reliable. kinemend fill -h lists the methods."),
+      fill_flag(),
       setting_flag("fill_all", "Cleaning"),
       setting_flag("feet", "Cleaning",
                    "auto keeps intentional slides; force holds every foot that stands. For joints; "
