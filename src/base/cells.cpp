@@ -7,6 +7,7 @@
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/json_depth.hpp"
+#include "kinemend/experimental/text.hpp"
 
 namespace kinemend {
 
@@ -69,12 +70,6 @@ std::string_view take_line(std::string_view& text) {
     text.remove_prefix(end + (crlf ? 2 : 1));
   }
   return line;
-}
-
-std::string_view without_byte_order_mark(std::string_view text) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-  return text;
 }
 
 std::vector<CellLine> cell_lines(std::string_view text, std::string_view name) {

@@ -155,7 +155,7 @@ std::string mapping_text(const BodyLayout& layout, const std::vector<std::string
 }  // namespace
 
 NameMap parse_name_map(std::string_view text, std::string_view name) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  text = without_byte_order_mark(text);
   NameMap map;
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());

@@ -9,6 +9,7 @@
 
 #include "io/acclaim/asf.hpp"
 #include "io/bvh/bvh_hierarchy.hpp"
+#include "kinemend/experimental/text.hpp"
 
 namespace kinemend {
 
@@ -47,7 +48,7 @@ class AsfParser {
       : text_(text),
         diagnostics_(diagnostics),
         max_depth_(max_depth),
-        scanner_(text.bytes, text.bytes.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0) {
+        scanner_(text.bytes, byte_order_mark_size(text.bytes)) {
     Bone root;
     root.name = "root";
     bones_.push_back(std::move(root));
@@ -426,7 +427,7 @@ AsfSkeleton parse_asf(const SourceText& text, Diagnostics& diagnostics, std::siz
 }
 
 int sniff_asf(std::string_view head) {
-  if (head.substr(0, 3) == "\xEF\xBB\xBF") head.remove_prefix(3);
+  head = without_byte_order_mark(head);
   AsfScanner scanner(head);
   const std::string_view word = scanner.next();
   constexpr std::array<std::string_view, 8> keywords{

@@ -11,6 +11,7 @@
 
 #include "base/portable.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/experimental/text.hpp"
 
 namespace kinemend {
 
@@ -326,7 +327,7 @@ std::size_t first_text_byte(const SourceText& text) {
   if (bytes.substr(0, 2) == "\xFF\xFE" || bytes.substr(0, 2) == "\xFE\xFF") {
     throw text.error_at(std::size_t{0}, "the text is UTF-16; save it as UTF-8");
   }
-  return bytes.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0;
+  return byte_order_mark_size(bytes);
 }
 
 }  // namespace

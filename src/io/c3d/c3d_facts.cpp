@@ -25,7 +25,8 @@ std::string_view processor_name(C3dProcessor processor) {
   return "Intel";
 }
 
-std::string counted(std::size_t count, std::string_view word) {
+// The digits are not grouped, other than by `counted`: programs read facts.
+std::string count_text(std::size_t count, std::string_view word) {
   return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
 }
 
@@ -75,7 +76,7 @@ std::vector<SourceFact> c3d_facts(const C3dDocument& document, const C3dPointCou
     if (!text.empty()) facts.push_back({name, text});
   };
   if (layout.analog_count > 0 && layout.analog_values > 0) {
-    add("analog", fmt::format("{} at {:g} Hz", counted(layout.analog_count, "channel"),
+    add("analog", fmt::format("{} at {:g} Hz", count_text(layout.analog_count, "channel"),
                               layout.rate_hz * static_cast<double>(layout.analog_instants())));
     if (layout.point_count == 0)
       add("analog frames", std::to_string(layout.frame_count * layout.analog_instants()));
@@ -86,7 +87,7 @@ std::vector<SourceFact> c3d_facts(const C3dDocument& document, const C3dPointCou
   if (counts.cameras != 0)
     add("cameras", fmt::format("{} saw a marker", std::popcount(counts.cameras)));
   if (const std::size_t segments = parameters.count("ROTATION", "USED").value_or(0); segments > 0)
-    add("rotations", counted(segments, "segment"));
+    add("rotations", count_text(segments, "segment"));
   std::vector<std::string> subjects = parameters.texts("SUBJECTS", "NAMES");
   if (joined(subjects).empty()) subjects = parameters.texts("SUBJECT", "NAME");
   add("subjects", joined(subjects));

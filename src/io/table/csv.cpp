@@ -163,9 +163,9 @@ std::string number_text(double value) {
   return {room, write_shortest(room, value)};
 }
 
-class Table {
+class CsvTable {
  public:
-  explicit Table(std::size_t expected) : out_(expected) {}
+  explicit CsvTable(std::size_t expected) : out_(expected) {}
 
   void line(std::string_view text) {
     out_.append(text);
@@ -207,7 +207,7 @@ class Table {
 };
 
 std::string write_plain_joints(const Take& clip) {
-  Table table(80 * clip.rotations.size() + 4096);
+  CsvTable table(80 * clip.rotations.size() + 4096);
   table.line("# rate_hz: " + number_text(clip.frame_rate_hz));
   if (clip.frame_count() == 0) table.line("# frames: 0");
   if (clip.metres_per_unit > 0) {
@@ -253,7 +253,7 @@ const CsvDocument* kept_layout(const Take& clip) {
 }
 
 std::string write_plain_markers(const Take& clip) {
-  Table table(60 * clip.positions.size() + 4096);
+  CsvTable table(60 * clip.positions.size() + 4096);
   table.line("# rate_hz: " + number_text(clip.frame_rate_hz));
   if (clip.frame_count() == 0) table.line("# frames: 0");
   if (!clip.unit.empty()) {

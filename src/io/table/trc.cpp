@@ -13,6 +13,7 @@
 #include "io/text/cells.hpp"
 #include "io/text/text.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/text.hpp"
 
 namespace kinemend {
 
@@ -173,7 +174,7 @@ class TrcReader {
 }  // namespace
 
 int sniff_trc(std::string_view head) {
-  if (head.substr(0, 3) == "\xEF\xBB\xBF") head.remove_prefix(3);
+  head = without_byte_order_mark(head);
   if (head.substr(0, 1) == "\"") head.remove_prefix(1);
   constexpr std::string_view word = "PathFileType";
   const std::string_view start = TextScanner(head, 0).next().substr(0, word.size());

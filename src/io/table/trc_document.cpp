@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "kinemend/experimental/text.hpp"
+
 namespace kinemend {
 
 namespace {
@@ -39,11 +41,8 @@ class TrcHeaderReader {
       : text_(text), diagnostics_(diagnostics) {}
 
   TrcHeader read() {
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     if (is_empty(text_.bytes)) throw Error::at_line(text_.name, 1, "the file is empty");
-    if (text_.bytes.substr(0, byte_order_mark.size()) == byte_order_mark) {
-      next_ = byte_order_mark.size();
-    }
+    next_ = byte_order_mark_size(text_.bytes);
     while (header_.labels_line == 0) read_line();
     read_below_labels();
     choose_style();

@@ -15,6 +15,7 @@
 #include "io/text/cells.hpp"
 #include "io/text/text.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {
@@ -50,7 +51,7 @@ class TsvReader {
       : document_(document),
         options_(options),
         text_{name, document.bytes, options.strict},
-        lines_(text_, after_byte_order_mark(document.bytes)) {}
+        lines_(text_, byte_order_mark_size(document.bytes)) {}
 
   TakeResult read() {
     if (without_spaces_around(text_.bytes).empty())
@@ -252,7 +253,7 @@ class TsvReader {
 }  // namespace
 
 int sniff_tsv(std::string_view head) {
-  head.remove_prefix(after_byte_order_mark(head));
+  head = without_byte_order_mark(head);
   const std::string_view line = line_from(head, 0);
   const std::string_view key = line.substr(0, line.find('\t'));
   for (const std::string_view known :

@@ -385,7 +385,7 @@ std::vector<std::string> left_over(const std::vector<SparsePoselet>& poselets,
 
 std::vector<SparsePoselet> parse_poselets(std::string_view text, std::string_view name,
                                           const BodyLayout& layout, const SparsePoints& points) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  text = without_byte_order_mark(text);
   std::vector<SparsePoselet> poselets;
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
