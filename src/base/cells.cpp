@@ -55,9 +55,10 @@ std::vector<std::string> cells_of(std::string_view line, std::string_view name,
 }  // namespace
 
 std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(blanks);
+  constexpr std::string_view space = " \t\r";
+  const std::size_t first = text.find_first_not_of(space);
   if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+  return text.substr(first, text.find_last_not_of(space) - first + 1);
 }
 
 std::string_view take_line(std::string_view& text) {

@@ -11,7 +11,7 @@
 
 namespace kinemend {
 
-/// The text without blanks and tabs at both ends.
+/// The text without blanks, tabs and carriage returns at both ends.
 std::string_view trimmed(std::string_view text);
 /// Removes and returns the first line, without its line end (LF, CRLF or CR).
 std::string_view take_line(std::string_view& text);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "base/cells.hpp"
 #include "body/body_names.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/body.hpp"
@@ -101,13 +102,6 @@ void list_unmatched(const BodyLayout& layout, const std::vector<std::string>& na
 namespace kinemend {
 
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view space = " \t\r";
-  const std::size_t first = text.find_first_not_of(space);
-  if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(space) - first + 1);
-}
 
 [[noreturn]] void refuse(std::string_view name, std::size_t line, std::string_view message) {
   throw Error(ErrorKind::usage, fmt::format("{}:{}: {}", name, line, message));

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/cells.hpp"
 #include "body/body_names.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/text.hpp"
@@ -306,13 +307,6 @@ namespace {
 
 // Chosen by hand.
 constexpr std::size_t most_poselets = 100;  // the limit of a model file
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view space = " \t\r";
-  const std::size_t first = text.find_first_not_of(space);
-  if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(space) - first + 1);
-}
 
 // A line of the file, with its place for errors.
 struct Line {
