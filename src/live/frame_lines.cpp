@@ -104,7 +104,7 @@ void JointReader::take_rotations() {
 
 void JointReader::take_positions() {
   for (const MotionColumns::Position& position : columns_.positions()) {
-    component(frame_.positions[frame_index(position.translated)], position.axis) =
+    component_of(frame_.positions[frame_index(position.translated)], position.axis) =
         row_[position.column];
   }
 }

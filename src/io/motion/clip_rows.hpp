@@ -41,7 +41,7 @@ class ClipRows {
     return position_frames_[frame_index(position.translated)];
   }
   double& value(std::size_t frame, const MotionColumns::Position& position) {
-    return component(position_of(clip_, frame, position.translated), position.axis);
+    return component_of(position_of(clip_, frame, position.translated), position.axis);
   }
 
   Take& clip_;

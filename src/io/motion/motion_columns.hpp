@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kinemend/take.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend {
 
@@ -74,13 +75,6 @@ struct PositionFrame {
     return is_direct() ? clip : rotate(conjugate(turn), clip - origin);
   }
 };
-
-inline double& component(Vec3& v, Axis axis) {
-  return axis == Axis::x ? v.x : axis == Axis::y ? v.y : v.z;
-}
-inline double component(const Vec3& v, Axis axis) {
-  return axis == Axis::x ? v.x : axis == Axis::y ? v.y : v.z;
-}
 
 /// Returns frames in which positions replace the joint's offset, as in BVH.
 std::vector<PositionFrame> offset_replacing_frames(const Skeleton& skeleton);
