@@ -25,11 +25,6 @@ std::string_view processor_name(C3dProcessor processor) {
   return "Intel";
 }
 
-// The digits are not grouped, other than by `counted`: programs read facts.
-std::string count_text(std::size_t count, std::string_view word) {
-  return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
-}
-
 std::string plates_text(const C3dParameters& parameters, std::size_t count) {
   std::string text = std::to_string(count);
   const std::vector<double> types = parameters.numbers("FORCE_PLATFORM", "TYPE");
@@ -61,6 +56,10 @@ std::string software_text(const C3dParameters& parameters) {
 }
 
 }  // namespace
+
+std::string count_text(std::size_t count, std::string_view word) {
+  return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
+}
 
 std::string c3d_encoding(const C3dDocument& document) {
   if (document.layout.is_float) return fmt::format("{} reals", processor_name(document.processor));
@@ -125,15 +124,14 @@ std::vector<MarkerEvent> group_events(const C3dSource& source, const C3dParamete
 }
 
 std::vector<MarkerEvent> header_events(const C3dSource& source, const C3dHeader& header) {
-  const auto offset = [&](std::size_t word) { return header.begin + 2 * (word - 1); };
-  if (source.word(offset(c3d_event_key_word)) != c3d_event_key) return {};
-  const std::size_t count =
-      std::min<std::size_t>(source.word(offset(c3d_event_count_word)), c3d_most_header_events);
+  if (source.word(header.place_of(c3d_event_key_word)) != c3d_event_key) return {};
+  const std::size_t count = std::min<std::size_t>(
+      source.word(header.place_of(c3d_event_count_word)), c3d_most_header_events);
   std::vector<MarkerEvent> events;
   for (std::size_t i = 0; i < count; ++i) {
-    const double time_s = source.real(offset(c3d_event_times_word) + 4 * i);
+    const double time_s = source.real(header.place_of(c3d_event_times_word) + 4 * i);
     if (!std::isfinite(time_s)) continue;
-    std::string label(source.bytes.substr(offset(c3d_event_labels_word) + 4 * i, 4));
+    std::string label(source.bytes.substr(header.place_of(c3d_event_labels_word) + 4 * i, 4));
     label.erase(label.find_last_not_of(std::string_view(" \0", 2)) + 1);
     events.push_back({as_utf8(label), "", time_s});
   }
@@ -188,10 +186,9 @@ bool c3d_event_times_are_finite(const C3dSource& source, const C3dHeader& header
     const std::vector<double> times = parameters.numbers(group, "TIMES");
     if (!std::all_of(times.begin(), times.end(), finite)) return false;
   }
-  const auto offset = [&](std::size_t word) { return header.begin + 2 * (word - 1); };
-  if (source.word(offset(c3d_event_key_word)) != c3d_event_key) return true;
+  if (source.word(header.place_of(c3d_event_key_word)) != c3d_event_key) return true;
   for (std::size_t i = 0; i < c3d_most_header_events; ++i) {
-    if (!finite(source.real(offset(c3d_event_times_word) + 4 * i))) return false;
+    if (!finite(source.real(header.place_of(c3d_event_times_word) + 4 * i))) return false;
   }
   return true;
 }
