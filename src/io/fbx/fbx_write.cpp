@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -67,8 +66,6 @@ std::string write_fbx(const Take& clip) { return write_fbx_take(clip); }
 std::string write_fbx_markers(const Take& clip) { return write_fbx_take(clip); }
 
 namespace {
-
-constexpr double radians_per_degree = std::numbers::pi / 180;
 
 class FbxRewriter {
  public:
