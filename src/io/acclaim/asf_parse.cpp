@@ -33,9 +33,8 @@ struct Family {
 };
 
 std::optional<AsfDof> dof_of(std::string_view word) {
-  constexpr std::array<std::string_view, 6> names{"tx", "ty", "tz", "rx", "ry", "rz"};
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (equal_ignoring_case(word, names[i])) return static_cast<Channel>(i);
+  for (std::size_t i = 0; i < asf_dof_names.size(); ++i) {
+    if (equal_ignoring_case(word, asf_dof_names[i])) return static_cast<Channel>(i);
   }
   if (equal_ignoring_case(word, "l")) return AsfDof{};
   return std::nullopt;
@@ -149,9 +148,8 @@ class AsfParser {
   }
 
   void assume_root_order() {
-    for (const char* name : {"tx", "ty", "tz", "rx", "ry", "rz"}) {
-      bones_[0].dofs.push_back(*dof_of(name));
-    }
+    for (std::size_t i = 0; i < asf_dof_names.size(); ++i)
+      bones_[0].dofs.emplace_back(static_cast<Channel>(i));
     note_repair(text_, diagnostics_, "root_order_missing", bones_[0].place,
                 "no order of the root: TX TY TZ RX RY RZ assumed");
   }

@@ -102,8 +102,6 @@ class HierarchyWriter {
   }
 
   void begin_joint(std::size_t joint, std::size_t depth) {
-    constexpr std::array<std::string_view, 6> channel_names{"Xposition", "Yposition", "Zposition",
-                                                            "Xrotation", "Yrotation", "Zrotation"};
     order_.push_back(joint);
     check_name(skeleton_.names[joint]);
     line(depth, fmt::format("{} {}", depth == 0 ? "ROOT" : "JOINT", skeleton_.names[joint]));

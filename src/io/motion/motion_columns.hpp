@@ -5,13 +5,21 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "kinemend/take.hpp"
 #include "motion/rotation.hpp"
 
 namespace kinemend {
+
+/// Names of channels in BVH files and in the skeletons of CSV files, in the order of `Channel`.
+inline constexpr std::array<std::string_view, 6> channel_names{
+    "Xposition", "Yposition", "Zposition", "Xrotation", "Yrotation", "Zrotation"};
+/// Returns the channel of that name in any case; none for another word.
+std::optional<Channel> channel_named(std::string_view word);
 
 /// The meaning of the columns of a frame, and rotations from them.
 class MotionColumns {
