@@ -74,18 +74,13 @@ class CsvReader {
 
   TakeResult read_markers() {
     Take clip;
-    std::size_t unnamed = 0;
     for (const CsvGroup& group : header_.groups) {
       if (group.kind != CsvGroup::Kind::position) continue;
       document_.table.columns.push_back({group.columns[0], group.columns[1], group.columns[2]});
       clip.names.push_back(group.label);
-      if (!group.label.empty()) continue;
-      clip.names.back() = fmt::format("*{}", clip.names.size());
-      ++unnamed;
     }
     if (clip.names.empty()) throw text_.error_at(header_.labels_line, "the file has no markers");
-    note("marker_unnamed", header_.labels_line,
-         "a marker has no name: it is called *1, *2, ... by its position", unnamed);
+    name_the_unnamed(text_, diagnostics_, header_.labels_line, clip);
     clip.unit = header_.unit;
     if (header_.unit_is_custom) {
       note(

@@ -169,7 +169,7 @@ class TsvReader {
       throw text_.error_at(std::min(table.begin, text_.bytes.size()),
                            "expected a row for each frame, found none");
     }
-    name_the_unnamed();
+    name_the_unnamed(text_, diagnostics_, names_place_, clip_);
     check_counts();
     // FREQUENCY is a word if the cameras had an external trigger.
     clip_.frame_rate_hz = table_rate(
@@ -214,17 +214,6 @@ class TsvReader {
     document_.table.frame_column = 0;
     document_.table.time_column = 1;
     return 2;
-  }
-
-  void name_the_unnamed() {
-    std::size_t unnamed = 0;
-    for (std::size_t m = 0; m < clip_.names.size(); ++m) {
-      if (!clip_.names[m].empty()) continue;
-      clip_.names[m] = fmt::format("*{}", m + 1);
-      ++unnamed;
-    }
-    note("marker_unnamed", names_place_,
-         "a marker has no name: it is called *1, *2, ... by its position", unnamed);
   }
 
   void check_counts() {
