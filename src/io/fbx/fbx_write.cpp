@@ -34,18 +34,6 @@ bool fits_fbx_document(const Take& take, const FbxDocument& document, const Take
 /// a joint that several layers move.
 std::string rewrite_fbx(const Take& take, const FbxDocument& document, const Take& original);
 
-namespace {
-
-std::string write_fbx_take(const Take& take) {
-  const auto* const document = dynamic_cast<const FbxDocument*>(take.source.document.get());
-  if (document == nullptr) return new_fbx_file(take);
-  const Take original = take_of_fbx(*document);
-  if (!fits_fbx_document(take, *document, original)) return new_fbx_file(take);
-  return rewrite_fbx(take, *document, original);
-}
-
-}  // namespace
-
 std::vector<std::string> lost_beside_fbx(const Take& take) {
   const auto* const document = dynamic_cast<const FbxDocument*>(take.source.document.get());
   if (document == nullptr) return {};
@@ -61,9 +49,13 @@ std::vector<std::string> lost_beside_fbx(const Take& take) {
   return parts;
 }
 
-std::string write_fbx(const Take& clip) { return write_fbx_take(clip); }
-
-std::string write_fbx_markers(const Take& clip) { return write_fbx_take(clip); }
+std::string write_fbx(const Take& take) {
+  const auto* const document = dynamic_cast<const FbxDocument*>(take.source.document.get());
+  if (document == nullptr) return new_fbx_file(take);
+  const Take original = take_of_fbx(*document);
+  if (!fits_fbx_document(take, *document, original)) return new_fbx_file(take);
+  return rewrite_fbx(take, *document, original);
+}
 
 namespace {
 
