@@ -14,7 +14,6 @@
 #include "kinemend/experimental/letter_case.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/feet.hpp"
-#include "motion/names.hpp"
 
 namespace kinemend {
 

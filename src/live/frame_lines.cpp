@@ -10,6 +10,7 @@
 
 #include "io/bvh/bvh.hpp"
 #include "io/motion/motion_rows.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend {
 

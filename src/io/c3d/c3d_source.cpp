@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "io/c3d/c3d_layout.hpp"
 #include "kinemend/experimental/frame_rate.hpp"

@@ -1,7 +1,6 @@
 // Lays out the records of a new FBX file: settings, definitions, models, curves and connections.
 #include "io/fbx/fbx_new_file.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>

@@ -8,6 +8,7 @@
 #include "io/motion/motion_columns.hpp"
 #include "io/motion/motion_document.hpp"
 #include "kinemend/take.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend {
 

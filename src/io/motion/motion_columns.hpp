@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "kinemend/take.hpp"
-#include "motion/rotation.hpp"
 
 namespace kinemend {
 

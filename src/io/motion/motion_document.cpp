@@ -17,6 +17,7 @@
 #include "base/portable.hpp"
 #include "io/motion/motion_columns.hpp"
 #include "io/text/text.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend {
 

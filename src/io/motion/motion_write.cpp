@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "io/text/text.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
+#include "motion/rotation.hpp"
 #include "motion/take.hpp"
 
 namespace kinemend {
