@@ -11,6 +11,7 @@
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/content_hash.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "kinemend/experimental/wildcards.hpp"
 #include "kinemend/io.hpp"
 
@@ -169,8 +170,7 @@ std::vector<std::string> listed_inputs(std::string_view text, std::string_view n
     throw Error(ErrorKind::unreadable_input,
                 fmt::format("{}: the list is in UTF-16; save it as UTF-8", name));
   }
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  text = without_byte_order_mark(text);
   std::vector<std::string> inputs;
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());

@@ -116,6 +116,12 @@ struct Format {
   TakeResult (*read)(std::string bytes, std::string_view name, const ReadOptions& options);
   std::string (*write)(const Take& clip);          ///< nullptr for a format without joints
   std::string (*write_markers)(const Take& clip);  ///< nullptr for a format without markers
+  /// Lists the parts of the take's source in this format that a new file leaves out; none if the
+  /// source is rewritten. nullptr for formats that hold motion only.
+  std::vector<std::string> (*left_out)(const Take& take) = nullptr;
+  /// Writes a take with the files that `output` needs beside it; nullptr where `write` and
+  /// `side_file` do.
+  TakeFiles (*write_files)(const Take& take, const std::filesystem::path& output) = nullptr;
 };
 
 std::span<const Format> formats();

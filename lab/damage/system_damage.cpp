@@ -14,6 +14,7 @@
 #include "lab/damage/system_noise.hpp"
 #include "lab/damage/targets.hpp"
 #include "lab/damage/track_errors.hpp"
+#include "motion/take.hpp"
 
 namespace kinemend::corrupt {
 
@@ -204,8 +205,7 @@ class ClipDamage {
 
   // Returns the arcs of a joint's rotations from their mean.
   std::vector<Vec3> swing(std::size_t joint) const {
-    std::vector<Quat> rotations(clip_.frame_count());
-    for (std::size_t f = 0; f < rotations.size(); ++f) rotations[f] = truth_.rotation(f, joint);
+    const std::vector<Quat> rotations = rotations_of(truth_, joint);
     const Quat mean = chordal_mean(rotations);
     std::vector<Vec3> arcs;
     arcs.reserve(rotations.size());

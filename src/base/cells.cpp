@@ -7,6 +7,7 @@
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/json_depth.hpp"
+#include "kinemend/experimental/text.hpp"
 
 namespace kinemend {
 
@@ -54,9 +55,10 @@ std::vector<std::string> cells_of(std::string_view line, std::string_view name,
 }  // namespace
 
 std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(blanks);
+  constexpr std::string_view space = " \t\r";
+  const std::size_t first = text.find_first_not_of(space);
   if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+  return text.substr(first, text.find_last_not_of(space) - first + 1);
 }
 
 std::string_view take_line(std::string_view& text) {
@@ -69,12 +71,6 @@ std::string_view take_line(std::string_view& text) {
     text.remove_prefix(end + (crlf ? 2 : 1));
   }
   return line;
-}
-
-std::string_view without_byte_order_mark(std::string_view text) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-  return text;
 }
 
 std::vector<CellLine> cell_lines(std::string_view text, std::string_view name) {

@@ -11,12 +11,10 @@
 
 namespace kinemend {
 
-/// The text without blanks and tabs at both ends.
+/// The text without blanks, tabs and carriage returns at both ends.
 std::string_view trimmed(std::string_view text);
 /// Removes and returns the first line, without its line end (LF, CRLF or CR).
 std::string_view take_line(std::string_view& text);
-/// The text without the byte order mark that some programs put before UTF-8.
-std::string_view without_byte_order_mark(std::string_view text);
 
 /// A line of a table with its number, from 1.
 struct CellLine {

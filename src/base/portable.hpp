@@ -33,7 +33,6 @@ struct SineAndCosine {
 [[nodiscard]] double cos(double angle);
 [[nodiscard]] double tan(double angle);
 
-[[nodiscard]] double asin(double x);
 [[nodiscard]] double acos(double x);
 [[nodiscard]] double atan(double x);
 [[nodiscard]] double atan2(double y, double x);

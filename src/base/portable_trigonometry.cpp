@@ -293,12 +293,6 @@ double atan2(double y, double x) {
 
 double atan(double x) { return atan2(x, 1); }
 
-double asin(double x) {
-  if (!(std::fabs(x) <= 1)) return no_arc;
-  if (std::fabs(x) < 0x1p-27) return x;
-  return std::copysign(angle_of({std::fabs(x)}, other_leg(x)).hi, x);
-}
-
 double acos(double x) {
   if (!(std::fabs(x) <= 1)) return no_arc;
   if (std::fabs(x) < 0x1p-60) return half_pi.hi;

@@ -38,6 +38,15 @@ std::string painted(Paint paint, std::string_view text, bool on) {
   return fmt::format("\033[{}m{}\033[0m", code_of(paint), text);
 }
 
+std::size_t byte_order_mark_size(std::string_view text) {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  return text.starts_with(mark) ? mark.size() : 0;
+}
+
+std::string_view without_byte_order_mark(std::string_view text) {
+  return text.substr(byte_order_mark_size(text));
+}
+
 std::size_t display_width(std::string_view text) {
   // Continuation bytes of a UTF-8 character take no column of their own.
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {

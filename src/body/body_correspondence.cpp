@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "base/cells.hpp"
 #include "body/body_names.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/body.hpp"
@@ -102,13 +103,6 @@ namespace kinemend {
 
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view space = " \t\r";
-  const std::size_t first = text.find_first_not_of(space);
-  if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(space) - first + 1);
-}
-
 [[noreturn]] void refuse(std::string_view name, std::size_t line, std::string_view message) {
   throw Error(ErrorKind::usage, fmt::format("{}:{}: {}", name, line, message));
 }
@@ -155,7 +149,7 @@ std::string mapping_text(const BodyLayout& layout, const std::vector<std::string
 }  // namespace
 
 NameMap parse_name_map(std::string_view text, std::string_view name) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  text = without_byte_order_mark(text);
   NameMap map;
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());

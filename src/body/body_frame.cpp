@@ -9,27 +9,19 @@
 #include "base/quantiles.hpp"
 #include "body/body_trend.hpp"
 #include "kinemend/error.hpp"
+#include "motion/take.hpp"
 
 namespace kinemend::representation {
 
 namespace {
 
-// Returns a joint's column in `Take::translated_joints`.
-std::optional<std::size_t> translation_column(const Take& clip, std::size_t joint) {
-  const auto& joints = clip.translated_joints;
-  const auto found =
-      std::lower_bound(joints.begin(), joints.end(), static_cast<std::int32_t>(joint));
-  if (found == joints.end() || *found != static_cast<std::int32_t>(joint)) return std::nullopt;
-  return static_cast<std::size_t>(found - joints.begin());
-}
-
-// A joint and its ancestors from the top, with the column of each one's offset.
+// A joint and its ancestors from the top, with the point that holds each one's offset.
 class Chain {
  public:
   Chain(const Take& clip, std::int32_t joint) : clip_(clip) {
     for (; joint >= 0; joint = clip.skeleton.parents[static_cast<std::size_t>(joint)]) {
       const auto j = static_cast<std::size_t>(joint);
-      links_.push_back({j, translation_column(clip, j)});
+      links_.push_back({j, point_of_joint(clip, j)});
     }
     std::reverse(links_.begin(), links_.end());
   }
@@ -44,8 +36,8 @@ class Chain {
   Point at(std::size_t frame, std::size_t count) const {
     Point point;
     for (std::size_t i = 0; i < count; ++i) {
-      const auto [joint, column] = links_[i];
-      point.position += rotate(point.rotation, offset(frame, joint, column));
+      const std::size_t joint = links_[i].joint;
+      point.position += rotate(point.rotation, offset(frame, links_[i]));
       point.rotation =
           point.rotation * clip_.skeleton.rest_rotations[joint] * clip_.rotation(frame, joint);
     }
@@ -61,13 +53,11 @@ class Chain {
  private:
   struct Link {
     std::size_t joint;
-    std::optional<std::size_t> column;
+    std::optional<std::size_t> point;
   };
 
-  Vec3 offset(std::size_t frame, std::size_t joint, std::optional<std::size_t> column) const {
-    if (joint == 0) return clip_.root_position(frame);
-    if (column) return clip_.position(frame, 1 + *column);
-    return clip_.skeleton.offsets[joint];
+  Vec3 offset(std::size_t frame, const Link& link) const {
+    return link.point ? clip_.position(frame, *link.point) : clip_.skeleton.offsets[link.joint];
   }
 
   const Take& clip_;
@@ -104,8 +94,7 @@ Heading heading_of(Quat q) {
 }
 
 std::size_t root_track(const Take& clip, const BodyMatch& match) {
-  const auto column = translation_column(clip, root_joint(match));
-  return column ? *column + 1 : 0;
+  return point_of_joint(clip, root_joint(match)).value_or(0);
 }
 
 void place_root(Take& clip, const BodyMatch& match, std::size_t frame, Vec3 position) {
@@ -116,10 +105,9 @@ void place_root(Take& clip, const BodyMatch& match, std::size_t frame, Vec3 posi
     return;
   }
   const Chain chain(clip, match.tracks[0]);
-  if (const auto column = translation_column(clip, joint)) {
+  if (const auto point = point_of_joint(clip, joint)) {
     const Chain::Point parent = chain.at(frame, chain.length() - 1);
-    clip.position(frame, 1 + *column) =
-        rotate(conjugate(parent.rotation), global - parent.position);
+    clip.position(frame, *point) = rotate(conjugate(parent.rotation), global - parent.position);
     return;
   }
   clip.root_position(frame) += global - chain.at(frame, chain.length()).position;

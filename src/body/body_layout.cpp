@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <optional>
 #include <utility>
 #include <variant>
 
@@ -12,6 +11,7 @@
 #include "body/body_learning.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/body.hpp"
+#include "motion/take.hpp"
 
 namespace kinemend {
 
@@ -19,16 +19,13 @@ namespace {
 
 constexpr std::array axis_names{"x", "y", "z"};
 
-bool finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-bool finite(Quat q) { return std::isfinite(q.w) && finite(Vec3{q.x, q.y, q.z}); }
-
 [[noreturn]] void refuse(const BodyLayout& layout, std::size_t track, std::string_view what) {
   throw Error(ErrorKind::usage, fmt::format("{} {} \"{}\" of the body's layout: {}",
                                             layout.kind == BodyKind::joints ? "joint" : "marker",
                                             track, layout.names[track], what));
 }
 
-void check_length(std::string_view array, std::size_t found, std::size_t expected) {
+void check_array(std::string_view array, std::size_t found, std::size_t expected) {
   if (found == expected) return;
   throw Error(ErrorKind::usage,
               fmt::format("the body's layout: expected {} {}, found {}", expected, array, found));
@@ -38,38 +35,37 @@ void check_joints(const BodyLayout& layout) {
   // Tolerated rounding error of a length of 1.
   constexpr double unit = 1e-6;
   const std::size_t count = layout.track_count();
-  check_length("parents", layout.parents.size(), count);
-  check_length("references", layout.references.size(), count);
-  check_length("bones", layout.bones.size(), count);
-  check_length("means", layout.means.size(), 0);
-  check_length("anchors", layout.anchors.size(), 0);
-  check_length("points of its shape", layout.shape.size(), 0);
+  check_array("parents", layout.parents.size(), count);
+  check_array("references", layout.references.size(), count);
+  check_array("bones", layout.bones.size(), count);
+  check_array("means", layout.means.size(), 0);
+  check_array("anchors", layout.anchors.size(), 0);
+  check_array("points of its shape", layout.shape.size(), 0);
   for (std::size_t i = 0; i < count; ++i) {
     const std::int32_t parent = layout.parents[i];
     if (i == 0 ? parent != -1 : parent < 0 || parent >= static_cast<std::int32_t>(i))
       refuse(layout, i, fmt::format("parent {} does not precede it", parent));
-    const Quat reference = layout.references[i];
-    if (!finite(reference) || !(std::fabs(norm(reference) - 1) <= unit))
+    if (!(std::fabs(norm(layout.references[i]) - 1) <= unit))
       refuse(layout, i, "the reference is not a unit quaternion");
     const double length = norm(layout.bones[i]);
-    if (!finite(layout.bones[i]) || !(length == 0 || std::fabs(length - 1) <= unit))
+    if (!(length == 0 || std::fabs(length - 1) <= unit))
       refuse(layout, i, "the bone is neither a unit vector nor zero");
   }
-  if (!finite(layout.place))
+  if (!is_finite(layout.place))
     throw Error(ErrorKind::usage, "the body's layout: the place is not finite");
 }
 
 void check_markers(const BodyLayout& layout) {
   const std::size_t count = layout.track_count();
-  check_length("parents", layout.parents.size(), 0);
-  check_length("references", layout.references.size(), 0);
-  check_length("bones", layout.bones.size(), 0);
-  check_length("means", layout.means.size(), count);
-  check_length("anchors", layout.anchors.size(), count);
-  check_length("points of its shape", layout.shape.size(), count);
+  check_array("parents", layout.parents.size(), 0);
+  check_array("references", layout.references.size(), 0);
+  check_array("bones", layout.bones.size(), 0);
+  check_array("means", layout.means.size(), count);
+  check_array("anchors", layout.anchors.size(), count);
+  check_array("points of its shape", layout.shape.size(), count);
   std::size_t anchors = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    if (!finite(layout.means[i]) || !finite(layout.shape[i]))
+    if (!is_finite(layout.means[i]) || !is_finite(layout.shape[i]))
       refuse(layout, i, "the mean position is not finite");
     anchors += layout.anchors[i] != 0 ? 1 : 0;
   }

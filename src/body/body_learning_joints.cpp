@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include "body/body_rotations.hpp"
 #include "kinemend/error.hpp"
 #include "motion/names.hpp"
+#include "motion/take.hpp"
 
 namespace kinemend::representation {
 
@@ -25,10 +25,7 @@ bool moves(const Take& clip, std::size_t joint) {
         angle_between(clip.rotation(0, joint), clip.rotation(f, joint)) > least)
       return true;
   }
-  const auto& translated = clip.translated_joints;
-  if (joint > 0)
-    return std::find(translated.begin(), translated.end(), static_cast<std::int32_t>(joint)) !=
-           translated.end();
+  if (joint > 0) return point_of_joint(clip, joint).has_value();
   for (std::size_t f = 1; f < clip.frame_count(); ++f) {
     if (clip.root_position(f) != clip.root_position(0)) return true;
   }

@@ -12,6 +12,7 @@
 #include "body/body_names.hpp"
 #include "body/body_rest.hpp"
 #include "kinemend/error.hpp"
+#include "motion/names.hpp"
 
 namespace kinemend {
 
@@ -26,10 +27,6 @@ constexpr std::size_t most_frames = 64;
 std::string after_underscore(std::string_view name) {
   const std::size_t at = name.find_last_of('_');
   return at == name.npos ? std::string() : plain_name(name.substr(at + 1));
-}
-
-std::string_view subject_of(std::string_view name) {
-  return name.substr(0, name.size() - without_subject(name).size());
 }
 
 std::vector<std::size_t> seen_often(const Take& clip) {
@@ -133,11 +130,11 @@ class MarkerMatcher {
     std::map<std::string_view, std::size_t> counts;
     for (std::size_t m = 0; m < found_.size(); ++m) {
       if (!is_known(found_[m])) continue;
-      ++counts[subject_of(clip_.names[m])];
+      ++counts[subject_part(clip_.names[m])];
     }
     std::size_t most = 0;
     for (const std::string& name : clip_.names) {
-      const auto found = counts.find(subject_of(name));
+      const auto found = counts.find(subject_part(name));
       if (found == counts.end() || found->second <= most) continue;
       most = found->second;
       subject_ = found->first;
@@ -145,7 +142,7 @@ class MarkerMatcher {
   }
 
   bool is_candidate(std::size_t marker) const {
-    const std::string_view subject = subject_of(clip_.names[marker]);
+    const std::string_view subject = subject_part(clip_.names[marker]);
     return mapped_.used[marker] == 0 && clip_.holds_positions(marker) &&
            (subject.empty() || subject == subject_);
   }

@@ -9,16 +9,13 @@
 #include "base/portable.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/kinematics.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend::representation {
 
 namespace {
 
 constexpr std::array both_sides{Side::left, Side::right};
-
-Vec3 unit_vector(Axis axis) {
-  return {axis == Axis::x ? 1.0 : 0.0, axis == Axis::y ? 1.0 : 0.0, axis == Axis::z ? 1.0 : 0.0};
-}
 
 // Directions close to an axis are meant to lie along it.
 Vec3 snapped(Vec3 direction) {

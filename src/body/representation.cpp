@@ -9,16 +9,11 @@
 #include "base/portable.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/representation.hpp"
+#include "motion/take.hpp"
 
 namespace kinemend {
 
 namespace {
-
-std::vector<Quat> rotations_of(const Take& clip, std::size_t joint) {
-  std::vector<Quat> track(clip.frame_count());
-  for (std::size_t f = 0; f < track.size(); ++f) track[f] = clip.rotation(f, joint);
-  return track;
-}
 
 std::vector<std::uint8_t> observed_of(const Take& clip, std::size_t joint) {
   std::vector<std::uint8_t> observed;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +15,7 @@
 #include "check/checks.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/take.hpp"
+#include "motion/names.hpp"
 
 namespace kinemend::check {
 
@@ -271,17 +271,11 @@ namespace {
 
 using check::Exchange;
 
-// An unnamed track (such as `*12`) has no label to exchange.
-bool is_named(const std::string& name) {
-  const std::string_view own = without_subject(name);
-  return !own.empty() && own.front() != '*' && own.substr(0, 5) != "uname";
-}
-
-std::vector<std::size_t> named_markers(const Take& clip) {
+// An unlabelled point has no label to exchange, and changes from one marker to another anyway.
+std::vector<std::size_t> labelled_markers(const Take& clip) {
   std::vector<std::size_t> markers;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
-    if ((clip.is_position.empty() || clip.is_position[m] != 0) && is_named(clip.names[m]))
-      markers.push_back(m);
+    if (clip.holds_positions(m) && !is_unlabelled(clip.names[m])) markers.push_back(m);
   }
   return markers;
 }
@@ -322,7 +316,7 @@ bool neighbours_agree(const Take& clip, const std::vector<std::size_t>& markers,
 }  // namespace
 
 std::vector<MarkerSwap> find_swaps(const Take& clip) {
-  const std::vector<std::size_t> markers = named_markers(clip);
+  const std::vector<std::size_t> markers = labelled_markers(clip);
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Exchange>> by_pair;
   for (const Exchange& e : check::find_exchanges(clip, check::find_breaks(clip, markers)))
     by_pair[{e.first_marker, e.second_marker}].push_back(e);

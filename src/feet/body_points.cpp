@@ -183,7 +183,7 @@ bool has(std::string_view text, std::string_view part) {
 
 // Returns "left", "right", or nothing.
 std::string_view side_of(const std::string& joint) {
-  const std::string name = lower_case(joint.substr(joint.rfind(':') + 1));
+  const std::string name = lower_case(without_subject(joint));
   if (has(name, "left")) return "left";
   if (has(name, "right")) return "right";
   const auto marked = [&](char letter) {

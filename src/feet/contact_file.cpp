@@ -12,8 +12,8 @@
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/letter_case.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "kinemend/feet.hpp"
-#include "motion/names.hpp"
 
 namespace kinemend {
 
@@ -173,9 +173,7 @@ std::string contacts_text(const Take& clip, const FeetReport& report) {
 
 std::vector<FootContact> parse_contacts(std::string_view text, std::string_view name,
                                         const Take& clip, const KnownNames& names) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (text.substr(0, byte_order_mark.size()) == byte_order_mark)
-    text.remove_prefix(byte_order_mark.size());
+  text = without_byte_order_mark(text);
   ContactReader reader(name, clip, names);
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());

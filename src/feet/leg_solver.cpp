@@ -9,6 +9,7 @@
 
 #include "base/portable.hpp"
 #include "feet/leg_motion.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend::feet {
 
@@ -41,10 +42,10 @@ struct KneeCircle {
 enum class KneeTurn : std::uint8_t { none, first_axis, last_axis, free };
 
 Vec3 first_axis(const LegPose& pose, const LegModel& model) {
-  return rotate(pose.knee_parent * model.knee.rest, axis_vector(model.knee.order.axes[0]));
+  return rotate(pose.knee_parent * model.knee.rest, unit_vector(model.knee.order.axes[0]));
 }
 Vec3 last_axis(const LegPose& pose, const LegModel& model) {
-  return rotate(pose.knee, axis_vector(model.knee.order.axes[model.knee.order.count - 1]));
+  return rotate(pose.knee, unit_vector(model.knee.order.axes[model.knee.order.count - 1]));
 }
 
 KneeTurn knee_turn(const LegPose& pose, const LegModel& model) {
@@ -180,10 +181,6 @@ class Leg {
 
 }  // namespace
 
-Vec3 axis_vector(Axis axis) {
-  return {axis == Axis::x ? 1.0 : 0.0, axis == Axis::y ? 1.0 : 0.0, axis == Axis::z ? 1.0 : 0.0};
-}
-
 Quat within_channels(Quat rotation, const LegJoint& joint) {
   if (joint.order.count >= 3) return rotation;
   if (joint.order.count == 0) return Quat{};
@@ -265,10 +262,10 @@ Eigen::Matrix3d free_axes(const LegJoint& joint, Quat parent, Quat own) {
   if (joint.order.count >= 3) return Eigen::Matrix3d::Identity();
   if (joint.order.count == 0) return Eigen::Matrix3d::Zero();
   const Eigen::Vector3d first =
-      eigen(rotate(parent * joint.rest, axis_vector(joint.order.axes[0])));
+      eigen(rotate(parent * joint.rest, unit_vector(joint.order.axes[0])));
   Eigen::Matrix3d projection = first * first.transpose();
   if (joint.order.count == 1) return projection;
-  Eigen::Vector3d last = eigen(rotate(own, axis_vector(joint.order.axes[1])));
+  Eigen::Vector3d last = eigen(rotate(own, unit_vector(joint.order.axes[1])));
   last -= first.dot(last) * first;
   if (last.norm() > 0) projection += last * last.transpose() / last.squaredNorm();
   return projection;

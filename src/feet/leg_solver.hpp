@@ -11,9 +11,6 @@
 
 namespace kinemend::feet {
 
-/// Returns the unit vector of an axis.
-Vec3 axis_vector(Axis axis);
-
 /// Returns the nearest rotation that the channels of a joint allow.
 Quat within_channels(Quat rotation, const LegJoint& joint);
 

@@ -24,7 +24,6 @@ class LiveFeet {
   /// Corrects the rotations (J) of a frame; `positions` are as in a take.
   void hold(std::vector<Quat>& rotations, const std::vector<Vec3>& positions);
   std::size_t feet() const { return feet_.size(); }
-  bool stands(std::size_t foot) const { return feet_[foot].anchor >= 0; }
 
  private:
   static constexpr std::size_t parts = 2;  ///< the ankle, instead of the heel, and the toe

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,6 +16,7 @@
 #include "kinemend/experimental/subjects.hpp"
 #include "kinemend/feet.hpp"
 #include "motion/conversions.hpp"
+#include "motion/names.hpp"
 
 namespace kinemend {
 
@@ -65,7 +65,7 @@ Vec3 across_joints(const Take& take, std::size_t frame, const KnownNames& names)
 
 // Whether `left` and `right` differ only in the letter of their side: LASI and RASI.
 bool are_a_pair(std::string_view left, std::string_view right) {
-  const std::string_view subject = left.substr(0, left.size() - without_subject(left).size());
+  const std::string_view subject = subject_part(left);
   if (!right.starts_with(subject) || right.size() != left.size()) return false;
   const std::string_view a = left.substr(subject.size()), b = right.substr(subject.size());
   const bool sides =

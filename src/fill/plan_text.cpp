@@ -17,6 +17,7 @@
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/gap_plan.hpp"
 #include "kinemend/experimental/json_depth.hpp"
+#include "kinemend/experimental/text.hpp"
 
 namespace kinemend {
 

@@ -11,6 +11,7 @@
 #include "fill/plan.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/gap_plan.hpp"
+#include "motion/take.hpp"
 
 namespace kinemend {
 
@@ -18,22 +19,12 @@ namespace {
 
 fill::GapKey key_of(const PlannedGap& row) { return fill::key_of(row.gap, row.is_position); }
 
-// Returns the index of the track's position in the take: 0 for joint 0, k + 1 for translated joint
-// k.
-std::size_t position_index(const Take& clip, std::size_t joint) {
-  if (!clip.has_joints()) return joint;
-  for (std::size_t k = 0; joint > 0 && k < clip.translated_joints.size(); ++k) {
-    if (static_cast<std::size_t>(clip.translated_joints[k]) == joint) return k + 1;
-  }
-  return 0;
-}
-
 double distance_in(const Take& a, const Take& b, const PlannedGap& row, std::size_t frame) {
-  const std::size_t joint = row.gap.track;
+  const std::size_t track = row.gap.track;
   if (a.has_joints() && !row.is_position)
-    return angle_between(a.rotation(frame, joint), b.rotation(frame, joint)) * degrees_per_radian;
-  const std::size_t index = position_index(a, joint);
-  return norm(a.position(frame, index) - b.position(frame, index));
+    return angle_between(a.rotation(frame, track), b.rotation(frame, track)) * degrees_per_radian;
+  const std::size_t point = a.has_joints() ? point_of_joint(a, track).value_or(0) : track;
+  return norm(a.position(frame, point) - b.position(frame, point));
 }
 
 double rms_distance(const Take& a, const Take& b, const PlannedGap& row) {

@@ -94,24 +94,17 @@ Diagnostics lost_beside_points(const Take& clip, std::string_view format) {
   return losses;
 }
 
-// Returns the requested format, else the source's, else `usual`.
-const Format& format_to_write(const SourceInfo& source, std::string_view asked,
-                              std::string_view usual) {
+// Returns the requested format, else the source's, else the usual one.
+const Format& format_to_write(const Take& take, std::string_view asked) {
   if (!asked.empty()) return format_called(asked);
-  return format_called(source.format.empty() ? usual : source.format);
+  if (!take.source.format.empty()) return format_called(take.source.format);
+  return format_called(take.has_joints() ? "bvh" : "c3d");
 }
 
 TakeResult with_joints(TakeResult result) {
   if (result.take.has_joints()) return result;
   throw Error(ErrorKind::usage, fmt::format("{}: holds markers; a take of joints is needed here",
                                             result.take.source.name));
-}
-
-// Lists the contents of a scene that are lost because its file cannot be rewritten.
-std::vector<std::string> lost_of_scene(const Take& take, std::string_view format) {
-  if (format == "glb" || format == "gltf") return lost_beside_gltf(take);
-  if (format == "npz") return lost_beside_npz(take);
-  return format == "fbx" ? lost_beside_fbx(take) : std::vector<std::string>{};
 }
 
 std::string write_markers(const Take& take, const Format& format) {
@@ -164,28 +157,34 @@ std::span<const Format> formats() {
        &sniff_glb,
        &read_glb,
        &write_glb,
-       &write_glb_markers},
+       &write_glb,
+       &lost_beside_gltf,
+       &glb_files_of_take},
       {"gltf",
        "glTF 2.0 as text, a scene with an animated skeleton or markers",
        {".gltf"},
        &sniff_gltf,
        &read_gltf,
        &write_gltf,
-       &write_gltf_markers},
+       &write_gltf,
+       &lost_beside_gltf,
+       &gltf_files_of_take},
       {"fbx",
        "Autodesk FBX, an animated skeleton",
        {".fbx"},
        &sniff_fbx,
        &read_fbx,
        &write_fbx,
-       &write_fbx_markers},
+       &write_fbx,
+       &lost_beside_fbx},
       {"npz",
        "Arrays of NumPy, joints or markers",
        {".npz"},
        &sniff_npz,
        &read_npz,
        &write_npz,
-       &write_npz},
+       &write_npz,
+       &lost_beside_npz},
   };
   return list;
 }
@@ -243,7 +242,7 @@ TakeResult read_joints(std::string bytes, std::string_view name, const ReadOptio
 }
 
 std::string write_take(const Take& take, std::string_view format) {
-  const Format& found = format_to_write(take.source, format, take.has_joints() ? "bvh" : "c3d");
+  const Format& found = format_to_write(take, format);
   if (!take.has_joints()) return write_markers(take, found);
   if (found.write != nullptr) return found.write(take);
   throw Error(ErrorKind::usage, fmt::format("{} files hold markers, not joints", found.name));
@@ -251,7 +250,9 @@ std::string write_take(const Take& take, std::string_view format) {
 
 Diagnostics lost_in_writing(const Take& take, std::string_view format) {
   const Format& found = format_called(format);
-  if (const std::vector<std::string> parts = lost_of_scene(take, found.name); !parts.empty()) {
+  const std::vector<std::string> parts =
+      found.left_out == nullptr ? std::vector<std::string>{} : found.left_out(take);
+  if (!parts.empty()) {
     Diagnostics losses;
     losses.add("not_kept",
                fmt::format("a new file is written: {} are left out", fmt::join(parts, ", ")));
@@ -273,7 +274,8 @@ std::optional<SideFile> side_file(const Take& take, std::string_view bytes, std:
 
 TakeFiles files_of_take(const Take& take, std::string_view format,
                         const std::filesystem::path& output) {
-  if (format == "glb" || format == "gltf") return gltf_files_of_take(take, format == "glb", output);
+  const Format& found = format_to_write(take, format);
+  if (found.write_files != nullptr) return found.write_files(take, output);
   TakeFiles files{write_take(take, format), {}};
   if (auto beside = side_file(take, files.bytes, format, output))
     files.beside.push_back(std::move(*beside));

@@ -1,4 +1,5 @@
-// Recognises and holds missing samples of joints, which formats without gaps mark by NaN.
+// Recognises missing samples of joints, which formats without gaps mark by NaN, and holds the last
+// known sample of a joint or marker.
 #pragma once
 
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "kinemend/rotation.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 
@@ -48,6 +50,21 @@ void hold_missing(std::vector<Sample>& samples, std::size_t track, std::size_t s
   }
   for (std::size_t i = track; i < samples.size() && last == nullptr; i += stride)
     samples[i] = otherwise;
+}
+
+/// Returns the F positions of a marker; a missing one is the last known position before it, or the
+/// first known one; all are zero if none is known.
+inline std::vector<Vec3> held_positions(const Take& take, std::size_t marker) {
+  std::vector<Vec3> track(take.frame_count());
+  std::size_t known = 0;
+  while (known < track.size() && !take.is_observed(known, marker)) ++known;
+  if (known == track.size()) return track;
+  Vec3 last = take.position(known, marker);
+  for (std::size_t f = 0; f < track.size(); ++f) {
+    if (take.is_observed(f, marker)) last = take.position(f, marker);
+    track[f] = last;
+  }
+  return track;
 }
 
 }  // namespace kinemend

@@ -10,6 +10,7 @@
 
 #include "io/bvh/bvh.hpp"
 #include "io/motion/motion_rows.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend {
 
@@ -104,7 +105,7 @@ void JointReader::take_rotations() {
 
 void JointReader::take_positions() {
   for (const MotionColumns::Position& position : columns_.positions()) {
-    component(frame_.positions[frame_index(position.translated)], position.axis) =
+    component_of(frame_.positions[frame_index(position.translated)], position.axis) =
         row_[position.column];
   }
 }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <utility>
 
@@ -13,6 +12,7 @@
 #include "io/text/number.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "kinemend/rotation.hpp"
 
 namespace kinemend {
@@ -69,8 +69,7 @@ constexpr std::size_t most_depth = 512;
 
 // Returns the first word of a line, which distinguishes `Frames:` and `Frame Time:` from frames.
 std::string_view first_word(std::string_view line) {
-  std::size_t begin = 0;
-  if (line.substr(0, 3) == "\xEF\xBB\xBF") begin = 3;
+  std::size_t begin = byte_order_mark_size(line);
   while (begin < line.size() && is_space(line[begin])) ++begin;
   std::size_t end = begin;
   while (end < line.size() && !is_space(line[end]) && line[end] != ':' && line[end] != '{') ++end;

@@ -12,18 +12,11 @@
 #include "kinemend/error.hpp"
 #include "kinemend/metrics.hpp"
 #include "metrics/track_noise.hpp"
+#include "motion/take.hpp"
 
 namespace kinemend {
 
 namespace {
-
-std::vector<Quat> rotations_of(const Take& clip, std::size_t joint, std::size_t first_frame) {
-  std::vector<Quat> track;
-  track.reserve(clip.frame_count() - first_frame);
-  for (std::size_t f = first_frame; f < clip.frame_count(); ++f)
-    track.push_back(clip.rotation(f, joint));
-  return track;
-}
 
 // Either track may be noisy, so the larger noise is used and the spikes of both are left out.
 Peaks peaks_of(const std::vector<Quat>& reference, const std::vector<Quat>& other,

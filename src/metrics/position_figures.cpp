@@ -12,6 +12,7 @@
 #include "kinemend/experimental/letter_case.hpp"
 #include "kinemend/metrics.hpp"
 #include "metrics/compare.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend {
 
@@ -97,17 +98,15 @@ MeanAndDeviation rmse_per_marker_m(const Take& reference, const Take& other, dou
 
 namespace {
 
-double along(Vec3 v, Axis axis) { return axis == Axis::x ? v.x : axis == Axis::y ? v.y : v.z; }
-
 double horizontal(Vec3 v, Axis up) {
-  const double height = along(v, up);
+  const double height = component(v, up);
   return std::sqrt(std::max(0.0, dot(v, v) - height * height));
 }
 
 double floor_height(const std::vector<Vec3>& track, Axis up) {
   std::vector<double> heights;
   heights.reserve(track.size());
-  for (const Vec3 p : track) heights.push_back(along(p, up));
+  for (const Vec3 p : track) heights.push_back(component(p, up));
   return metrics::percentile_of(std::move(heights), 2);
 }
 
@@ -156,8 +155,8 @@ FootSlide foot_slide(const Take& reference, const Take& other, const FootSlideSe
     const auto track = track_of(found, reference.joint_count(), j, first_frame);
     const double ceiling = floor_height(truth, settings.up) + settings.contact_height * height;
     for (std::size_t f = 1; f < truth.size(); ++f) {
-      const bool low =
-          along(truth[f - 1], settings.up) < ceiling && along(truth[f], settings.up) < ceiling;
+      const bool low = component(truth[f - 1], settings.up) < ceiling &&
+                       component(truth[f], settings.up) < ceiling;
       if (!low || norm(truth[f] - truth[f - 1]) >= largest_step) continue;
       slide.per_frame += horizontal(track[f] - track[f - 1], settings.up);
       ++slide.contact_steps;

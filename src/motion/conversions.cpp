@@ -10,16 +10,11 @@
 
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/kinematics.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend {
 
 namespace {
-
-double coordinate(Vec3 v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
-Vec3 unit_vector(Axis axis) {
-  return {axis == Axis::x ? 1.0 : 0.0, axis == Axis::y ? 1.0 : 0.0, axis == Axis::z ? 1.0 : 0.0};
-}
 
 // The rotation by 90 degrees that moves one axis to another.
 struct QuarterTurn {
@@ -33,7 +28,7 @@ struct QuarterTurn {
   Vec3 operator()(Vec3 v) const {
     const Vec3 ex = axis_after(Axis::x), ey = axis_after(Axis::y), ez = axis_after(Axis::z);
     const auto row = [&](std::size_t i) {
-      return coordinate(ex, i) * v.x + coordinate(ey, i) * v.y + coordinate(ez, i) * v.z;
+      return component(ex, i) * v.x + component(ey, i) * v.y + component(ez, i) * v.z;
     };
     return {row(0), row(1), row(2)};
   }
@@ -86,8 +81,8 @@ Axis up_axis(std::size_t frames, Axis fallback, Visit visit) {
     visit(f, [&](Vec3 p) {
       any = true;
       for (std::size_t a = 0; a < 3; ++a) {
-        low[a] = std::min(low[a], coordinate(p, a));
-        high[a] = std::max(high[a], coordinate(p, a));
+        low[a] = std::min(low[a], component(p, a));
+        high[a] = std::max(high[a], component(p, a));
       }
     });
     for (std::size_t a = 0; any && a < 3; ++a) {

@@ -9,6 +9,7 @@
 #include "kinemend/error.hpp"
 #include "kinemend/gaps.hpp"
 #include "motion/names.hpp"
+#include "motion/take.hpp"
 
 namespace kinemend {
 
@@ -64,15 +65,6 @@ void for_each_named(std::span<const NamedGap> gaps, const std::vector<std::strin
   }
 }
 
-// Returns the column of the joint in `Take::observed_positions`; one past the last if it has none.
-std::size_t position_track(const Take& clip, std::size_t joint) {
-  const std::size_t none = 1 + clip.translated_joints.size();
-  if (joint == 0) return clip.skeleton.has_position_channels(0) ? 0 : none;
-  const auto& joints = clip.translated_joints;
-  const auto found = std::find(joints.begin(), joints.end(), static_cast<std::int32_t>(joint));
-  return found == joints.end() ? none : 1 + static_cast<std::size_t>(found - joints.begin());
-}
-
 void mark_gaps_of_joints(Take& clip, std::span<const NamedGap> gaps) {
   const std::size_t joints = clip.joint_count(), positions = clip.point_count();
   for_each_named(gaps, clip.skeleton.names, clip.frame_count(), first_frame_number(clip), "joint",
@@ -80,12 +72,13 @@ void mark_gaps_of_joints(Take& clip, std::span<const NamedGap> gaps) {
                    if (clip.observed.empty()) clip.observed.assign(clip.rotations.size(), 1);
                    for (std::size_t f = first; f <= last; ++f)
                      clip.observed[f * joints + joint] = 0;
-                   const std::size_t position = position_track(clip, joint);
-                   if (position == positions) return;
+                   const auto position = point_of_joint(clip, joint);
+                   const bool stays = joint == 0 && !clip.skeleton.has_position_channels(0);
+                   if (!position || stays) return;
                    if (clip.observed_positions.empty())
                      clip.observed_positions.assign(clip.frame_count() * positions, 1);
                    for (std::size_t f = first; f <= last; ++f)
-                     clip.observed_positions[f * positions + position] = 0;
+                     clip.observed_positions[f * positions + *position] = 0;
                  });
 }
 

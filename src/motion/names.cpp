@@ -19,6 +19,10 @@
 
 namespace kinemend {
 
+std::string_view subject_part(std::string_view name) {
+  return name.substr(0, name.size() - without_subject(name).size());
+}
+
 namespace {
 
 bool is_meant(const std::string& name, const std::string& pattern) {
@@ -84,8 +88,7 @@ std::size_t part_called(const std::vector<std::string>& names, const std::string
 
 /// Adds the subject of the joint or marker, unless the known name has its own.
 std::string with_subject(const std::string& known, const std::string& name) {
-  const std::size_t subject = name.size() - without_subject(name).size();
-  return known.find(':') == known.npos ? name.substr(0, subject) + known : known;
+  return known.find(':') == known.npos ? std::string(subject_part(name)) + known : known;
 }
 
 }  // namespace
@@ -108,29 +111,21 @@ std::vector<std::string> known_names(const std::vector<std::string>& names, cons
   return known;
 }
 
-namespace {
-
-std::string subject_name(const std::string& name) {
-  const std::size_t colon = name.rfind(':');
-  return colon == std::string::npos ? std::string() : name.substr(0, colon);
-}
-
-}  // namespace
-
 std::vector<Subject> subjects_of(const Take& clip) {
   std::vector<Subject> subjects;
   Subject nobody, all;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
     if (!clip.holds_positions(m)) continue;
     all.markers.push_back(m);
-    const std::string name = subject_name(clip.names[m]);
+    std::string_view name = subject_part(clip.names[m]);
+    if (!name.empty()) name.remove_suffix(1);
     if (name.empty()) {
       nobody.markers.push_back(m);
       continue;
     }
     auto found = std::find_if(subjects.begin(), subjects.end(),
                               [&](const Subject& subject) { return subject.name == name; });
-    if (found == subjects.end()) found = subjects.insert(found, {name, {}});
+    if (found == subjects.end()) found = subjects.insert(found, {std::string(name), {}});
     found->markers.push_back(m);
   }
   if (all.markers.empty()) return {};
@@ -152,7 +147,7 @@ std::string stem_of(std::string_view name) {
 }  // namespace
 
 bool is_unlabelled(std::string_view name) {
-  if (const std::size_t colon = name.rfind(':'); colon != name.npos) name.remove_prefix(colon + 1);
+  name = without_subject(name);
   if (name.find_first_not_of(' ') == name.npos) return true;
   const std::string stem = stem_of(name);
   if (stem.starts_with("unlabel") || stem == "*" || stem == "uname*") return true;

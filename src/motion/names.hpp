@@ -1,5 +1,5 @@
-// Selects joints and markers by names and shell patterns, and recognises points that have a number
-// from the capture system in place of a label.
+// Selects joints and markers by names and shell patterns, finds the subject in a name, and
+// recognises points that have a number from the capture system in place of a label.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,10 @@
 #include <vector>
 
 namespace kinemend {
+
+/// Returns the part of a name that `without_subject` leaves out: `Ann:` for `Ann:LASI`; empty for a
+/// name without a subject.
+std::string_view subject_part(std::string_view name);
 
 /// Returns N marks, 1 if a name equals the given one or matches the shell pattern, with or without
 /// its subject. If no name matches, case is ignored. All are 0 without a match.

@@ -1,4 +1,4 @@
-// Extends the rotations and vectors of `kinemend/rotation.hpp`: components by the number of an
+// Extends the rotations and vectors of `kinemend/rotation.hpp`: components and unit vectors by
 // axis, steps between samples, charts of rotations for linear filters, and the eigenvector behind
 // means.
 #pragma once
@@ -17,6 +17,14 @@ inline double component(Vec3 v, std::size_t axis) {
 }
 inline double& component_of(Vec3& v, std::size_t axis) {
   return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+inline double component(Vec3 v, Axis axis) { return component(v, static_cast<std::size_t>(axis)); }
+inline double& component_of(Vec3& v, Axis axis) {
+  return component_of(v, static_cast<std::size_t>(axis));
+}
+inline Vec3 unit_vector(Axis axis) {
+  return {axis == Axis::x ? 1.0 : 0.0, axis == Axis::y ? 1.0 : 0.0, axis == Axis::z ? 1.0 : 0.0};
 }
 
 inline Vec3 difference(Quat from, Quat to) { return log(conjugate(from) * to); }

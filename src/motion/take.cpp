@@ -375,4 +375,21 @@ std::vector<std::size_t> moving_joints(const Take& clip) {
   return joints;
 }
 
+std::optional<std::size_t> point_of_joint(const Take& take, std::size_t joint) {
+  if (joint == 0) return 0;
+  const auto& translated = take.translated_joints;
+  const auto found =
+      std::lower_bound(translated.begin(), translated.end(), static_cast<std::int32_t>(joint));
+  if (found == translated.end() || *found != static_cast<std::int32_t>(joint)) return std::nullopt;
+  return static_cast<std::size_t>(found - translated.begin()) + 1;
+}
+
+std::vector<Quat> rotations_of(const Take& take, std::size_t joint, std::size_t first) {
+  std::vector<Quat> rotations;
+  rotations.reserve(take.frame_count() - first);
+  for (std::size_t f = first; f < take.frame_count(); ++f)
+    rotations.push_back(take.rotation(f, joint));
+  return rotations;
+}
+
 }  // namespace kinemend

@@ -1,6 +1,6 @@
-// Gives access to the motion of a clip without its calibration frames, finds the joints that turn
-// at all, notes the number of a file's first frame, and checks values for `validate` of skeletons
-// and takes.
+// Gives access to the motion of a clip without its calibration frames and to the samples of one
+// joint, finds the joints that turn at all, notes the number of a file's first frame, and checks
+// values for `validate` of skeletons and takes.
 #pragma once
 
 #include <fmt/format.h>
@@ -34,6 +34,13 @@ const Take& frames_from(const Take& clip, std::size_t first, std::optional<Take>
 bool joint_moves(const Take& clip, std::size_t joint);
 /// Returns all joints that move, in the skeleton's order.
 std::vector<std::size_t> moving_joints(const Take& clip);
+
+/// Returns the point that holds the positions of a joint, numbered as in `Take::position`: 0 for
+/// joint 0, k + 1 for translated joint k; none for a joint that keeps its offset.
+std::optional<std::size_t> point_of_joint(const Take& take, std::size_t joint);
+
+/// Returns the rotations of a joint from frame `first` on.
+std::vector<Quat> rotations_of(const Take& take, std::size_t joint, std::size_t first = 0);
 
 inline bool is_finite(Vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);

@@ -90,6 +90,17 @@ TEST(Text, TablesAndParagraphsAreEscaped) {
   EXPECT_EQ(wrap("LASI\x1b[2J\nRASI", 0), "LASI\\x1b[2J\\x0aRASI\n");
 }
 
+TEST(Text, AByteOrderMarkIsThreeBytesAtTheStart) {
+  const std::string mark = "\xEF\xBB\xBF";
+  EXPECT_EQ(byte_order_mark_size(mark + "a"), 3u);
+  EXPECT_EQ(without_byte_order_mark(mark + "a"), "a");
+  EXPECT_EQ(without_byte_order_mark(mark + mark), mark) << "only the first is a mark";
+  for (const std::string& text : {std::string(), mark.substr(0, 2), "a" + mark}) {
+    EXPECT_EQ(byte_order_mark_size(text), 0u);
+    EXPECT_EQ(without_byte_order_mark(text), text);
+  }
+}
+
 TEST(Text, ColoursAreCodesOfATerminal) {
   EXPECT_EQ(painted(Paint::bold, "a"), "\033[1ma\033[0m");
   EXPECT_EQ(painted(Paint::bold, "a", false), "a");

@@ -42,6 +42,16 @@ TEST(Swaps, ThatReachTheEndOfTheTakeAreTheShorterSide) {
   EXPECT_EQ(find_swaps(clip), std::vector<MarkerSwap>{swap});
 }
 
+TEST(Swaps, OfPointsWithoutALabelAreNone) {
+  Take clip = synthetic_markers("walk");
+  undo_swaps(clip, {{3, 8, 600, clip.frame_count() - 1}});
+  ASSERT_EQ(find_swaps(clip).size(), 1u);
+  for (const char* name : {"*", "Ann:*", "uname*", "U_", "Unlabeled ", "Ann:Unlabelled_"}) {
+    for (const std::size_t m : {3, 8}) clip.names[m] = name + std::to_string(m);
+    EXPECT_TRUE(find_swaps(clip).empty()) << name;
+  }
+}
+
 // Both markers are hidden for a while and reappear with exchanged labels.
 TEST(Swaps, MayBeginAndEndInGaps) {
   const Take clean = synthetic_markers("walk");

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "motion/clips.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend {
 namespace {
@@ -26,6 +27,16 @@ std::vector<Quat> elements() {
 }
 
 double distance(Quat a, Quat b) { return std::min(norm(a + -b), norm(a + b)); }
+
+TEST(Axes, UnitVectorsHaveOneComponent) {
+  Vec3 sum;
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+    EXPECT_EQ(norm(unit_vector(axis)), 1);
+    EXPECT_EQ(component(unit_vector(axis), axis), 1);
+    component_of(sum, axis) += component(Vec3{1, 2, 3}, axis);
+  }
+  EXPECT_EQ(sum, (Vec3{1, 2, 3}));
+}
 
 TEST(RotationGroup, HasInverseAndIdentity) {
   for (const Quat q : elements()) {

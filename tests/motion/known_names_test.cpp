@@ -17,6 +17,13 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
+TEST(SubjectPart, EndsWithTheLastColon) {
+  EXPECT_EQ(subject_part("Ann:LASI"), "Ann:");
+  EXPECT_EQ(subject_part("Ann:left:LASI"), "Ann:left:");
+  EXPECT_EQ(subject_part(":LASI"), ":");
+  EXPECT_EQ(subject_part("LASI"), "");
+}
+
 using Strings = std::vector<std::string>;
 const Strings arms = {"LeftArm", "leftarm", "RightArm", "Ann:LHAND"};
 

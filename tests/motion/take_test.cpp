@@ -7,6 +7,7 @@
 
 #include "kinemend/error.hpp"
 #include "motion/clips.hpp"
+#include "motion/take.hpp"
 #include "translations.hpp"
 
 namespace kinemend {
@@ -20,6 +21,7 @@ using test::degree;
 using test::moving_chain;
 using test::random_vector;
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::Property;
 using testing::Throws;
 using testing::ThrowsMessage;
@@ -45,6 +47,18 @@ auto validating(Change change) {
   Take clip = full_clip();
   change(clip);
   return [clip] { clip.validate(); };
+}
+
+TEST(JointSamples, ArePointsAndRotations) {
+  Take clip = moving_chain(4, 5);
+  test::add_translations(clip, {1, 3}, Vec3{0, 0, 1});
+  EXPECT_EQ(point_of_joint(clip, 0), std::size_t{0});
+  EXPECT_EQ(point_of_joint(clip, 1), std::size_t{1});
+  EXPECT_FALSE(point_of_joint(clip, 2).has_value());
+  EXPECT_EQ(point_of_joint(clip, 3), std::size_t{2});
+  EXPECT_THAT(rotations_of(clip, 2, 3), ElementsAre(clip.rotation(3, 2), clip.rotation(4, 2)));
+  EXPECT_EQ(rotations_of(clip, 2).size(), 5u);
+  EXPECT_TRUE(rotations_of(clip, 2, 5).empty());
 }
 
 TEST(ClipRules, AcceptGoodClips) {

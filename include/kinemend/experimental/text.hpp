@@ -1,4 +1,4 @@
-// Text for people: words, figures and tables.
+// Text for people: words, figures and tables. Text of people without its byte order mark.
 #pragma once
 
 #include <cstddef>
@@ -54,6 +54,12 @@ std::string printable_name(std::string_view name);
 /// The middle of a text longer than 2,000 bytes is left out. `Error` and `Diagnostics` do this to
 /// every message.
 std::string printable(std::string_view text);
+
+/// Returns the number of bytes of the byte order mark that some programs put before UTF-8: 3, or 0
+/// for a text that does not begin with it.
+std::size_t byte_order_mark_size(std::string_view text);
+/// Returns the text without that mark.
+std::string_view without_byte_order_mark(std::string_view text);
 
 enum class Paint { bold, dim, red, green, yellow };
 /// Returns the text with terminal codes; unchanged if it is empty or `on` is false.

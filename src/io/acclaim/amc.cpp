@@ -20,6 +20,7 @@
 #include "io/motion/motion_write.hpp"
 #include "io/text/text.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "motion/take.hpp"
 
 namespace kinemend {
@@ -143,7 +144,7 @@ std::vector<std::uint8_t> angle_columns(const Skeleton& skeleton) {
 }
 
 int sniff_amc(std::string_view head) {
-  if (head.substr(0, 3) == "\xEF\xBB\xBF") head.remove_prefix(3);
+  head = without_byte_order_mark(head);
   constexpr std::string_view mark = "#!OML:ASF";
   if (equal_ignoring_case(head.substr(0, mark.size()), mark)) return 100;
   AsfScanner scanner(head);

@@ -14,6 +14,7 @@
 #include "io/text/number.hpp"
 #include "io/text/text.hpp"
 #include "kinemend/experimental/letter_case.hpp"
+#include "kinemend/experimental/text.hpp"
 
 namespace kinemend {
 
@@ -212,7 +213,7 @@ void number_columns(AmcLayout& layout, const AsfSkeleton& asf) {
 AmcHeader read_amc_header(const SourceText& text, Diagnostics& diagnostics) {
   const std::string_view bytes = text.bytes;
   AmcHeader header;
-  std::size_t position = bytes.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0;
+  std::size_t position = byte_order_mark_size(bytes);
   while (position < bytes.size()) {
     const std::size_t end = std::min(bytes.find_first_of("\r\n", position), bytes.size());
     const std::string_view line = trim(bytes.substr(position, end - position));

@@ -234,10 +234,9 @@ class AsfWriter {
   }
 
   void dof_names(const std::vector<AsfDof>& dofs) {
-    constexpr std::array<std::string_view, 6> names{"tx", "ty", "tz", "rx", "ry", "rz"};
     for (const AsfDof& dof : dofs) {
       out_.append(" ");
-      out_.append(dof ? names[static_cast<std::size_t>(*dof)] : "l");
+      out_.append(dof ? asf_dof_names[static_cast<std::size_t>(*dof)] : "l");
     }
   }
 

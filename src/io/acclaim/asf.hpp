@@ -2,6 +2,7 @@
 // bones that a new file needs.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -19,6 +20,8 @@ namespace kinemend {
 /// A degree of freedom as ASF names it: `tx` to `rz`, or empty for `l`, the stretch of a bone,
 /// which has a column but no effect on the pose.
 using AsfDof = std::optional<Channel>;
+/// The names but `l`, in the order of `Channel`.
+inline constexpr std::array<std::string_view, 6> asf_dof_names{"tx", "ty", "tz", "rx", "ry", "rz"};
 
 /// A skeleton as an ASF file states it, joints depth first: joint 0 is `root`, every other joint is
 /// at the beginning of its bone and has the bone's name; the end of a bone without children is an

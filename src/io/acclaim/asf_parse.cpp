@@ -9,6 +9,7 @@
 
 #include "io/acclaim/asf.hpp"
 #include "io/bvh/bvh_hierarchy.hpp"
+#include "kinemend/experimental/text.hpp"
 
 namespace kinemend {
 
@@ -32,9 +33,8 @@ struct Family {
 };
 
 std::optional<AsfDof> dof_of(std::string_view word) {
-  constexpr std::array<std::string_view, 6> names{"tx", "ty", "tz", "rx", "ry", "rz"};
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (equal_ignoring_case(word, names[i])) return static_cast<Channel>(i);
+  for (std::size_t i = 0; i < asf_dof_names.size(); ++i) {
+    if (equal_ignoring_case(word, asf_dof_names[i])) return static_cast<Channel>(i);
   }
   if (equal_ignoring_case(word, "l")) return AsfDof{};
   return std::nullopt;
@@ -47,7 +47,7 @@ class AsfParser {
       : text_(text),
         diagnostics_(diagnostics),
         max_depth_(max_depth),
-        scanner_(text.bytes, text.bytes.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0) {
+        scanner_(text.bytes, byte_order_mark_size(text.bytes)) {
     Bone root;
     root.name = "root";
     bones_.push_back(std::move(root));
@@ -148,9 +148,8 @@ class AsfParser {
   }
 
   void assume_root_order() {
-    for (const char* name : {"tx", "ty", "tz", "rx", "ry", "rz"}) {
-      bones_[0].dofs.push_back(*dof_of(name));
-    }
+    for (std::size_t i = 0; i < asf_dof_names.size(); ++i)
+      bones_[0].dofs.emplace_back(static_cast<Channel>(i));
     note_repair(text_, diagnostics_, "root_order_missing", bones_[0].place,
                 "no order of the root: TX TY TZ RX RY RZ assumed");
   }
@@ -426,7 +425,7 @@ AsfSkeleton parse_asf(const SourceText& text, Diagnostics& diagnostics, std::siz
 }
 
 int sniff_asf(std::string_view head) {
-  if (head.substr(0, 3) == "\xEF\xBB\xBF") head.remove_prefix(3);
+  head = without_byte_order_mark(head);
   AsfScanner scanner(head);
   const std::string_view word = scanner.next();
   constexpr std::array<std::string_view, 8> keywords{

@@ -6,24 +6,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "base/portable.hpp"
+#include "io/motion/motion_columns.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/experimental/text.hpp"
 
 namespace kinemend {
 
 namespace {
-
-std::optional<Channel> channel_of(std::string_view word) {
-  constexpr std::array<std::string_view, 6> names{"Xposition", "Yposition", "Zposition",
-                                                  "Xrotation", "Yrotation", "Zrotation"};
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (equal_ignoring_case(word, names[i])) return static_cast<Channel>(i);
-  }
-  return std::nullopt;
-}
 
 // One open block: a joint or an end site.
 struct Block {
@@ -159,7 +151,7 @@ class HierarchyParser {
     scanner_.next();
     const auto expected = static_cast<std::size_t>(count.value);
     std::vector<Channel> channels;
-    while (const auto channel = channel_of(scanner_.peek())) {
+    while (const auto channel = channel_named(scanner_.peek())) {
       if (channels.size() <= expected) channels.push_back(*channel);
       scanner_.next();
     }
@@ -326,7 +318,7 @@ std::size_t first_text_byte(const SourceText& text) {
   if (bytes.substr(0, 2) == "\xFF\xFE" || bytes.substr(0, 2) == "\xFE\xFF") {
     throw text.error_at(std::size_t{0}, "the text is UTF-16; save it as UTF-8");
   }
-  return bytes.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0;
+  return byte_order_mark_size(bytes);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -18,6 +17,7 @@
 #include "io/motion/motion_document.hpp"
 #include "io/motion/motion_rows.hpp"
 #include "io/text/text.hpp"
+#include "kinemend/experimental/text.hpp"
 
 namespace kinemend {
 
@@ -296,7 +296,7 @@ class MotionReader {
 }  // namespace
 
 int sniff_bvh(std::string_view head) {
-  if (head.substr(0, 3) == "\xEF\xBB\xBF") head.remove_prefix(3);
+  head = without_byte_order_mark(head);
   TextScanner scanner(head, 0);
   const std::string_view word = scanner.next();
   if (equal_ignoring_case(word, "HIERARCHY")) return 100;

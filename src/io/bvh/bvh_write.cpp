@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <vector>
 
 #include "io/bvh/bvh.hpp"
@@ -102,8 +101,6 @@ class HierarchyWriter {
   }
 
   void begin_joint(std::size_t joint, std::size_t depth) {
-    constexpr std::array<std::string_view, 6> channel_names{"Xposition", "Yposition", "Zposition",
-                                                            "Xrotation", "Yrotation", "Zrotation"};
     order_.push_back(joint);
     check_name(skeleton_.names[joint]);
     line(depth, fmt::format("{} {}", depth == 0 ? "ROOT" : "JOINT", skeleton_.names[joint]));

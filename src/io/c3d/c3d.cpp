@@ -54,8 +54,8 @@ std::size_t bytes_behind(const C3dDocument& source) {
 }
 
 std::string analog_text(const C3dDocument& source) {
-  return fmt::format("{} analog channel{} at {:g} Hz", source.layout.analog_count,
-                     source.layout.analog_count == 1 ? "" : "s", analog_rate_hz(source));
+  return fmt::format("{} at {:g} Hz", count_text(source.layout.analog_count, "analog channel"),
+                     analog_rate_hz(source));
 }
 
 void add_analog_losses(const Take& clip, const C3dOrigin& origin, Diagnostics& losses) {
@@ -74,8 +74,8 @@ void add_analog_losses(const Take& clip, const C3dOrigin& origin, Diagnostics& l
     const std::size_t plates = source.parameters.count("FORCE_PLATFORM", "USED").value_or(0);
     if (plates > 0) {
       losses.add("force_plates_lost",
-                 fmt::format("{} force plate{} {} left out with the analog channels", plates,
-                             plates == 1 ? "" : "s", plates == 1 ? "is" : "are"));
+                 fmt::format("{} {} left out with the analog channels",
+                             count_text(plates, "force plate"), plates == 1 ? "is" : "are"));
     }
     return;
   }
@@ -92,6 +92,12 @@ void add_analog_losses(const Take& clip, const C3dOrigin& origin, Diagnostics& l
   }
 }
 
+// Whether the clip has the layout of its source, which was not converted.
+bool has_source_layout(const Take& clip, const C3dOrigin& origin) {
+  return origin.document != nullptr && !origin.converted &&
+         keeps_c3d_layout(clip, *origin.document);
+}
+
 // Whether all samples fit into the source's integers. If not, a trial rewrite decides, because
 // unchanged samples need not fit.
 bool samples_fit(const Take& clip, const C3dLayout& layout) {
@@ -104,6 +110,12 @@ bool samples_fit(const Take& clip, const C3dLayout& layout) {
     if (!(most / layout.scale < most_steps)) return false;
   }
   return true;
+}
+
+// Whether the clip can be written into the bytes of its source, changing only samples and rate.
+bool goes_in_place(const Take& clip, const C3dOrigin& origin) {
+  return has_source_layout(clip, origin) && (samples_fit(clip, origin.document->layout) ||
+                                             rewrite_c3d(clip, *origin.document).has_value());
 }
 
 }  // namespace
@@ -137,13 +149,6 @@ C3dCarried c3d_carried(const Take& clip, const C3dOrigin& origin) {
   return carried;
 }
 
-bool goes_in_place(const Take& clip, const C3dOrigin& origin) {
-  return origin.document != nullptr && !origin.converted &&
-         keeps_c3d_layout(clip, *origin.document) &&
-         (samples_fit(clip, origin.document->layout) ||
-          rewrite_c3d(clip, *origin.document).has_value());
-}
-
 Diagnostics c3d_losses(const Take& clip, const C3dOrigin& origin) {
   Diagnostics losses;
   if (origin.document == nullptr || goes_in_place(clip, origin)) return losses;
@@ -168,7 +173,7 @@ std::vector<std::string> beside_points(const C3dDocument& document) {
   if (has_analog(document.layout)) parts.push_back(analog_text(document));
   const auto add_count = [&](const char* group, const char* what) {
     const std::size_t count = parameters.count(group, "USED").value_or(0);
-    if (count > 0) parts.push_back(fmt::format("{} {}{}", count, what, count == 1 ? "" : "s"));
+    if (count > 0) parts.push_back(count_text(count, what));
   };
   add_count("FORCE_PLATFORM", "force plate");
   add_count("ROTATION", "segment's rotation");
@@ -189,7 +194,7 @@ std::vector<std::string> beside_points(const C3dDocument& document) {
 std::string write_c3d(const Take& clip) {
   clip.validate();
   const C3dOrigin origin = c3d_origin(clip.source);
-  if (origin.document != nullptr && !origin.converted && keeps_c3d_layout(clip, *origin.document)) {
+  if (has_source_layout(clip, origin)) {
     if (std::optional<std::string> bytes = rewrite_c3d(clip, *origin.document))
       return *std::move(bytes);
   }

@@ -74,9 +74,6 @@ C3dCarried c3d_carried(const Take& clip, const C3dOrigin& origin);
 /// Returns the frame count of a file of this clip; the source's if neither has points.
 std::size_t c3d_frame_count(const Take& clip, const C3dOrigin& origin);
 
-/// Whether the clip can be written into the bytes of its source, changing only samples and rate.
-bool goes_in_place(const Take& clip, const C3dOrigin& origin);
-
 /// Lists the parts of the source that a C3D file made from the clip lacks.
 Diagnostics c3d_losses(const Take& clip, const C3dOrigin& origin);
 

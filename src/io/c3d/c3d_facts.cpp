@@ -25,10 +25,6 @@ std::string_view processor_name(C3dProcessor processor) {
   return "Intel";
 }
 
-std::string counted(std::size_t count, std::string_view word) {
-  return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
-}
-
 std::string plates_text(const C3dParameters& parameters, std::size_t count) {
   std::string text = std::to_string(count);
   const std::vector<double> types = parameters.numbers("FORCE_PLATFORM", "TYPE");
@@ -61,6 +57,10 @@ std::string software_text(const C3dParameters& parameters) {
 
 }  // namespace
 
+std::string count_text(std::size_t count, std::string_view word) {
+  return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
+}
+
 std::string c3d_encoding(const C3dDocument& document) {
   if (document.layout.is_float) return fmt::format("{} reals", processor_name(document.processor));
   return fmt::format("{} integers in steps of {:.4g}", processor_name(document.processor),
@@ -75,7 +75,7 @@ std::vector<SourceFact> c3d_facts(const C3dDocument& document, const C3dPointCou
     if (!text.empty()) facts.push_back({name, text});
   };
   if (layout.analog_count > 0 && layout.analog_values > 0) {
-    add("analog", fmt::format("{} at {:g} Hz", counted(layout.analog_count, "channel"),
+    add("analog", fmt::format("{} at {:g} Hz", count_text(layout.analog_count, "channel"),
                               layout.rate_hz * static_cast<double>(layout.analog_instants())));
     if (layout.point_count == 0)
       add("analog frames", std::to_string(layout.frame_count * layout.analog_instants()));
@@ -86,7 +86,7 @@ std::vector<SourceFact> c3d_facts(const C3dDocument& document, const C3dPointCou
   if (counts.cameras != 0)
     add("cameras", fmt::format("{} saw a marker", std::popcount(counts.cameras)));
   if (const std::size_t segments = parameters.count("ROTATION", "USED").value_or(0); segments > 0)
-    add("rotations", counted(segments, "segment"));
+    add("rotations", count_text(segments, "segment"));
   std::vector<std::string> subjects = parameters.texts("SUBJECTS", "NAMES");
   if (joined(subjects).empty()) subjects = parameters.texts("SUBJECT", "NAME");
   add("subjects", joined(subjects));
@@ -124,15 +124,14 @@ std::vector<MarkerEvent> group_events(const C3dSource& source, const C3dParamete
 }
 
 std::vector<MarkerEvent> header_events(const C3dSource& source, const C3dHeader& header) {
-  const auto offset = [&](std::size_t word) { return header.begin + 2 * (word - 1); };
-  if (source.word(offset(c3d_event_key_word)) != c3d_event_key) return {};
-  const std::size_t count =
-      std::min<std::size_t>(source.word(offset(c3d_event_count_word)), c3d_most_header_events);
+  if (source.word(header.place_of(c3d_event_key_word)) != c3d_event_key) return {};
+  const std::size_t count = std::min<std::size_t>(
+      source.word(header.place_of(c3d_event_count_word)), c3d_most_header_events);
   std::vector<MarkerEvent> events;
   for (std::size_t i = 0; i < count; ++i) {
-    const double time_s = source.real(offset(c3d_event_times_word) + 4 * i);
+    const double time_s = source.real(header.place_of(c3d_event_times_word) + 4 * i);
     if (!std::isfinite(time_s)) continue;
-    std::string label(source.bytes.substr(offset(c3d_event_labels_word) + 4 * i, 4));
+    std::string label(source.bytes.substr(header.place_of(c3d_event_labels_word) + 4 * i, 4));
     label.erase(label.find_last_not_of(std::string_view(" \0", 2)) + 1);
     events.push_back({as_utf8(label), "", time_s});
   }
@@ -187,10 +186,9 @@ bool c3d_event_times_are_finite(const C3dSource& source, const C3dHeader& header
     const std::vector<double> times = parameters.numbers(group, "TIMES");
     if (!std::all_of(times.begin(), times.end(), finite)) return false;
   }
-  const auto offset = [&](std::size_t word) { return header.begin + 2 * (word - 1); };
-  if (source.word(offset(c3d_event_key_word)) != c3d_event_key) return true;
+  if (source.word(header.place_of(c3d_event_key_word)) != c3d_event_key) return true;
   for (std::size_t i = 0; i < c3d_most_header_events; ++i) {
-    if (!finite(source.real(offset(c3d_event_times_word) + 4 * i))) return false;
+    if (!finite(source.real(header.place_of(c3d_event_times_word) + 4 * i))) return false;
   }
   return true;
 }

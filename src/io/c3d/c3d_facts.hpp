@@ -1,7 +1,9 @@
 // Reads the contents of a C3D file besides its points: facts for people, and events.
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/c3d/c3d_document.hpp"
@@ -9,6 +11,9 @@
 #include "kinemend/take.hpp"
 
 namespace kinemend {
+
+/// Returns "1 channel", "1600 channels": unlike `counted` without marks between the digits.
+std::string count_text(std::size_t count, std::string_view word);
 
 /// Returns the encoding: "DEC integers in steps of 0.1", "Intel reals".
 std::string c3d_encoding(const C3dDocument& document);

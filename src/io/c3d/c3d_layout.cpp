@@ -70,10 +70,8 @@ class LayoutFinder {
   }
 
  private:
-  std::size_t header_word(std::size_t number) const { return header_.begin + 2 * (number - 1); }
-
   void note(std::string_view kind, std::size_t word, std::string_view message) const {
-    source_.note(kind, header_word(word), message);
+    source_.note(kind, header_.place_of(word), message);
   }
 
   void find_scale() {
@@ -134,8 +132,9 @@ class LayoutFinder {
     collect_frame_claims();
     if (begins_.empty()) {
       throw source_.error_at(
-          header_word(9), fmt::format("the data would start in block {}, which is not in the file",
-                                      header_.data_block));
+          header_.place_of(9),
+          fmt::format("the data would start in block {}, which is not in the file",
+                      header_.data_block));
     }
   }
 

@@ -34,7 +34,7 @@ struct C3dLayout {
   }
 };
 
-/// The used fields of the first 512 bytes. Words are numbered from 1, as in the format's manual.
+/// The used fields of the first 512 bytes. Words are numbered as for `c3d_word_offset`.
 struct C3dHeader {
   std::size_t begin = 0;
   std::size_t parameters_begin = 0;
@@ -46,6 +46,9 @@ struct C3dHeader {
   std::size_t data_block = 0;       ///< word 9, from 1
   std::size_t analog_instants = 0;  ///< word 10, per frame
   float rate_hz = 0;                ///< words 11 and 12
+
+  /// Returns the offset of a word in the file.
+  std::size_t place_of(std::size_t word) const { return begin + c3d_word_offset(word); }
 };
 
 /// Finds header and parameter section, and sets the processor of `source`. Errors:

@@ -84,7 +84,7 @@ class NewFile {
 
   std::string header() const {
     std::string block(c3d_block_bytes, '\0');
-    const auto place = [&](std::size_t word) { return block.data() + 2 * (word - 1); };
+    const auto place = [&](std::size_t word) { return block.data() + c3d_word_offset(word); };
     const auto put = [&](std::size_t word, std::size_t value) {
       Words::put_word(place(word), static_cast<std::uint16_t>(std::min(value, most_in_a_word)));
     };
@@ -108,7 +108,7 @@ class NewFile {
 
   // Returns the place of a word in the source's header.
   const char* source_place(std::size_t number) const {
-    return source_->bytes.data() + source_->layout.header_begin + 2 * (number - 1);
+    return source_->bytes.data() + source_->layout.header_begin + c3d_word_offset(number);
   }
   std::size_t source_word(std::size_t number) const {
     return with_words(source_->processor,
@@ -117,7 +117,7 @@ class NewFile {
 
   // Writes as many events as the header can hold; the parameters hold all of them.
   void put_events(std::string& block) const {
-    const auto place = [&](std::size_t word) { return block.data() + 2 * (word - 1); };
+    const auto place = [&](std::size_t word) { return block.data() + c3d_word_offset(word); };
     const std::size_t count = std::min(clip_.events.size(), c3d_most_header_events);
     Words::put_word(place(c3d_event_count_word), static_cast<std::uint16_t>(count));
     const bool has_flags = source_ != nullptr && clip_.events.size() == source_->events.size() &&

@@ -13,8 +13,7 @@ namespace kinemend {
 
 namespace {
 
-// By definition of the format; the number of sampled frames is for speed, not swept.
-constexpr double most_counted_frames = 65535;
+// For speed, not swept.
 constexpr std::size_t most_frames_looked_at = 200;
 
 // Makes a parameter of the low and the high word of a frame's number.
@@ -78,6 +77,7 @@ class ParameterMaker {
 
   void describe_points() {
     const auto frames = static_cast<double>(file_.frame_count);
+    constexpr auto most_counted_frames = static_cast<double>(most_in_a_word);
     set("POINT", c3d_integer("USED", static_cast<double>(clip_.marker_count())));
     set("POINT", c3d_integer("FRAMES", std::min(frames, most_counted_frames)));
     remove_parameter(all_, "POINT", "LONG_FRAMES");

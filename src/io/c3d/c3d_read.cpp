@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -335,7 +334,7 @@ std::size_t mend_c3d_header(std::string& bytes, C3dProcessor processor, C3dHeade
     if (std::isfinite(value)) return;
     value = static_cast<float>(parameters.number("POINT", name).value_or(0));
     if (!std::isfinite(value)) value = 0;
-    put(bytes, processor, header.begin + 2 * (word - 1), value);
+    put(bytes, processor, header.place_of(word), value);
     ++mended;
   };
   mend(header.scale, scale_word, "SCALE");

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "io/c3d/c3d_layout.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
@@ -21,11 +20,6 @@ void C3dSource::note(std::string_view kind, std::size_t offset, std::string_view
 namespace {
 
 constexpr std::uint8_t key = 0x50;
-
-// Returns the offset of word `number`, from 1.
-std::size_t word_offset(const C3dHeader& header, std::size_t number) {
-  return header.begin + 2 * (number - 1);
-}
 
 bool is_parameter_section(const C3dSource& source, std::size_t offset) {
   return source.holds(offset, 4) && source.byte(offset + 1) == key;
@@ -72,7 +66,7 @@ C3dProcessor find_processor(C3dSource& source, const C3dHeader& header) {
   for (const C3dProcessor processor :
        {C3dProcessor::intel, C3dProcessor::dec, C3dProcessor::mips}) {
     source.processor = processor;
-    if (!is_usable_frame_rate(source.real(word_offset(header, 11)))) continue;
+    if (!is_usable_frame_rate(source.real(header.place_of(11)))) continue;
     source.note("unknown_processor", header.parameters_begin + 3,
                 fmt::format("processor type {} is unknown: it is found by the frame rate", number));
     return processor;
@@ -90,16 +84,16 @@ C3dHeader read_c3d_header(C3dSource& source) {
   header.parameters_begin = find_parameters(source, header.begin);
   source.processor = find_processor(source, header);
   const auto word = [&](std::size_t number) -> std::size_t {
-    return source.word(word_offset(header, number));
+    return source.word(header.place_of(number));
   };
   header.point_count = word(2);
   header.analog_values = word(3);
   header.first_frame = word(4);
   header.last_frame = word(5);
-  header.scale = source.real(word_offset(header, 7));
+  header.scale = source.real(header.place_of(7));
   header.data_block = word(9);
   header.analog_instants = word(10);
-  header.rate_hz = source.real(word_offset(header, 11));
+  header.rate_hz = source.real(header.place_of(11));
   return header;
 }
 

@@ -88,6 +88,10 @@ auto with_words(C3dProcessor processor, Action&& action) {
 
 constexpr std::size_t c3d_block_bytes = 512;
 
+/// Returns the offset of a word in the header; words are numbered from 1, as in the format's
+/// manual.
+constexpr std::size_t c3d_word_offset(std::size_t word) { return 2 * (word - 1); }
+
 /// The bytes of a C3D file that is being read, and its repairs. Callers check that a word is within
 /// the file before they read it.
 struct C3dSource {

@@ -16,15 +16,13 @@ int sniff_fbx(std::string_view head);
 /// animation that the file does not have.
 TakeResult read_fbx(std::string bytes, std::string_view name, const ReadOptions& options);
 /// Writes a take. A take that was read from FBX is written as the same file with new keys in the
-/// curves of changed joints; any other take as a new binary file of version 7.5. Errors: `usage` if
+/// curves of changed joints; any other take as a new binary file of version 7.5. Markers are nulls,
+/// and a missing sample has the last known position of its marker, or the first. Errors: `usage` if
 /// the file cannot hold the change: the joint's curves also move other joints, or several layers
 /// move it.
-std::string write_fbx(const Take& clip);
+std::string write_fbx(const Take& take);
 /// Lists the data besides the motion that is lost if the take needs a new file; empty if its source
 /// is rewritten or is of another format.
 std::vector<std::string> lost_beside_fbx(const Take& take);
-/// Writes markers as nulls. A missing sample has the last known position of its marker, or the
-/// first.
-std::string write_fbx_markers(const Take& clip);
 
 }  // namespace kinemend

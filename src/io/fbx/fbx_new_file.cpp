@@ -1,16 +1,15 @@
 // Lays out the records of a new FBX file: settings, definitions, models, curves and connections.
 #include "io/fbx/fbx_new_file.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <vector>
 
 #include "base/portable.hpp"
 #include "io/fbx/fbx_builder.hpp"
 #include "io/fbx/fbx_rig.hpp"
+#include "io/held_samples.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/skeleton.hpp"
 #include "kinemend/take.hpp"
@@ -21,7 +20,6 @@ namespace kinemend {
 namespace {
 
 constexpr double new_file_ticks = 46186158000.0;
-constexpr double new_file_degrees = 180 / std::numbers::pi;
 constexpr std::string_view animation_name = "Take 001";
 // These three values must match the footer. They do not contain the time of writing, so that the
 // same take gives the same bytes.
@@ -72,7 +70,7 @@ std::optional<std::int32_t> order_with(RotationOrder turns) {
 Vec3 degrees_of(const std::array<double, 3>& angles, RotationOrder order) {
   Vec3 degrees;
   for (std::size_t i = 0; i < order.count; ++i)
-    component_of(degrees, static_cast<std::size_t>(order.axes[i])) = new_file_degrees * angles[i];
+    component_of(degrees, static_cast<std::size_t>(order.axes[i])) = degrees_per_radian * angles[i];
   return degrees;
 }
 
@@ -137,21 +135,6 @@ void add_joints(const Take& take, NewFbxScene& scene) {
   scene.unit_cm = unit_cm_of(take);
 }
 
-// Returns positions in which missing samples have the last known position of the marker, or the
-// first.
-std::vector<Vec3> held_points(const Take& take, std::size_t marker) {
-  std::vector<Vec3> track(take.frame_count());
-  std::size_t known = 0;
-  while (known < track.size() && !take.is_observed(known, marker)) ++known;
-  if (known == track.size()) return track;
-  Vec3 last = take.position(known, marker);
-  for (std::size_t f = 0; f < track.size(); ++f) {
-    if (take.is_observed(f, marker)) last = take.position(f, marker);
-    track[f] = last;
-  }
-  return track;
-}
-
 void add_markers(const Take& take, NewFbxScene& scene) {
   // A millimetre, as in other formats. Chosen by hand.
   constexpr double cm_of_unknown_unit = 0.1;
@@ -160,7 +143,7 @@ void add_markers(const Take& take, NewFbxScene& scene) {
     NewFbxModel model;
     model.name = fbx_name(take.names[m], "marker");
     model.is_limb = false;
-    model.translations = held_points(take, m);
+    model.translations = held_positions(take, m);
     if (!model.translations.empty()) model.translation = model.translations.front();
     scene.models.push_back(std::move(model));
   }

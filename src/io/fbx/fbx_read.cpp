@@ -195,7 +195,7 @@ class FbxReader {
 
 int sniff_fbx(std::string_view head) {
   if (is_binary_fbx(head)) return 100;
-  if (head.substr(0, 3) == "\xEF\xBB\xBF") head.remove_prefix(3);
+  head = without_byte_order_mark(head);
   const std::size_t first = head.find_first_not_of(" \t\r\n");
   if (first == head.npos) return 0;
   head.remove_prefix(first);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/portable.hpp"
 #include "motion/rotation.hpp"
@@ -220,16 +219,13 @@ RotationOrder fbx_factors(std::int64_t rotation_order) {
 }
 
 Quat fbx_turn(Vec3 degrees, RotationOrder factors) {
-  constexpr double radians = std::numbers::pi / 180;
   std::array<double, 3> angles{};
   for (std::size_t i = 0; i < 3; ++i)
-    angles[i] = radians * component(degrees, static_cast<std::size_t>(factors.axes[i]));
+    angles[i] = radians_per_degree * component(degrees, static_cast<std::size_t>(factors.axes[i]));
   return from_euler(angles, factors);
 }
 
 namespace {
-
-constexpr double degrees_per_radian = 180 / std::numbers::pi;
 
 Vec3 fbx_angles(Quat rotation, RotationOrder order) {
   const std::array<double, 3> angles = to_euler(rotation, order);

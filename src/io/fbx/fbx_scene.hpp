@@ -61,12 +61,6 @@ struct FbxStack {
   std::uint32_t record = 0;
 };
 
-/// An object of version 7 or 6 by the place of its record.
-struct FbxObject {
-  std::int64_t id = 0;
-  std::uint32_t record = 0;
-};
-
 struct FbxConnection {
   std::int64_t from = 0;  ///< child, or the source of the animation
   std::int64_t to = 0;    ///< parent, or the animated object

@@ -11,6 +11,7 @@
 #include "base/text.hpp"
 #include "io/fbx/fbx_values.hpp"
 #include "io/text/text.hpp"
+#include "kinemend/experimental/text.hpp"
 
 namespace kinemend {
 
@@ -268,7 +269,7 @@ class TextFbxReader {
       : tree_(tree), bytes_(tree.bytes), builder_(tree), max_depth_(max_depth) {}
 
   void read() {
-    if (bytes_.substr(0, 3) == "\xEF\xBB\xBF") place_ = 3;
+    place_ = byte_order_mark_size(bytes_);
     read_version();
     while (skip_blanks()) {
       if (bytes_[place_] == '}') {

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <numbers>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +21,7 @@
 #include "io/motion/motion_write.hpp"
 #include "kinemend/take.hpp"
 #include "motion/rotation.hpp"
+#include "motion/take.hpp"
 
 namespace kinemend {
 
@@ -32,18 +33,6 @@ bool fits_fbx_document(const Take& take, const FbxDocument& document, const Take
 /// of axes without a curve. Errors: `usage` for a curve that moves several axes or models, and for
 /// a joint that several layers move.
 std::string rewrite_fbx(const Take& take, const FbxDocument& document, const Take& original);
-
-namespace {
-
-std::string write_fbx_take(const Take& take) {
-  const auto* const document = dynamic_cast<const FbxDocument*>(take.source.document.get());
-  if (document == nullptr) return new_fbx_file(take);
-  const Take original = take_of_fbx(*document);
-  if (!fits_fbx_document(take, *document, original)) return new_fbx_file(take);
-  return rewrite_fbx(take, *document, original);
-}
-
-}  // namespace
 
 std::vector<std::string> lost_beside_fbx(const Take& take) {
   const auto* const document = dynamic_cast<const FbxDocument*>(take.source.document.get());
@@ -60,13 +49,15 @@ std::vector<std::string> lost_beside_fbx(const Take& take) {
   return parts;
 }
 
-std::string write_fbx(const Take& clip) { return write_fbx_take(clip); }
-
-std::string write_fbx_markers(const Take& clip) { return write_fbx_take(clip); }
+std::string write_fbx(const Take& take) {
+  const auto* const document = dynamic_cast<const FbxDocument*>(take.source.document.get());
+  if (document == nullptr) return new_fbx_file(take);
+  const Take original = take_of_fbx(*document);
+  if (!fits_fbx_document(take, *document, original)) return new_fbx_file(take);
+  return rewrite_fbx(take, *document, original);
+}
 
 namespace {
-
-constexpr double radians_per_degree = std::numbers::pi / 180;
 
 class FbxRewriter {
  public:
@@ -246,14 +237,9 @@ class FbxRewriter {
     return false;
   }
 
-  // Returns which point of the takes is the position of a joint, or -1.
-  std::int32_t point_of(std::size_t joint) const {
-    if (!take_.has_joints() || joint == 0) return static_cast<std::int32_t>(joint);
-    const auto& translated = take_.translated_joints;
-    const auto found =
-        std::lower_bound(translated.begin(), translated.end(), static_cast<std::int32_t>(joint));
-    if (found == translated.end() || *found != static_cast<std::int32_t>(joint)) return -1;
-    return static_cast<std::int32_t>(found - translated.begin()) + 1;
+  // Returns the point of the takes that is the position of a joint or marker; none if it has none.
+  std::optional<std::size_t> point_of(std::size_t joint) const {
+    return take_.has_joints() ? point_of_joint(take_, joint) : joint;
   }
 
   Vec3 position(const Take& take, std::size_t frame, std::size_t point) const {
@@ -269,14 +255,13 @@ class FbxRewriter {
   }
 
   void move(std::size_t joint) {
-    if (!node(joint).has_translation_curves || point_of(joint) < 0) return;
-    const auto point = static_cast<std::size_t>(point_of(joint));
-    if (!moves_differ(point)) return;
+    const std::optional<std::size_t> point = point_of(joint);
+    if (!node(joint).has_translation_curves || !point || !moves_differ(*point)) return;
     const FbxAnimatedVector* const vector = curves_of(joint, fbx_translation);
     if (vector == nullptr) return;
     for (std::size_t f = 0; f < frames(); ++f) {
       const std::size_t from = same_frames_ ? f : 0;
-      const Vec3 step = position(take_, f, point) - original_.position(from, point);
+      const Vec3 step = position(take_, f, *point) - original_.position(from, *point);
       const Vec3 source = source_translation(f, joint);
       const Vec3 moved = source + bases_[joint] * step;
       // Below a model with a scale near zero, no translation reaches the position.

@@ -16,7 +16,7 @@ int sniff_glb(std::string_view head);
 int sniff_gltf(std::string_view head);
 
 /// Reads the animation `ReadOptions::animation` of a scene: its skins' joints, or without a skin
-/// the nodes that it moves, or markers from `write_glb_markers`. Metres, Y up. Errors:
+/// the nodes that it moves, or markers from `write_glb`. Metres, Y up. Errors:
 /// `unreadable_input` with the byte; `usage` for an animation that does not exist.
 TakeResult read_glb(std::string bytes, std::string_view name, const ReadOptions& options);
 TakeResult read_gltf(std::string bytes, std::string_view name, const ReadOptions& options);
@@ -24,16 +24,14 @@ TakeResult read_gltf(std::string bytes, std::string_view name, const ReadOptions
 /// Writes a take. A take that was read from glTF is written as its source, in which only the keys
 /// of changed joints differ. Any other take becomes an animated skeleton with a skinned mesh of its
 /// bones, in metres (`metres_per_unit`, a guess by the skeleton's height, or 1), with unchanged
-/// axes. Errors: `usage` for an invalid clip.
-std::string write_glb(const Take& clip);
-std::string write_gltf(const Take& clip);
-/// Writes markers: a new file has small moving spheres, in metres (the unit is a millimetre if the
-/// clip names no known unit); a missing marker has scale 0.
-std::string write_glb_markers(const Take& clip);
-std::string write_gltf_markers(const Take& clip);
+/// axes; markers become small moving spheres, in metres (the unit is a millimetre if the take names
+/// no known unit), and a missing marker has scale 0. Errors: `usage` for an invalid take.
+std::string write_glb(const Take& take);
+std::string write_gltf(const Take& take);
 
 /// Returns `files_of_take` of a take in glTF. `output`: the path of the result.
-TakeFiles gltf_files_of_take(const Take& take, bool as_binary, const std::filesystem::path& output);
+TakeFiles glb_files_of_take(const Take& take, const std::filesystem::path& output);
+TakeFiles gltf_files_of_take(const Take& take, const std::filesystem::path& output);
 
 /// Lists the data besides the motion that is lost if the take needs a new file; empty if its source
 /// is rewritten or is of another format.

@@ -135,13 +135,18 @@ std::string reassembled_gltf(const GltfFile& file, std::string json, const std::
 }
 
 std::string new_glb(std::string_view json, std::string_view binary) {
-  std::string chunks;
-  append_glb_chunk(chunks, glb_json, json, ' ');
-  if (!binary.empty()) append_glb_chunk(chunks, glb_bin, binary, '\0');
+  const auto chunk_bytes = [](std::string_view content) {
+    return glb_chunk_header_bytes + (content.size() + 3) / 4 * 4;
+  };
+  const std::size_t total =
+      glb_header_bytes + chunk_bytes(json) + (binary.empty() ? 0 : chunk_bytes(binary));
   std::string out(glb_magic);
   append_glb_number(out, 2);
-  append_glb_number(out, glb_header_bytes + chunks.size());
-  return out.append(chunks);
+  append_glb_number(out, total);
+  out.reserve(total);
+  append_glb_chunk(out, glb_json, json, ' ');
+  if (!binary.empty()) append_glb_chunk(out, glb_bin, binary, '\0');
+  return out;
 }
 
 namespace {

@@ -28,9 +28,8 @@ bool is_usable(const double* values, std::size_t count) {
 
 std::vector<double> gltf_times(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
                                std::size_t accessor) {
-  constexpr int float_component = 5126;
   const GltfNumbers numbers(file, model, buffers, accessor, 1);
-  if (numbers.accessor().component != float_component)
+  if (numbers.accessor().component != gltf_float)
     throw gltf_error(file, "accessors", accessor, "times are floats");
   if (numbers.count() == 0) throw gltf_error(file, "accessors", accessor, "no keys");
   std::vector<double> times = numbers.values();

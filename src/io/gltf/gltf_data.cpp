@@ -18,16 +18,6 @@ namespace kinemend {
 
 namespace {
 
-// The numbers that glTF 2.0 uses for the types of components (section 3.6.2.2).
-enum GltfComponent : int {
-  gltf_byte = 5120,
-  gltf_ubyte = 5121,
-  gltf_short = 5122,
-  gltf_ushort = 5123,
-  gltf_uint = 5125,
-  gltf_float = 5126
-};
-
 std::string gltf_file_beside(const GltfFile& file, const GltfModel& model, std::size_t buffer) {
   namespace fs = std::filesystem;
   const GltfBuffer& b = model.buffers[buffer];

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemend/experimental/text.hpp"
+
 namespace kinemend {
 
 namespace {
@@ -148,9 +150,7 @@ bool is_json_key(std::string_view token, std::string_view key) {
 }  // namespace
 
 ByteSpan json_root(std::string_view text) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  const std::size_t begin =
-      after_json_blanks(text, text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+  const std::size_t begin = after_json_blanks(text, byte_order_mark_size(text));
   return {begin, after_json_value(text, begin) - begin};
 }
 

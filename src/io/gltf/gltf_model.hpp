@@ -29,6 +29,10 @@ struct GltfView {
   std::string coded;       ///< the extension that compresses it; usually empty
 };
 
+/// The numbers that glTF 2.0 uses for the types of components (section 3.6.2.2), from OpenGL.
+inline constexpr int gltf_byte = 5120, gltf_ubyte = 5121, gltf_short = 5122, gltf_ushort = 5123,
+                     gltf_uint = 5125, gltf_float = 5126;
+
 /// Numbers of a sparse accessor that replace those of its view.
 struct GltfSparse {
   std::size_t count = 0;
@@ -40,7 +44,7 @@ struct GltfSparse {
 struct GltfAccessor {
   std::optional<std::size_t> view;
   std::size_t offset = 0, count = 0;
-  int component = 0;      ///< 5120 to 5126, as in OpenGL
+  int component = 0;      ///< `gltf_byte` to `gltf_float`
   std::size_t width = 0;  ///< components of an element; 0: of an unknown type
   bool normalized = false;
   bool has_range = false;  ///< min or max is stated

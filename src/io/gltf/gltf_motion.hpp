@@ -63,7 +63,7 @@ std::vector<std::size_t> gltf_joints(const GltfModel& model, std::size_t animati
 GltfMotion decode_gltf_joints(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
                               std::size_t animation, double rate_hz);
 
-/// Returns the nodes of a file of markers from `write_glb_markers`: children of a node called
+/// Returns the nodes of a file of markers from `write_glb`: children of a node called
 /// "markers", moved but not rotated; empty for any other file.
 std::vector<std::size_t> gltf_markers(const GltfModel& model, std::size_t animation);
 GltfMotion decode_gltf_markers(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,

@@ -10,11 +10,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "io/gltf/gltf_container.hpp"
+#include "io/gltf/gltf_data.hpp"
+#include "io/held_samples.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/version.hpp"
 #include "kinemend/rotation.hpp"
@@ -266,20 +268,6 @@ class SkeletonWriter {
   std::vector<Vec3> positions_;
 };
 
-// Returns positions in which missing samples have the last known position of the marker, or the
-// first.
-std::vector<Vec3> held_track(const Take& clip, std::size_t marker) {
-  std::vector<Vec3> track(clip.frame_count());
-  std::size_t known = 0;
-  while (!clip.is_observed(known, marker)) ++known;
-  Vec3 last = clip.position(known, marker);
-  for (std::size_t f = 0; f < track.size(); ++f) {
-    if (clip.is_observed(f, marker)) last = clip.position(f, marker);
-    track[f] = last;
-  }
-  return track;
-}
-
 }  // namespace
 
 std::string new_glb_of_joints(const Take& clip) { return SkeletonWriter(clip).write(); }
@@ -306,7 +294,7 @@ std::string new_glb_of_markers(const Take& clip) {
       const bool is_place = clip.is_position.empty() || clip.is_position[m] != 0;
       if (!ever || !is_place) continue;
       std::vector<float> xyz;
-      for (const Vec3& position : held_track(clip, m)) append(xyz, scale * position);
+      for (const Vec3& position : held_positions(clip, m)) append(xyz, scale * position);
       const std::size_t node = file.add_node(
           {{"name", clip.names[m]}, {"mesh", mesh}, {"translation", {xyz[0], xyz[1], xyz[2]}}});
       children.push_back(node);
@@ -325,9 +313,7 @@ std::string new_glb_of_markers(const Take& clip) {
 
 namespace {
 
-constexpr int component_float = 5126, component_uint16 = 5123;
 constexpr int target_array_buffer = 34962;
-constexpr std::uint32_t magic = 0x46546C67, chunk_json = 0x4E4F534A, chunk_binary = 0x004E4942;
 
 // A number that is finite as a double may overflow as a float.
 void check_finite(std::span<const float> values) {
@@ -336,12 +322,8 @@ void check_finite(std::span<const float> values) {
   throw Error(ErrorKind::usage, "a length is too large for a glTF file");
 }
 
-void append_u32(std::string& out, std::uint32_t value) {
-  for (int shift = 0; shift < 32; shift += 8) out += static_cast<char>(value >> shift & 0xFF);
-}
-
-void pad(std::string& bytes, char filler) {
-  while (bytes.size() % 4 != 0) bytes += filler;
+void pad(std::string& bytes) {
+  while (bytes.size() % 4 != 0) bytes += '\0';
 }
 
 const char* type_of(std::size_t components) {
@@ -373,7 +355,7 @@ std::size_t GlbBuilder::add_node(Json node) {
 }
 
 std::size_t GlbBuilder::add_view(const void* data, std::size_t bytes, bool of_vertices) {
-  pad(binary_, '\0');
+  pad(binary_);
   Json view{{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes}};
   if (of_vertices) view["target"] = target_array_buffer;
   binary_.append(static_cast<const char*>(data), bytes);
@@ -393,7 +375,7 @@ std::size_t GlbBuilder::add_floats(const std::vector<float>& values, std::size_t
   check_finite(values);
   const std::size_t view = add_view(values.data(), values.size() * sizeof(float), of_vertices);
   const std::size_t index =
-      add_accessor(view, component_float, values.size() / components, type_of(components));
+      add_accessor(view, gltf_float, values.size() / components, type_of(components));
   if (with_range) {
     std::vector<float> least(values.begin(),
                              values.begin() + static_cast<std::ptrdiff_t>(components));
@@ -410,30 +392,13 @@ std::size_t GlbBuilder::add_floats(const std::vector<float>& values, std::size_t
 
 std::size_t GlbBuilder::add_vertex_joints(const std::vector<std::uint16_t>& values) {
   const std::size_t view = add_view(values.data(), values.size() * sizeof(std::uint16_t), true);
-  return add_accessor(view, component_uint16, values.size() / 4, "VEC4");
+  return add_accessor(view, gltf_ushort, values.size() / 4, "VEC4");
 }
 
 std::string GlbBuilder::finish() && {
-  pad(binary_, '\0');
+  pad(binary_);
   if (!binary_.empty()) document_["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
-  std::string json = document_.dump(-1, ' ', false, Json::error_handler_t::ignore);
-  pad(json, ' ');
-  const std::size_t total = 12 + 8 + json.size() + (binary_.empty() ? 0 : 8 + binary_.size());
-  if (total > 0xFFFFFFFFu) {
-    throw Error(ErrorKind::usage, "the clip is too long for a glb file of 4 GiB");
-  }
-  std::string file;
-  file.reserve(total);
-  append_u32(file, magic);
-  append_u32(file, 2);
-  append_u32(file, static_cast<std::uint32_t>(total));
-  append_u32(file, static_cast<std::uint32_t>(json.size()));
-  append_u32(file, chunk_json);
-  file += json;
-  if (binary_.empty()) return file;
-  append_u32(file, static_cast<std::uint32_t>(binary_.size()));
-  append_u32(file, chunk_binary);
-  return file + binary_;
+  return new_glb(document_.dump(-1, ' ', false, Json::error_handler_t::ignore), binary_);
 }
 
 GlbAnimation::GlbAnimation(GlbBuilder& file, std::size_t frames, double frame_rate_hz)

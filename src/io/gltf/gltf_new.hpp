@@ -9,7 +9,6 @@ namespace kinemend {
 
 /// Returns a new file as described at `write_glb`. The clip must be valid.
 std::string new_glb_of_joints(const Take& clip);
-/// Returns a new file as described at `write_glb_markers`.
 std::string new_glb_of_markers(const Take& clip);
 
 }  // namespace kinemend

@@ -10,6 +10,7 @@
 #include "io/gltf/gltf.hpp"
 #include "io/gltf/gltf_motion.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/text.hpp"
 
 namespace kinemend {
 
@@ -193,8 +194,7 @@ TakeResult read_gltf_file(std::string bytes, std::string_view name, const ReadOp
 int sniff_glb(std::string_view head) { return head.substr(0, 4) == "glTF" ? 100 : 0; }
 
 int sniff_gltf(std::string_view head) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (head.starts_with(byte_order_mark)) head.remove_prefix(byte_order_mark.size());
+  head = without_byte_order_mark(head);
   const std::size_t begin = head.find_first_not_of(" \t\r\n");
   if (begin == head.npos || head[begin] != '{') return 0;
   for (const char* const word : {"\"asset\"", "\"accessors\"", "\"bufferViews\"", "\"animations\"",

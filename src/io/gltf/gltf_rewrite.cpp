@@ -484,7 +484,6 @@ GltfChanges changes_of_gltf(const Take& take, const GltfDocument& document,
 
 namespace {
 
-constexpr int added_component = 5126;  // floats
 constexpr std::size_t added_alignment = 4;
 
 std::size_t home_of(const GltfDocument& document) {
@@ -533,7 +532,7 @@ std::size_t GltfAdditions::add_floats(const std::vector<double>& values, std::si
   const std::size_t begin = bytes.size();
   for (const double value : values) {
     std::array<char, sizeof(float)> stored{};
-    if (!store_component(value, added_component, false, stored.data()))
+    if (!store_component(value, gltf_float, false, stored.data()))
       throw Error(ErrorKind::usage, "a number is too large for a glTF file");
     bytes.append(stored.data(), stored.size());
   }
@@ -548,7 +547,7 @@ std::size_t GltfAdditions::add_floats(const std::vector<double>& values, std::si
   const char* const type = width == 1 ? "SCALAR" : width == 3 ? "VEC3" : "VEC4";
   return accessors_.add(
       fmt::format("{{\"bufferView\":{},\"componentType\":{},\"count\":{},\"type\":\"{}\"{}}}", view,
-                  added_component, values.size() / width, type, range));
+                  gltf_float, values.size() / width, type, range));
 }
 
 std::size_t GltfAdditions::add_sampler(std::size_t input, std::size_t output, bool in_steps) {

@@ -53,13 +53,7 @@ std::string new_glb_of(const Take& take) {
   return take.has_joints() ? new_glb_of_joints(take) : new_glb_of_markers(take);
 }
 
-std::string write_as_gltf(const Take& take, bool as_binary) {
-  return gltf_files_of_take(take, as_binary, {}).bytes;
-}
-
-}  // namespace
-
-TakeFiles gltf_files_of_take(const Take& take, bool as_binary,
+TakeFiles files_in_container(const Take& take, bool as_binary,
                              const std::filesystem::path& output) {
   take.validate();
   if (const GltfDocument* const document = gltf_document_of(take)) {
@@ -74,6 +68,16 @@ TakeFiles gltf_files_of_take(const Take& take, bool as_binary,
   return {as_binary ? std::move(bytes) : text_of_glb(std::move(bytes)), {}};
 }
 
+}  // namespace
+
+TakeFiles glb_files_of_take(const Take& take, const std::filesystem::path& output) {
+  return files_in_container(take, true, output);
+}
+
+TakeFiles gltf_files_of_take(const Take& take, const std::filesystem::path& output) {
+  return files_in_container(take, false, output);
+}
+
 std::vector<std::string> lost_beside_gltf(const Take& take) {
   const GltfDocument* const document = gltf_document_of(take);
   if (document == nullptr || belongs_to(take, *document, document->motion())) return {};
@@ -85,10 +89,8 @@ std::vector<std::string> lost_beside_gltf(const Take& take) {
   return parts;
 }
 
-std::string write_glb(const Take& clip) { return write_as_gltf(clip, true); }
-std::string write_gltf(const Take& clip) { return write_as_gltf(clip, false); }
-std::string write_glb_markers(const Take& clip) { return write_as_gltf(clip, true); }
-std::string write_gltf_markers(const Take& clip) { return write_as_gltf(clip, false); }
+std::string write_glb(const Take& take) { return glb_files_of_take(take, {}).bytes; }
+std::string write_gltf(const Take& take) { return gltf_files_of_take(take, {}).bytes; }
 
 namespace {
 

@@ -8,6 +8,7 @@
 #include "io/motion/motion_columns.hpp"
 #include "io/motion/motion_document.hpp"
 #include "kinemend/take.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend {
 
@@ -41,7 +42,7 @@ class ClipRows {
     return position_frames_[frame_index(position.translated)];
   }
   double& value(std::size_t frame, const MotionColumns::Position& position) {
-    return component(position_of(clip_, frame, position.translated), position.axis);
+    return component_of(position_of(clip_, frame, position.translated), position.axis);
   }
 
   Take& clip_;

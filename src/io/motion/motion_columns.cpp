@@ -7,9 +7,17 @@
 #include <cstdint>
 
 #include "base/portable.hpp"
+#include "io/text/text.hpp"
 #include "kinemend/rotation.hpp"
 
 namespace kinemend {
+
+std::optional<Channel> channel_named(std::string_view word) {
+  for (std::size_t i = 0; i < channel_names.size(); ++i) {
+    if (equal_ignoring_case(word, channel_names[i])) return static_cast<Channel>(i);
+  }
+  return std::nullopt;
+}
 
 namespace {
 

@@ -5,12 +5,20 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "kinemend/take.hpp"
 
 namespace kinemend {
+
+/// Names of channels in BVH files and in the skeletons of CSV files, in the order of `Channel`.
+inline constexpr std::array<std::string_view, 6> channel_names{
+    "Xposition", "Yposition", "Zposition", "Xrotation", "Yrotation", "Zrotation"};
+/// Returns the channel of that name in any case; none for another word.
+std::optional<Channel> channel_named(std::string_view word);
 
 /// The meaning of the columns of a frame, and rotations from them.
 class MotionColumns {
@@ -74,13 +82,6 @@ struct PositionFrame {
     return is_direct() ? clip : rotate(conjugate(turn), clip - origin);
   }
 };
-
-inline double& component(Vec3& v, Axis axis) {
-  return axis == Axis::x ? v.x : axis == Axis::y ? v.y : v.z;
-}
-inline double component(const Vec3& v, Axis axis) {
-  return axis == Axis::x ? v.x : axis == Axis::y ? v.y : v.z;
-}
 
 /// Returns frames in which positions replace the joint's offset, as in BVH.
 std::vector<PositionFrame> offset_replacing_frames(const Skeleton& skeleton);

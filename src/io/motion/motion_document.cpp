@@ -17,6 +17,7 @@
 #include "base/portable.hpp"
 #include "io/motion/motion_columns.hpp"
 #include "io/text/text.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend {
 
@@ -250,7 +251,7 @@ class MotionRewriter {
       const PositionFrame& in_file = document_.position_frames[frame_index(translated)];
       Vec3 before = in_file.rest;
       for (end = i; end < positions.size() && positions[end].translated == translated; ++end) {
-        component(before, positions[end].axis) = row[positions[end].column];
+        component_of(before, positions[end].axis) = row[positions[end].column];
       }
       const Vec3 now = position_of(clip_, frame, translated);
       if (now == in_file.to_clip(before)) continue;

@@ -5,24 +5,20 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "io/text/text.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
+#include "motion/rotation.hpp"
+#include "motion/take.hpp"
 
 namespace kinemend {
 
 namespace {
 
 Vec3 joint_position(const Take& clip, std::size_t frame, std::size_t joint) {
-  if (joint == 0) return clip.root_position(frame);
-  const auto& translated = clip.translated_joints;
-  const auto found =
-      std::lower_bound(translated.begin(), translated.end(), static_cast<std::int32_t>(joint));
-  if (found == translated.end() || *found != static_cast<std::int32_t>(joint))
-    return clip.skeleton.offsets[joint];
-  return clip.position(frame, 1 + static_cast<std::size_t>(found - translated.begin()));
+  const auto point = point_of_joint(clip, joint);
+  return point ? clip.position(frame, *point) : clip.skeleton.offsets[joint];
 }
 
 Quat written_rotation(const Take& clip, std::size_t frame, std::size_t joint, RestRotations rest) {
@@ -97,10 +93,7 @@ Source source_of(const WrittenValue& value, const Take& clip) {
   source.axis = axis_of(channel);
   const auto here = channels.begin() + static_cast<std::ptrdiff_t>(value.channel);
   source.turn = static_cast<std::size_t>(std::count_if(channels.begin(), here, is_rotation));
-  const auto& translated = clip.translated_joints;
-  const auto found = std::lower_bound(translated.begin(), translated.end(),
-                                      static_cast<std::int32_t>(value.joint));
-  if (value.joint > 0) source.frame = static_cast<std::size_t>(found - translated.begin()) + 1;
+  source.frame = point_of_joint(clip, value.joint).value_or(0);
   return source;
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -74,18 +73,13 @@ class CsvReader {
 
   TakeResult read_markers() {
     Take clip;
-    std::size_t unnamed = 0;
     for (const CsvGroup& group : header_.groups) {
       if (group.kind != CsvGroup::Kind::position) continue;
       document_.table.columns.push_back({group.columns[0], group.columns[1], group.columns[2]});
       clip.names.push_back(group.label);
-      if (!group.label.empty()) continue;
-      clip.names.back() = fmt::format("*{}", clip.names.size());
-      ++unnamed;
     }
     if (clip.names.empty()) throw text_.error_at(header_.labels_line, "the file has no markers");
-    note("marker_unnamed", header_.labels_line,
-         "a marker has no name: it is called *1, *2, ... by its position", unnamed);
+    name_the_unnamed(text_, diagnostics_, header_.labels_line, clip);
     clip.unit = header_.unit;
     if (header_.unit_is_custom) {
       note(
@@ -163,9 +157,9 @@ std::string number_text(double value) {
   return {room, write_shortest(room, value)};
 }
 
-class Table {
+class CsvTable {
  public:
-  explicit Table(std::size_t expected) : out_(expected) {}
+  explicit CsvTable(std::size_t expected) : out_(expected) {}
 
   void line(std::string_view text) {
     out_.append(text);
@@ -207,7 +201,7 @@ class Table {
 };
 
 std::string write_plain_joints(const Take& clip) {
-  Table table(80 * clip.rotations.size() + 4096);
+  CsvTable table(80 * clip.rotations.size() + 4096);
   table.line("# rate_hz: " + number_text(clip.frame_rate_hz));
   if (clip.frame_count() == 0) table.line("# frames: 0");
   if (clip.metres_per_unit > 0) {
@@ -253,7 +247,7 @@ const CsvDocument* kept_layout(const Take& clip) {
 }
 
 std::string write_plain_markers(const Take& clip) {
-  Table table(60 * clip.positions.size() + 4096);
+  CsvTable table(60 * clip.positions.size() + 4096);
   table.line("# rate_hz: " + number_text(clip.frame_rate_hz));
   if (clip.frame_count() == 0) table.line("# frames: 0");
   if (!clip.unit.empty()) {

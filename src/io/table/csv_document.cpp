@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <optional>
 
 #include "kinemend/experimental/letter_case.hpp"
+#include "kinemend/experimental/text.hpp"
 
 namespace kinemend {
 
@@ -66,7 +66,7 @@ class CsvHeaderReader {
   explicit CsvHeaderReader(const SourceText& text) : text_(text) {}
 
   CsvHeader read() {
-    next_ = after_byte_order_mark(text_.bytes);
+    next_ = byte_order_mark_size(text_.bytes);
     if (without_spaces_around(text_.bytes.substr(next_)).empty()) {
       throw Error::at_line(text_.name, 1, "the file is empty");
     }
@@ -99,7 +99,7 @@ class CsvHeaderReader {
     if (bare.empty()) return;
     if (bare[0] == '#') return read_note(bare);
     // Spreadsheets read this line.
-    if (place_ == after_byte_order_mark(text_.bytes) && bare.substr(0, 4) == "sep=") return;
+    if (place_ == byte_order_mark_size(text_.bytes) && bare.substr(0, 4) == "sep=") return;
     if (!first_row_) first_row_ = place_;
     const char separator = separator_of(line);
     if (static_cast<std::size_t>(std::count(line.begin(), line.end(), separator)) > most_columns) {
@@ -291,11 +291,6 @@ CommaStyle commas_of(std::string_view rows, char separator) {
                                          [](const auto& c) { return c.find(',') != c.npos; })
                            : rows.find(',') != rows.npos;
   return decimal ? CommaStyle::decimal : CommaStyle::none;
-}
-
-std::size_t after_byte_order_mark(std::string_view text) {
-  constexpr std::string_view mark = "\xEF\xBB\xBF";
-  return text.substr(0, mark.size()) == mark ? mark.size() : 0;
 }
 
 std::string_view HeadLines::take() {

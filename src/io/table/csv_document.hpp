@@ -104,8 +104,6 @@ double number_of(std::string_view text);
 char separator_of(std::string_view line);
 /// Returns `decimal` if the first row can only be read with decimal commas.
 CommaStyle commas_of(std::string_view rows, char separator);
-/// Returns 3 if the text begins with a byte order mark, else 0.
-std::size_t after_byte_order_mark(std::string_view text);
 
 /// Walks over the lines of a head.
 class HeadLines {

@@ -10,6 +10,7 @@
 
 #include "io/table/csv_document.hpp"
 #include "kinemend/experimental/letter_case.hpp"
+#include "kinemend/experimental/text.hpp"
 
 namespace kinemend {
 
@@ -30,7 +31,7 @@ bool is_type(const std::string& cell) {
 class MotiveReader {
  public:
   explicit MotiveReader(const SourceText& text)
-      : text_(text), lines_(text, after_byte_order_mark(text.bytes)) {}
+      : text_(text), lines_(text, byte_order_mark_size(text.bytes)) {}
 
   CsvHeader read() {
     // An export may omit the line of facts.
@@ -156,7 +157,7 @@ class MotiveReader {
 }  // namespace
 
 bool starts_as_motive_export(std::string_view text) {
-  text.remove_prefix(after_byte_order_mark(text));
+  text = without_byte_order_mark(text);
   const std::string_view line = line_from(text, 0);
   if (line.substr(line.substr(0, 1) == "\"" ? 1 : 0, motive_first_word.size()) == motive_first_word)
     return true;
@@ -206,7 +207,7 @@ double section_rate(const Cells& cells) {
 // Finds sections, which follow blank lines or lines of separators.
 std::vector<Section> sections_of(const SourceText& text, bool only_first) {
   std::vector<Section> sections;
-  HeadLines lines(text, after_byte_order_mark(text.bytes));
+  HeadLines lines(text, byte_order_mark_size(text.bytes));
   bool after_blank = true;
   while (!lines.at_end()) {
     const std::string_view line = lines.take();

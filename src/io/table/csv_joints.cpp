@@ -8,10 +8,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "io/bvh/bvh_hierarchy.hpp"
 #include "io/held_samples.hpp"
+#include "io/motion/motion_columns.hpp"
 #include "io/reading_limits.hpp"
 #include "io/text/cells.hpp"
 #include "io/text/number.hpp"
@@ -363,9 +365,6 @@ std::string rewrite_csv_joints(const Take& clip, const CsvDocument& document) {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> channel_names{"Xposition", "Yposition", "Zposition",
-                                                        "Xrotation", "Yrotation", "Zrotation"};
-
 std::string quoted_name(const std::string& name) {
   if (name.find_first_of("\r\n") != name.npos) {
     throw Error(ErrorKind::usage, fmt::format("CSV cannot hold the name {}", quote(name)));
@@ -450,15 +449,13 @@ class NoteReader {
   std::vector<Channel> channels() const {
     std::vector<Channel> found;
     for (const std::string& word : words("channels")) {
-      const auto* const name =
-          std::find_if(channel_names.begin(), channel_names.end(),
-                       [&](std::string_view known) { return equal_ignoring_case(known, word); });
-      if (name == channel_names.end()) {
+      const std::optional<Channel> channel = channel_named(word);
+      if (!channel) {
         throw text_.error_at(
             note_.place,
             fmt::format("expected a channel such as Xrotation, found {}", quote(word)));
       }
-      found.push_back(static_cast<Channel>(name - channel_names.begin()));
+      found.push_back(*channel);
     }
     return found;
   }

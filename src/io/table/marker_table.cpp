@@ -5,9 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "base/portable.hpp"
@@ -479,6 +477,20 @@ unsigned decimals_of(std::string_view bytes, const MarkerTable& table) {
 std::optional<std::string> rewrite_marker_table(const Take& clip, std::string_view bytes,
                                                 const MarkerTable& table) {
   return TableRewriter(clip, bytes, table).rewrite();
+}
+
+void name_the_unnamed(const SourceText& text, Diagnostics& diagnostics, std::size_t place,
+                      Take& clip) {
+  std::size_t unnamed = 0;
+  for (std::size_t m = 0; m < clip.names.size(); ++m) {
+    if (!clip.names[m].empty()) continue;
+    clip.names[m] = fmt::format("*{}", m + 1);
+    ++unnamed;
+  }
+  if (unnamed > 0) {
+    note_repair(text, diagnostics, "marker_unnamed", place,
+                "a marker has no name: it is called *1, *2, ... by its position", unnamed);
+  }
 }
 
 double table_rate(const SourceText& text, Diagnostics& diagnostics, const RowRate& times,

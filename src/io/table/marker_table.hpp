@@ -71,6 +71,11 @@ struct TableFinding {
 TableFinding read_marker_table(const SourceText& text, Diagnostics& diagnostics,
                                std::size_t declared_frames, MarkerTable& table, Take& clip);
 
+/// Names each marker without a name *1, *2, ... by its position. `place`: the byte of the names.
+/// Repair: `marker_unnamed`.
+void name_the_unnamed(const SourceText& text, Diagnostics& diagnostics, std::size_t place,
+                      Take& clip);
+
 /// The rate from the times of the rows.
 struct RowRate {
   double rate_hz = 0;      ///< 0 if the times do not give a rate

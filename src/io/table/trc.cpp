@@ -13,6 +13,7 @@
 #include "io/text/cells.hpp"
 #include "io/text/text.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/text.hpp"
 
 namespace kinemend {
 
@@ -48,7 +49,7 @@ class TrcReader {
                   head_not_finite_text);
     const TableFinding rows = read_rows();
     if (rows.cut_row) document_.bytes.resize(*rows.cut_row);
-    name_the_unnamed();
+    name_the_unnamed(text_, diagnostics_, header_.labels_line, clip_);
     check_counts();
     clip_.frame_rate_hz = table_rate(
         text_, diagnostics_, check_row_labels(text_, diagnostics_, table, rows.labels, clip_),
@@ -95,19 +96,6 @@ class TrcReader {
     for (std::size_t m = 0; m < clip_.names.size(); ++m) {
       const std::size_t x = leading_columns() + 3 * m;
       columns.push_back({x, x + 1, x + 2});
-    }
-  }
-
-  void name_the_unnamed() {
-    std::size_t unnamed = 0;
-    for (std::size_t m = 0; m < clip_.names.size(); ++m) {
-      if (!clip_.names[m].empty()) continue;
-      clip_.names[m] = fmt::format("*{}", m + 1);
-      ++unnamed;
-    }
-    if (unnamed > 0) {
-      note_repair(text_, diagnostics_, "marker_unnamed", header_.labels_line,
-                  "a marker has no name: it is called *1, *2, ... by its position", unnamed);
     }
   }
 
@@ -173,7 +161,7 @@ class TrcReader {
 }  // namespace
 
 int sniff_trc(std::string_view head) {
-  if (head.substr(0, 3) == "\xEF\xBB\xBF") head.remove_prefix(3);
+  head = without_byte_order_mark(head);
   if (head.substr(0, 1) == "\"") head.remove_prefix(1);
   constexpr std::string_view word = "PathFileType";
   const std::string_view start = TextScanner(head, 0).next().substr(0, word.size());

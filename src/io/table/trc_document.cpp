@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "kinemend/experimental/text.hpp"
+
 namespace kinemend {
 
 namespace {
@@ -21,7 +23,7 @@ bool is_empty(std::string_view line) { return std::all_of(line.begin(), line.end
 
 // Returns the separator: tabs, or spaces in some files; spreadsheets write commas, or semicolons if
 // commas are decimal.
-char separator_of(std::string_view line) {
+char trc_separator(std::string_view line) {
   for (const char separator : {'\t', ';', ','}) {
     if (line.find(separator) != line.npos) return separator;
   }
@@ -39,11 +41,8 @@ class TrcHeaderReader {
       : text_(text), diagnostics_(diagnostics) {}
 
   TrcHeader read() {
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     if (is_empty(text_.bytes)) throw Error::at_line(text_.name, 1, "the file is empty");
-    if (text_.bytes.substr(0, byte_order_mark.size()) == byte_order_mark) {
-      next_ = byte_order_mark.size();
-    }
+    next_ = byte_order_mark_size(text_.bytes);
     while (header_.labels_line == 0) read_line();
     read_below_labels();
     choose_style();
@@ -77,7 +76,7 @@ class TrcHeaderReader {
         6 * most_markers) {
       throw text_.error_at(place_, fmt::format("at most {} markers can be read", most_markers));
     }
-    if (head_separator_ == 0) head_separator_ = separator_of(line);
+    if (head_separator_ == 0) head_separator_ = trc_separator(line);
     const std::vector<std::string> cells = split_cells(line, separator_in(line));
     const auto key = std::find_if(cells.begin(), cells.end(), [](const std::string& cell) {
       return equal_ignoring_case(cell, "DataRate");

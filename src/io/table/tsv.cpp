@@ -15,6 +15,7 @@
 #include "io/text/cells.hpp"
 #include "io/text/text.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/text.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {
@@ -50,7 +51,7 @@ class TsvReader {
       : document_(document),
         options_(options),
         text_{name, document.bytes, options.strict},
-        lines_(text_, after_byte_order_mark(document.bytes)) {}
+        lines_(text_, byte_order_mark_size(document.bytes)) {}
 
   TakeResult read() {
     if (without_spaces_around(text_.bytes).empty())
@@ -168,7 +169,7 @@ class TsvReader {
       throw text_.error_at(std::min(table.begin, text_.bytes.size()),
                            "expected a row for each frame, found none");
     }
-    name_the_unnamed();
+    name_the_unnamed(text_, diagnostics_, names_place_, clip_);
     check_counts();
     // FREQUENCY is a word if the cameras had an external trigger.
     clip_.frame_rate_hz = table_rate(
@@ -215,17 +216,6 @@ class TsvReader {
     return 2;
   }
 
-  void name_the_unnamed() {
-    std::size_t unnamed = 0;
-    for (std::size_t m = 0; m < clip_.names.size(); ++m) {
-      if (!clip_.names[m].empty()) continue;
-      clip_.names[m] = fmt::format("*{}", m + 1);
-      ++unnamed;
-    }
-    note("marker_unnamed", names_place_,
-         "a marker has no name: it is called *1, *2, ... by its position", unnamed);
-  }
-
   void check_counts() {
     const auto compare = [&](const Value& stated, std::size_t found, std::string_view kind,
                              std::string_view what) {
@@ -252,7 +242,7 @@ class TsvReader {
 }  // namespace
 
 int sniff_tsv(std::string_view head) {
-  head.remove_prefix(after_byte_order_mark(head));
+  head = without_byte_order_mark(head);
   const std::string_view line = line_from(head, 0);
   const std::string_view key = line.substr(0, line.find('\t'));
   for (const std::string_view known :

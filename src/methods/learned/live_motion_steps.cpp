@@ -51,14 +51,6 @@ LiveMotionSteps::LiveMotionSteps(double frame_rate_hz, std::vector<std::uint8_t>
   strengths_.is_alive.resize(channels());
 }
 
-void LiveMotionSteps::reset() {
-  frames_ = dropped_ = extended_at_ = steps_ = 0;
-  is_ended_ = false;
-  std::fill(missed_.begin(), missed_.end(), 0);
-  sums_ = StrengthSums(channels());
-  std::fill(strengths_.is_alive.begin(), strengths_.is_alive.end(), std::uint8_t{0});
-}
-
 void LiveMotionSteps::push(std::span<const float> values, std::span<const std::uint8_t> missing) {
   if (frames_ == 0) {
     for (std::size_t c = 0; c < channels(); ++c) {

@@ -43,7 +43,6 @@ class LiveMotionSteps {
   std::span<const float> frame(std::size_t frame) const;
   /// Levels of such a frame by all frames so far: bank_levels x C.
   void levels(std::size_t frame, std::span<float> result);
-  void reset();
 
  private:
   float* row_of(std::size_t frame) { return rows_.values.data() + row_index(frame) * channels(); }

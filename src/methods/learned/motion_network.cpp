@@ -351,16 +351,6 @@ void LiveMotionNetwork::History::keep(std::span<const float> now) {
   next = (next + 1) % steps;
 }
 
-void LiveMotionNetwork::reset() {
-  const auto forget = [](History& history) {
-    std::fill(history.values.begin(), history.values.end(), 0.0F);
-    history.next = 0;
-  };
-  forget(features_);
-  forget(first_);
-  for (History& history : trunk_) forget(history);
-}
-
 std::span<float> LiveMotionNetwork::run(const MotionSteps& step,
                                         std::span<const std::uint8_t> is_alive) {
   encode(step, is_alive);

@@ -94,7 +94,6 @@ class LiveMotionNetwork {
   /// Whether the channels are those of the body from the next step on, as at first, or each by
   /// itself.
   void show_body(bool is_shown) { is_body_shown_ = is_shown; }
-  void reset();
 
  private:
   /// The last inputs of a convolution, one row of `width` numbers for each of `rows`.

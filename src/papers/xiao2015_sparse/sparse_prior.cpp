@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/cells.hpp"
 #include "body/body_names.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/text.hpp"
@@ -307,13 +308,6 @@ namespace {
 // Chosen by hand.
 constexpr std::size_t most_poselets = 100;  // the limit of a model file
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view space = " \t\r";
-  const std::size_t first = text.find_first_not_of(space);
-  if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(space) - first + 1);
-}
-
 // A line of the file, with its place for errors.
 struct Line {
   std::string_view file, text;
@@ -385,7 +379,7 @@ std::vector<std::string> left_over(const std::vector<SparsePoselet>& poselets,
 
 std::vector<SparsePoselet> parse_poselets(std::string_view text, std::string_view name,
                                           const BodyLayout& layout, const SparsePoints& points) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  text = without_byte_order_mark(text);
   std::vector<SparsePoselet> poselets;
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
