@@ -280,8 +280,7 @@ bool is_named(const std::string& name) {
 std::vector<std::size_t> named_markers(const Take& clip) {
   std::vector<std::size_t> markers;
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
-    if ((clip.is_position.empty() || clip.is_position[m] != 0) && is_named(clip.names[m]))
-      markers.push_back(m);
+    if (clip.holds_positions(m) && is_named(clip.names[m])) markers.push_back(m);
   }
   return markers;
 }
