@@ -1,4 +1,5 @@
-// Spans of frames, runs of frames with a property, and seconds as a number of frames.
+// Spans of frames, runs of frames with a property, fades across a span, and seconds as a number of
+// frames.
 #pragma once
 
 #include <algorithm>
@@ -38,5 +39,8 @@ inline std::size_t frames_in(double seconds, double frame_rate_hz, std::size_t l
   const double frames = std::round(seconds * frame_rate_hz);
   return std::max(least, static_cast<std::size_t>(std::min(frames, most)));
 }
+
+/// The weight of a fade at the share `x` (0..1) of its way: rises from 0 to 1, level at both ends.
+constexpr double smooth_step(double x) { return x * x * (3 - 2 * x); }
 
 }  // namespace kinemend

@@ -49,12 +49,10 @@ Contact measure(const std::vector<SolePoint>& points,
 }  // namespace
 
 std::vector<SolePoint> sole_points(const BodyPoints& body, const Foot& foot, Up up) {
-  // Heights and speeds are means over this time on either side. Chosen by hand, not swept.
-  constexpr double reach_s = 0.02;
   std::vector<SolePoint> points;
   points.reserve(foot.points.size());
   for (const std::size_t index : foot.points)
-    points.push_back(sole_point(body, index, up, ContactThresholds{}, reach_s));
+    points.push_back(sole_point(body, index, up, ContactThresholds{}, feet::usual_reach_s));
   return points;
 }
 

@@ -16,6 +16,7 @@
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/experimental/wildcards.hpp"
 #include "kinemend/feet.hpp"
+#include "motion/take.hpp"
 
 namespace kinemend::check {
 
@@ -24,10 +25,7 @@ namespace {
 // The joints from the root to the first with several children carry the whole body, so no motor
 // turns them.
 std::vector<std::uint8_t> motor_joints(const Skeleton& skeleton) {
-  std::vector<std::size_t> children(skeleton.joint_count());
-  for (const std::int32_t parent : skeleton.parents) {
-    if (parent >= 0) ++children[static_cast<std::size_t>(parent)];
-  }
+  const std::vector<std::size_t> children = child_counts(skeleton);
   std::vector<std::uint8_t> has_motor(skeleton.joint_count(), 1);
   for (std::size_t j = 0; j < skeleton.joint_count(); ++j) {
     const std::int32_t parent = skeleton.parents[j];

@@ -27,7 +27,7 @@ ContactThresholds thresholds_of(const ContactSettings& s) {
 
 // Means are taken over 20 to 100 ms on either side (docs/details/feet.md, "Jitter"). Chosen by
 // hand, not swept.
-constexpr double least_mean_s = 0.02, most_mean_s = 0.1;
+constexpr double least_mean_s = usual_reach_s, most_mean_s = 0.1;
 
 // Returns the noise of a coordinate in one frame, from third differences, in which motion is small.
 double noise_of(const BodyPoints& body, std::size_t point) {
@@ -94,16 +94,13 @@ std::vector<double> paces_of(const LegMotion& motion, Up up) {
   // Chosen by hand, not swept.
   constexpr double walk = 1.2;     // body heights a second: from 2 m/s on people run
   constexpr double reach_s = 0.1;  // on either side, over which the speed is measured
-  const auto reach = static_cast<std::size_t>(std::lround(reach_s * motion.frame_rate_hz));
-  std::vector<Vec3> hips(motion.frames);
-  for (std::size_t i = 0; i < motion.poses.size(); ++i)
-    hips[i / motion.legs()] += (1.0 / static_cast<double>(motion.legs())) * motion.poses[i].hip_at;
+  const std::size_t reach = frames_in(reach_s, motion.frame_rate_hz, 0);
   std::vector<double> paces(motion.frames, 1);
   for (std::size_t f = 0; f < motion.frames; ++f) {
     const std::size_t first = f < reach ? 0 : f - reach;
     const std::size_t last = std::min(f + reach, motion.frames - 1);
     if (last == first) continue;
-    const Vec3 way = level_part(hips[last] - hips[first], up);
+    const Vec3 way = level_part(motion.hips_at(last) - motion.hips_at(first), up);
     const double speed = norm(way) * motion.frame_rate_hz / static_cast<double>(last - first);
     paces[f] = std::max(1.0, speed / (walk * motion.height));
   }

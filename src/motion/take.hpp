@@ -1,6 +1,6 @@
 // Gives access to the motion of a clip without its calibration frames, finds the joints that turn
-// at all, notes the number of a file's first frame, and checks values for `validate` of skeletons
-// and takes.
+// at all, counts the children of joints, notes the number of a file's first frame, and checks
+// values for `validate` of skeletons and takes.
 #pragma once
 
 #include <fmt/format.h>
@@ -34,6 +34,9 @@ const Take& frames_from(const Take& clip, std::size_t first, std::optional<Take>
 bool joint_moves(const Take& clip, std::size_t joint);
 /// Returns all joints that move, in the skeleton's order.
 std::vector<std::size_t> moving_joints(const Take& clip);
+
+/// Returns the number of children of each joint, end sites not included.
+std::vector<std::size_t> child_counts(const Skeleton& skeleton);
 
 inline bool is_finite(Vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);

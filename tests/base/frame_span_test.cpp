@@ -1,4 +1,4 @@
-// Tests of runs of frames, and of seconds as frames.
+// Tests of runs of frames, of seconds as frames, and of fades.
 #include "base/frame_span.hpp"
 
 #include <gtest/gtest.h>
@@ -38,6 +38,15 @@ TEST(FramesInSeconds, AreRoundedAndNotBelowTheLeast) {
   EXPECT_EQ(frames_in(0.001, 60, 0), 0u);
   EXPECT_EQ(frames_in(0.001, 60, 2), 2u);
   EXPECT_EQ(frames_in(1e9, 60, 0), 1'000'000'000u);
+}
+
+TEST(SmoothStep, RisesFromZeroToOneAndIsLevelAtBothEnds) {
+  EXPECT_EQ(smooth_step(0), 0);
+  EXPECT_EQ(smooth_step(0.25), 0.15625);
+  EXPECT_EQ(smooth_step(0.5), 0.5);
+  EXPECT_EQ(smooth_step(1), 1);
+  EXPECT_LT(smooth_step(1e-4), 1e-7);
+  EXPECT_GT(smooth_step(1 - 1e-4), 1 - 1e-7);
 }
 
 }  // namespace
