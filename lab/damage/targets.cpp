@@ -8,6 +8,7 @@
 
 #include "kinemend/error.hpp"
 #include "motion/names.hpp"
+#include "motion/take.hpp"
 
 namespace kinemend::corrupt {
 
@@ -29,14 +30,6 @@ std::vector<std::uint8_t> named_tracks(const std::vector<std::string>& names, st
   const std::vector<std::string> patterns = split(list);
   if (patterns.empty() && !list.empty()) return std::vector<std::uint8_t>(names.size(), 0);
   return names_meant(names, patterns, noun);
-}
-
-std::vector<std::size_t> child_counts(const Skeleton& skeleton) {
-  std::vector<std::size_t> counts(skeleton.joint_count(), 0);
-  for (const std::int32_t parent : skeleton.parents) {
-    if (parent >= 0) ++counts[static_cast<std::size_t>(parent)];
-  }
-  return counts;
 }
 
 // Returns the first joint of each joint's limb, before short limbs are joined to others.

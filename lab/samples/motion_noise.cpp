@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/frame_span.hpp"
 #include "base/portable.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "kinemend/rotation.hpp"
@@ -130,7 +131,7 @@ void keyframe(PoseMatrix& poses, double rate_hz, Random& random) {
     const std::size_t from = keys[k], to = keys[k + 1];
     for (std::size_t f = from + 1; f < to; ++f) {
       const double t = static_cast<double>(f - from) / static_cast<double>(to - from);
-      const double share = kind < 0.3 ? t : kind < 0.85 ? t * t * (3 - 2 * t) : 0;
+      const double share = kind < 0.3 ? t : kind < 0.85 ? smooth_step(t) : 0;
       for (std::size_t c = 0; c < poses.channels; ++c)
         poses(f, c) = keyed(from, c) + share * (keyed(to, c) - keyed(from, c));
     }

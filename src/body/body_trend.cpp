@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/frame_span.hpp"
 #include "base/portable.hpp"
 #include "base/quantiles.hpp"
 #include "body/representation.hpp"
@@ -108,7 +109,7 @@ class LocalFit {
     const double line = sums.line();
     const auto to_end = static_cast<double>(std::min(frame, track_.size() - 1 - frame));
     const double u = std::min(1.0, to_end / end_frames_);
-    return line + u * u * (3 - 2 * u) * (sums.parabola(line) - line);
+    return line + smooth_step(u) * (sums.parabola(line) - line);
   }
 
  private:

@@ -10,6 +10,7 @@
 
 #include "check/checks.hpp"
 #include "kinemend/error.hpp"
+#include "motion/names.hpp"
 #include "motion/take.hpp"
 
 namespace kinemend {
@@ -124,21 +125,12 @@ CheckReport report_on_markers(const Take& clip, MarkerRows& rows) {
   report.noise_unit = clip.unit;
   rows.track_of.assign(clip.marker_count(), -1);
   for (std::size_t m = 0; m < clip.marker_count(); ++m) {
-    if (!clip.is_position.empty() && clip.is_position[m] == 0) continue;
+    if (!clip.holds_positions(m)) continue;
     rows.track_of[m] = static_cast<std::int32_t>(rows.markers.size());
     rows.markers.push_back(m);
     report.tracks.push_back({clip.names[m]});
   }
   return report;
-}
-
-// Returns the markers of the person with the most markers, or all if there are no subjects.
-const std::vector<std::size_t>& largest_of(const std::vector<Subject>& subjects,
-                                           const std::vector<std::size_t>& markers) {
-  const auto largest = std::max_element(
-      subjects.begin(), subjects.end(),
-      [](const Subject& a, const Subject& b) { return a.markers.size() < b.markers.size(); });
-  return largest == subjects.end() ? markers : largest->markers;
 }
 
 std::vector<Finding> beyond_cleaning(std::vector<Finding> findings) {
@@ -183,7 +175,7 @@ CheckReport check_markers(const Take& clip, const CheckSettings& settings) {
   report.source = source_of(clip, settings.source);
   const auto& [markers, track_of] = rows;
   const std::vector<Subject> subjects = subjects_of(clip);
-  check::check_unit(clip, largest_of(subjects, markers), settings, report);
+  check::check_unit(clip, largest_subject(clip).markers, settings, report);
   check::check_gaps(find_gaps(clip), track_of, report);
   check::check_swaps(clip, track_of, report);
   // Without this, other checks would report an exchange of labels twice for both tracks.
@@ -222,8 +214,7 @@ std::vector<Finding> beyond_cleaning_of_markers(const Take& clip) {
   const CheckSettings settings;
   MarkerRows rows;
   CheckReport report = report_on_markers(clip, rows);
-  const std::vector<Subject> subjects = subjects_of(clip);
-  check::check_unit(clip, largest_of(subjects, rows.markers), settings, report);
+  check::check_unit(clip, largest_subject(clip).markers, settings, report);
   check::check_gaps(find_gaps(clip), rows.track_of, report);
   check::check_swaps(clip, rows.track_of, report);
   check::check_stale(clip, rows.markers, settings, report);

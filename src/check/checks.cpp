@@ -1,11 +1,12 @@
-// Names kinds of findings, sorts findings by their importance, and finds runs of flagged frames
-// that chance does not explain.
+// Names kinds of findings, sorts findings by their importance, measures the distances between
+// markers, and finds runs of flagged frames that chance does not explain.
 #include "check/checks.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <tuple>
+#include <utility>
 
 #include "base/portable.hpp"
 
@@ -88,6 +89,40 @@ void sort_worst_first(std::vector<Finding>& findings) {
   };
   std::stable_sort(findings.begin(), findings.end(),
                    [&](const Finding& a, const Finding& b) { return key(a) < key(b); });
+}
+
+std::vector<std::size_t> frames_looked_at(std::size_t frames) {
+  constexpr std::size_t most_looked_at = 200;  // for speed, not swept
+  const std::size_t count = std::min(frames, most_looked_at);
+  std::vector<std::size_t> some;
+  for (std::size_t i = 0; i < count; ++i) some.push_back(i * frames / count);
+  return some;
+}
+
+std::vector<Neighbour> neighbours_of(const Take& clip, const std::vector<std::size_t>& markers,
+                                     std::size_t of, const std::vector<std::size_t>& frames,
+                                     double tail, std::size_t fewest_frames) {
+  std::vector<Neighbour> found;
+  std::vector<double> distances;
+  for (const std::size_t n : markers) {
+    if (n == of) continue;
+    distances.clear();
+    for (const std::size_t f : frames) {
+      if (clip.is_observed(f, of) && clip.is_observed(f, n))
+        distances.push_back(norm(clip.position(f, of) - clip.position(f, n)));
+    }
+    if (distances.size() < fewest_frames) continue;
+    const double low = quantile_of(distances, tail), high = quantile_of(distances, 1 - tail);
+    found.push_back({n, median_of(distances), high - low});
+  }
+  std::sort(found.begin(), found.end(), [](const Neighbour& a, const Neighbour& b) {
+    return std::pair(a.spread, a.marker) < std::pair(b.spread, b.marker);
+  });
+  return found;
+}
+
+void put_largest(double value, std::optional<double>& largest) {
+  largest = std::max(value, largest.value_or(value));
 }
 
 }  // namespace check

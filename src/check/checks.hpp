@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,26 @@
 
 namespace kinemend::check {
 
-/// The number of frames, evenly spread over the take, from which usual values are estimated: for
-/// speed, not swept.
-inline constexpr std::size_t most_looked_at = 200;
+/// Returns the frames from which usual values are estimated: all of a take of so many `frames`, or
+/// 200 of them, evenly spread, ascending.
+std::vector<std::size_t> frames_looked_at(std::size_t frames);
+
+/// A marker at a distance from another.
+struct Neighbour {
+  std::size_t marker = 0;
+  double distance = 0;  ///< the median
+  double spread = 0;    ///< of the distance
+};
+/// Returns the other markers as neighbours of marker `of`, those with the least spread first. Only
+/// the given frames are compared, and only markers are returned that are seen together with `of` in
+/// at least `fewest_frames` of them. The spread leaves out a share `tail` of the distances at
+/// either end.
+std::vector<Neighbour> neighbours_of(const Take& clip, const std::vector<std::size_t>& markers,
+                                     std::size_t of, const std::vector<std::size_t>& frames,
+                                     double tail, std::size_t fewest_frames);
+
+/// Raises `largest` to a value above it; sets it if it is not known yet.
+void put_largest(double value, std::optional<double>& largest);
 
 /// Sorts findings: serious ones first, then by kind, figure, frame and track.
 void sort_worst_first(std::vector<Finding>& findings);
@@ -78,21 +96,6 @@ void check_jumps(const Take& clip, const std::vector<std::size_t>& markers,
 void check_robot_feet(const Take& clip, const CheckSettings& settings, CheckReport& report);
 void check_robot_feet(const Take& clip, const std::vector<Subject>& subjects,
                       const CheckSettings& settings, CheckReport& report);
-
-/// Returns the runs of frames for which `holds` is true.
-template <class Holds>
-std::vector<FrameSpan> runs_where(std::size_t frames, const Holds& holds) {
-  std::vector<FrameSpan> runs;
-  for (std::size_t t = 0; t < frames; ++t) {
-    if (!holds(t)) continue;
-    if (!runs.empty() && runs.back().last + 1 == t) {
-      runs.back().last = t;
-    } else {
-      runs.push_back({t, t});
-    }
-  }
-  return runs;
-}
 
 /// One flag for each step of each of N tracks, from the track's samples.
 enum class Flag : std::uint8_t {

@@ -49,12 +49,10 @@ Contact measure(const std::vector<SolePoint>& points,
 }  // namespace
 
 std::vector<SolePoint> sole_points(const BodyPoints& body, const Foot& foot, Up up) {
-  // Heights and speeds are means over this time on either side. Chosen by hand, not swept.
-  constexpr double reach_s = 0.02;
   std::vector<SolePoint> points;
   points.reserve(foot.points.size());
   for (const std::size_t index : foot.points)
-    points.push_back(sole_point(body, index, up, ContactThresholds{}, reach_s));
+    points.push_back(sole_point(body, index, up, ContactThresholds{}, feet::usual_reach_s));
   return points;
 }
 
@@ -78,6 +76,13 @@ std::vector<Contact> find_contacts(const BodyPoints& body, Up up) {
     }
   }
   return contacts;
+}
+
+std::optional<Up> up_of_body(const BodyPoints& body, const CheckSettings& settings) {
+  // Shorter takes say nothing about contacts. Chosen by hand, not swept.
+  constexpr std::size_t fewest_frames = 10;
+  if (body.feet.empty() || body.frames < fewest_frames) return std::nullopt;
+  return settings.up ? Up{*settings.up, 1} : find_up(body);
 }
 
 std::vector<FrameSpan> find_flights(const BodyPoints& body, Up up) {
@@ -115,10 +120,6 @@ double fall(const BodyPoints& body, Up up, const FrameSpan& span) {
 }
 
 namespace {
-
-void put_largest(double value, std::optional<double>& largest) {
-  largest = std::max(value, largest.value_or(value));
-}
 
 // The number of frames in which a foot is low, and of those in which one has ground contact.
 struct TimeOnFloor {
@@ -247,10 +248,7 @@ void report_rate_of_fall(const BodyPoints& body, Up up, CheckReport& report) {
 }
 
 void check_points(const BodyPoints& body, const CheckSettings& settings, CheckReport& report) {
-  // Shorter takes say nothing about contacts. Chosen by hand, not swept.
-  constexpr std::size_t fewest_frames = 10;
-  if (body.feet.empty() || body.frames < fewest_frames) return;
-  const std::optional<Up> up = settings.up ? Up{*settings.up, 1} : find_up(body);
+  const std::optional<Up> up = up_of_body(body, settings);
   if (!up) return;
   report_feet(body, *up, settings, report);
   report_rate_of_fall(body, *up, report);

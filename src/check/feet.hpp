@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "check/checks.hpp"
@@ -27,6 +28,10 @@ struct Contact {
 /// Finds contacts, by foot, then frame. A point touches the floor if it is slow and near its usual
 /// standing height; the thresholds to begin are tighter than those to continue (hysteresis).
 std::vector<Contact> find_contacts(const BodyPoints& body, Up up);
+
+/// Returns the direction that is up: that of the settings, or else that of the body above its feet.
+/// None if that is ambiguous, if the body has no feet, or if it has less than 10 frames.
+std::optional<Up> up_of_body(const BodyPoints& body, const CheckSettings& settings);
 
 /// Returns the spans in which every point of every foot is clear of the floor.
 std::vector<FrameSpan> find_flights(const BodyPoints& body, Up up);

@@ -22,10 +22,8 @@ std::string size_text(double metres) {
 
 // Returns the median over frames of the largest extent along an axis, in file units.
 double usual_extent(const Take& clip, const std::vector<std::size_t>& markers) {
-  const std::size_t frames = clip.frame_count(), count = std::min(frames, most_looked_at);
   std::vector<double> extents;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t f = i * frames / count;
+  for (const std::size_t f : frames_looked_at(clip.frame_count())) {
     std::size_t seen = 0;
     Vec3 low, high;
     for (const std::size_t m : markers) {

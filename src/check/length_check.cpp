@@ -54,39 +54,17 @@ bool carries_the_body(const Skeleton& skeleton, std::int32_t joint) {
   return true;
 }
 
-struct RigidNeighbour {
-  std::size_t marker = 0;
-  double distance = 0;
-  double spread = 0;  // 10th to 90th percentile
-};
-
 // Returns markers at a nearly constant distance, as those on the same segment are.
-std::vector<RigidNeighbour> rigid_neighbours(const Take& clip,
-                                             const std::vector<std::size_t>& markers,
-                                             std::size_t of) {
+std::vector<Neighbour> rigid_neighbours(const Take& clip, const std::vector<std::size_t>& markers,
+                                        std::size_t of, const std::vector<std::size_t>& frames) {
   // The spread of a rigid distance, 10th to 90th percentile, relative to the distance. Chosen by
   // hand, not swept.
-  constexpr double rigid_share = 0.04;
+  constexpr double tail = 0.1, rigid_share = 0.04;
   // The number of neighbours kept, and of frames in which both are seen. Chosen by hand, not swept.
   constexpr std::size_t wanted = 4, fewest_frames = 20;
-  const std::size_t frames = clip.frame_count(), count = std::min(frames, most_looked_at);
-  std::vector<RigidNeighbour> found;
-  std::vector<double> distances;
-  for (const std::size_t n : markers) {
-    if (n == of) continue;
-    distances.clear();
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t f = i * frames / count;
-      if (clip.is_observed(f, of) && clip.is_observed(f, n))
-        distances.push_back(norm(clip.position(f, of) - clip.position(f, n)));
-    }
-    if (distances.size() < fewest_frames) continue;
-    const double spread = quantile_of(distances, 0.9) - quantile_of(distances, 0.1);
-    const double middle = median_of(distances);
-    if (middle > 0 && spread < rigid_share * middle) found.push_back({n, middle, spread});
-  }
-  std::sort(found.begin(), found.end(), [](const RigidNeighbour& a, const RigidNeighbour& b) {
-    return std::pair(a.spread, a.marker) < std::pair(b.spread, b.marker);
+  std::vector<Neighbour> found = neighbours_of(clip, markers, of, frames, tail, fewest_frames);
+  std::erase_if(found, [](const Neighbour& n) {
+    return !(n.distance > 0 && n.spread < rigid_share * n.distance);
   });
   if (found.size() > wanted) found.resize(wanted);
   return found;
@@ -95,12 +73,12 @@ std::vector<RigidNeighbour> rigid_neighbours(const Take& clip,
 // A marker that slips on its segment changes its distance to most neighbours; they change theirs
 // only to it.
 std::vector<double> departures(const Take& clip, std::size_t marker,
-                               const std::vector<RigidNeighbour>& neighbours) {
+                               const std::vector<Neighbour>& neighbours) {
   std::vector<double> result(clip.frame_count(), -1), now;
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     if (!clip.is_observed(f, marker)) continue;
     now.clear();
-    for (const RigidNeighbour& n : neighbours) {
+    for (const Neighbour& n : neighbours) {
       if (!clip.is_observed(f, n.marker)) continue;
       const double distance = norm(clip.position(f, marker) - clip.position(f, n.marker));
       now.push_back(100 * std::fabs(distance - n.distance) / n.distance);
@@ -131,8 +109,9 @@ void check_lengths(const Take& clip, const CheckSettings& settings, CheckReport&
 
 void check_lengths(const Take& clip, const std::vector<std::size_t>& markers,
                    const CheckSettings& settings, CheckReport& report) {
+  const std::vector<std::size_t> frames = frames_looked_at(clip.frame_count());
   for (const std::size_t m : markers) {
-    const std::vector<RigidNeighbour> neighbours = rigid_neighbours(clip, markers, m);
+    const std::vector<Neighbour> neighbours = rigid_neighbours(clip, markers, m, frames);
     if (neighbours.size() < 2) continue;
     report_length(departures(clip, m, neighbours), clip.names[m], settings,
                   fmt::format("moves away from its place between {} and {}",

@@ -16,6 +16,7 @@
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/experimental/wildcards.hpp"
 #include "kinemend/feet.hpp"
+#include "motion/take.hpp"
 
 namespace kinemend::check {
 
@@ -24,10 +25,7 @@ namespace {
 // The joints from the root to the first with several children carry the whole body, so no motor
 // turns them.
 std::vector<std::uint8_t> motor_joints(const Skeleton& skeleton) {
-  std::vector<std::size_t> children(skeleton.joint_count());
-  for (const std::int32_t parent : skeleton.parents) {
-    if (parent >= 0) ++children[static_cast<std::size_t>(parent)];
-  }
+  const std::vector<std::size_t> children = child_counts(skeleton);
   std::vector<std::uint8_t> has_motor(skeleton.joint_count(), 1);
   for (std::size_t j = 0; j < skeleton.joint_count(); ++j) {
     const std::int32_t parent = skeleton.parents[j];
@@ -280,24 +278,15 @@ void mark_contacts(const Take& clip, const CheckSettings& settings, const BodyPo
   }
 }
 
-double deepest_in(const std::vector<double>& depths, const FrameSpan& span) {
-  return *std::max_element(depths.begin() + static_cast<std::ptrdiff_t>(span.first),
-                           depths.begin() + static_cast<std::ptrdiff_t>(span.last + 1));
-}
-
-void put_larger(double value, std::optional<double>& known) {
-  known = std::max(value, known.value_or(0));
-}
-
 void report_penetration(const BodyPoints& body, const FeetByFrame& all,
                         const RobotSettings& settings, CheckReport& report) {
   for (std::size_t i = 0; i < body.feet.size(); ++i) {
     const std::vector<double>& depths = all.depths[i];
-    put_larger(100 * deepest_in(depths, {0, body.frames - 1}), report.figures.penetration_cm);
+    put_largest(100 * largest_in(depths, {0, body.frames - 1}), report.figures.penetration_cm);
     const auto is_deep = [&](std::size_t f) { return 100 * depths[f] > settings.penetration_cm; };
     for (const FrameSpan& span : runs_where(body.frames, is_deep)) {
       report.findings.push_back({FindingKind::penetration, Severity::warning, body.feet[i].name,
-                                 span.first, span.last, 100 * deepest_in(depths, span), "cm",
+                                 span.first, span.last, 100 * largest_in(depths, span), "cm",
                                  "goes below the level on which it stands"});
     }
   }
@@ -314,7 +303,7 @@ void report_floating_feet(const BodyPoints& body, const FeetByFrame& all,
       }
       if (heights.empty()) continue;
       const double cm = 100 * median_of(heights);
-      put_larger(cm, report.figures.floating_cm);
+      put_largest(std::max(cm, 0.0), report.figures.floating_cm);
       if (cm <= settings.floating_cm) continue;
       report.findings.push_back({FindingKind::floating, Severity::warning, body.feet[i].name,
                                  span.first, span.last, cm, "cm",
@@ -366,12 +355,6 @@ void report_floor(const BodyPoints& body, Up up, const RobotSettings& settings,
       {FindingKind::floor, Severity::note, "", 0, body.frames - 1, cm, "cm",
        fmt::format("the floor is {} height 0; convert --floor-at-zero moves it there",
                    cm > 0 ? "above" : "below")});
-}
-
-std::optional<Up> up_of_body(const BodyPoints& body, const CheckSettings& settings) {
-  constexpr std::size_t fewest_frames = 10;
-  if (body.feet.empty() || body.frames < fewest_frames) return std::nullopt;
-  return settings.up ? Up{*settings.up, 1} : find_up(body);
 }
 
 }  // namespace

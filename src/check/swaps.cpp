@@ -192,41 +192,19 @@ std::vector<std::size_t> spread_frames(const std::vector<std::uint8_t>& swapped,
   for (std::size_t f = 0; f < swapped.size(); ++f) {
     if (swapped[f] == wanted) frames.push_back(f);
   }
-  if (frames.size() <= most_looked_at) return frames;
   std::vector<std::size_t> some;
-  for (std::size_t i = 0; i < most_looked_at; ++i)
-    some.push_back(frames[i * frames.size() / most_looked_at]);
+  for (const std::size_t i : frames_looked_at(frames.size())) some.push_back(frames[i]);
   return some;
 }
 
-struct Neighbour {
-  std::size_t marker = 0;
-  double usual = 0;   // distance
-  double spread = 0;  // quartile range of the distance
-};
-
-// Returns the markers whose distance has the least spread.
+// Returns the markers whose distance has the least spread, as quartile range.
 std::vector<Neighbour> steady_neighbours(const Take& clip, const std::vector<std::size_t>& markers,
                                          std::size_t of, std::size_t except,
                                          const std::vector<std::size_t>& frames) {
   // The number of neighbours used, and of frames in which both are seen. Chosen by hand, not swept.
   constexpr std::size_t wanted = 5, fewest_frames = 8;
-  std::vector<Neighbour> found;
-  std::vector<double> distances;
-  for (const std::size_t n : markers) {
-    if (n == of || n == except) continue;
-    distances.clear();
-    for (const std::size_t f : frames) {
-      if (clip.is_observed(f, of) && clip.is_observed(f, n))
-        distances.push_back(norm(clip.position(f, of) - clip.position(f, n)));
-    }
-    if (distances.size() < fewest_frames) continue;
-    const double low = quantile_of(distances, 0.25), high = quantile_of(distances, 0.75);
-    found.push_back({n, median_of(distances), high - low});
-  }
-  std::sort(found.begin(), found.end(), [](const Neighbour& a, const Neighbour& b) {
-    return std::pair(a.spread, a.marker) < std::pair(b.spread, b.marker);
-  });
+  std::vector<Neighbour> found = neighbours_of(clip, markers, of, frames, 0.25, fewest_frames);
+  std::erase_if(found, [&](const Neighbour& n) { return n.marker == except; });
   if (found.size() > wanted) found.resize(wanted);
   return found;
 }
@@ -247,9 +225,9 @@ NeighbourVerdict ask_neighbours(const Take& clip, const std::vector<std::size_t>
         if (!clip.is_observed(f, n.marker)) continue;
         const Vec3 at = clip.position(f, n.marker);
         if (clip.is_observed(f, marker))
-          kept.push_back(std::fabs(norm(clip.position(f, marker) - at) - n.usual));
+          kept.push_back(std::fabs(norm(clip.position(f, marker) - at) - n.distance));
         if (clip.is_observed(f, other))
-          given.push_back(std::fabs(norm(clip.position(f, other) - at) - n.usual));
+          given.push_back(std::fabs(norm(clip.position(f, other) - at) - n.distance));
       }
       if (kept.empty() || given.empty()) continue;
       as_labelled.push_back(median_of(kept));

@@ -111,8 +111,6 @@ double blend_position(Vec3 from, Vec3& to, double weight, std::array<bool, 3> ax
   return distance;
 }
 
-double smooth_step(double x) { return x * x * (3 - 2 * x); }
-
 // Whether some sample is changed only partly.
 bool goes_part_way(const std::vector<double>& weights) {
   return std::any_of(weights.begin(), weights.end(), [](double w) { return w > 0 && w < 1; });

@@ -106,6 +106,9 @@ TrackReport report_track(std::string name, std::size_t owner, const TrackEdit<Sa
                          const TrackChanges& changes, const TrackMeasure& measure,
                          const ColouredNoise& taken, const ReportScale& scale);
 
+/// Returns "joint" or "marker".
+const char* noun_of(TakeKind kind);
+
 /// Returns one line for all lost peaks and one for all large changes, with the worst few by name.
 std::vector<std::string> warnings_of(const std::vector<TrackReport>& tracks, TakeKind kind,
                                      const ReportScale& scale);

@@ -11,6 +11,7 @@
 #include <utility>
 #include <variant>
 
+#include "clean/changes.hpp"
 #include "kinemend/check.hpp"
 #include "kinemend/experimental/text.hpp"
 
@@ -116,15 +117,14 @@ Leftover noise_left(const CleanReport& report, double metres_per_unit) {
   }
   if (count == 0) return {};
   return {
-      fmt::format("jitter on {} left, {} {} at most",
-                  counted(count, is_joints ? "joint" : "marker"), figure(worst), report.unit),
+      fmt::format("jitter on {} left, {} {} at most", counted(count, noun_of(report.kind)),
+                  figure(worst), report.unit),
       fmt::format("{} takes it for motion; --method butterworth --cutoff-hz 6 smooths it anyway",
                   report.method)};
 }
 
 // Noise that a check finds in the tracks selected for cleaning.
 Leftover noise_not_measured(const CheckReport& check, const CleanReport& report) {
-  const bool is_joints = report.kind == TakeKind::joints;
   std::size_t count = 0;
   double worst = 0;
   for (const Finding& finding : check.findings) {
@@ -135,12 +135,11 @@ Leftover noise_not_measured(const CheckReport& check, const CleanReport& report)
     worst = std::max(worst, finding.figure);
   }
   if (count == 0) return {};
-  return {
-      fmt::format("kinemend check finds jitter on {}, {} {} at most",
-                  counted(count, is_joints ? "joint" : "marker"), figure(worst), check.noise_unit),
-      fmt::format("{} measured none and changed nothing; --method butterworth --cutoff-hz 6 "
-                  "smooths it anyway",
-                  report.method)};
+  return {fmt::format("kinemend check finds jitter on {}, {} {} at most",
+                      counted(count, noun_of(report.kind)), figure(worst), check.noise_unit),
+          fmt::format("{} measured none and changed nothing; --method butterworth --cutoff-hz 6 "
+                      "smooths it anyway",
+                      report.method)};
 }
 
 }  // namespace

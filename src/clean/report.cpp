@@ -214,9 +214,11 @@ TrackReport report_track(std::string name, std::size_t owner, const TrackEdit<Sa
   return report;
 }
 
+const char* noun_of(TakeKind kind) { return kind == TakeKind::markers ? "marker" : "joint"; }
+
 std::vector<std::string> warnings_of(const std::vector<TrackReport>& tracks, TakeKind kind,
                                      const ReportScale& scale) {
-  const char* const noun = kind == TakeKind::markers ? "marker" : "joint";
+  const char* const noun = noun_of(kind);
   std::vector<std::string> warnings;
   const auto losses =
       worst_first(tracks, &TrackReport::lost_peak, [](const PeakLoss& loss) { return loss.share; });

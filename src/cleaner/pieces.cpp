@@ -47,8 +47,7 @@ void bridge_smoothly(Path& path, std::size_t before, std::size_t after, std::siz
   const Vec3 arriving = velocity_beside(path, after, 1, support).value_or(straight);
   for (std::size_t f = before + 1; f < after; ++f) {
     const double u = static_cast<double>(f - before) / length;
-    path.samples[f] = start + (u * u * (3 - 2 * u)) * way +
-                      (length * u * (1 - u) * (1 - u)) * leaving -
+    path.samples[f] = start + smooth_step(u) * way + (length * u * (1 - u) * (1 - u)) * leaving -
                       (length * u * u * (1 - u)) * arriving;
   }
 }
@@ -159,7 +158,7 @@ void fill_between(const Path* before, const Path* after, double frame_rate_hz,
   for (std::size_t f = first; f < last; ++f) {
     const double since = static_cast<double>(f - first + 1), until = static_cast<double>(last - f);
     const double u = !before ? 1 : !after ? 0 : since / (since + until);
-    const double share = u * u * (3 - 2 * u);
+    const double share = smooth_step(u);
     positions[f] = {};
     if (before) positions[f] += (1 - share) * left.after(since, decay_frames);
     if (after) positions[f] += share * right.after(-until, -decay_frames);

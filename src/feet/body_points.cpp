@@ -17,6 +17,7 @@
 #include "kinemend/feet.hpp"
 #include "kinemend/metrics.hpp"
 #include "kinemend/take.hpp"
+#include "motion/take.hpp"
 
 namespace kinemend::feet {
 
@@ -75,10 +76,7 @@ std::vector<std::size_t> points_below(const Skeleton& skeleton, std::size_t join
 // Returns the pelvis: the first joint with several children. Some roots stay at the origin, and a
 // joint below them carries the body.
 std::size_t carrier_of(const Skeleton& skeleton) {
-  std::vector<std::size_t> children(skeleton.joint_count());
-  for (const std::int32_t parent : skeleton.parents) {
-    if (parent >= 0) ++children[static_cast<std::size_t>(parent)];
-  }
+  const std::vector<std::size_t> children = child_counts(skeleton);
   const auto found =
       std::find_if(children.begin(), children.end(), [](std::size_t count) { return count > 1; });
   return found == children.end() ? 0 : static_cast<std::size_t>(found - children.begin());
@@ -167,7 +165,7 @@ BodyPoints body_points(const Take& clip, const std::vector<std::size_t>& markers
     }
     body.centres.push_back((1.0 / static_cast<double>(std::max<std::size_t>(seen, 1))) * sum);
   }
-  body.height = 1.7;
+  body.height = usual_height_m;
   return body;
 }
 

@@ -13,6 +13,9 @@
 
 namespace kinemend::feet {
 
+/// The height of a body of unknown height, metres (docs/feet.md). Chosen by hand, not swept.
+inline constexpr double usual_height_m = 1.7;
+
 /// The points of a foot that touch the floor.
 struct Foot {
   std::string name;                 ///< of the joint or marker that represents it

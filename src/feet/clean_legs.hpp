@@ -15,9 +15,7 @@
 
 namespace kinemend::feet {
 
-// Lengths by which floors are judged, in body heights. Chosen by hand, not swept; the height is
-// that of docs/feet.md.
-inline constexpr double usual_height_m = 1.7;    ///< converts metres
+// The length by which floors are judged, in body heights. Chosen by hand, not swept.
 inline constexpr double close_to_floor = 0.012;  ///< 2 cm
 
 /// The tracks that may change, and the state of the take.

@@ -27,7 +27,7 @@ ContactThresholds thresholds_of(const ContactSettings& s) {
 
 // Means are taken over 20 to 100 ms on either side (docs/details/feet.md, "Jitter"). Chosen by
 // hand, not swept.
-constexpr double least_mean_s = 0.02, most_mean_s = 0.1;
+constexpr double least_mean_s = usual_reach_s, most_mean_s = 0.1;
 
 // Returns the noise of a coordinate in one frame, from third differences, in which motion is small.
 double noise_of(const BodyPoints& body, std::size_t point) {
@@ -94,16 +94,13 @@ std::vector<double> paces_of(const LegMotion& motion, Up up) {
   // Chosen by hand, not swept.
   constexpr double walk = 1.2;     // body heights a second: from 2 m/s on people run
   constexpr double reach_s = 0.1;  // on either side, over which the speed is measured
-  const auto reach = static_cast<std::size_t>(std::lround(reach_s * motion.frame_rate_hz));
-  std::vector<Vec3> hips(motion.frames);
-  for (std::size_t i = 0; i < motion.poses.size(); ++i)
-    hips[i / motion.legs()] += (1.0 / static_cast<double>(motion.legs())) * motion.poses[i].hip_at;
+  const std::size_t reach = frames_in(reach_s, motion.frame_rate_hz, 0);
   std::vector<double> paces(motion.frames, 1);
   for (std::size_t f = 0; f < motion.frames; ++f) {
     const std::size_t first = f < reach ? 0 : f - reach;
     const std::size_t last = std::min(f + reach, motion.frames - 1);
     if (last == first) continue;
-    const Vec3 way = level_part(hips[last] - hips[first], up);
+    const Vec3 way = level_part(motion.hips_at(last) - motion.hips_at(first), up);
     const double speed = norm(way) * motion.frame_rate_hz / static_cast<double>(last - first);
     paces[f] = std::max(1.0, speed / (walk * motion.height));
   }
@@ -135,17 +132,8 @@ namespace feet {
 
 namespace {
 
-using Spans = std::vector<std::pair<std::size_t, std::size_t>>;  // first, last frame
-
-Spans spans_of(const std::vector<std::uint8_t>& flags) {
-  Spans spans;
-  for (std::size_t f = 0; f < flags.size(); ++f) {
-    if (flags[f] == 0) continue;
-    const std::size_t first = f;
-    while (f + 1 < flags.size() && flags[f + 1] != 0) ++f;
-    spans.emplace_back(first, f);
-  }
-  return spans;
+std::vector<FrameSpan> spans_of(const std::vector<std::uint8_t>& flags) {
+  return runs_where(flags.size(), [&](std::size_t f) { return flags[f] != 0; });
 }
 
 // Returns the height of a foot's lower part.
@@ -169,7 +157,7 @@ class ContactFinder {
     }
   }
 
-  Spans find(std::size_t point) const {
+  std::vector<FrameSpan> find(std::size_t point) const {
     const SolePoint& sole = soles_.points[point];
     const std::size_t leg = point / 2;
     const double height = soles_.height;
@@ -193,14 +181,16 @@ class ContactFinder {
     }
     const ContactThresholds thresholds{settings_.begin_height, settings_.keep_height,
                                        settings_.begin_speed, settings_.keep_speed};
-    Spans spans = without_short(spans_of(touches(sole, levels, speeds, height, thresholds)));
-    for (auto& span : spans) span = trimmed(sole, span);
+    std::vector<FrameSpan> spans =
+        without_short(spans_of(touches(sole, levels, speeds, height, thresholds)));
+    for (FrameSpan& span : spans) span = trimmed(sole, span);
     return without_short(spans);
   }
 
  private:
+  // Returns the frames of a time, at least two.
   std::size_t frames_in(double seconds) const {
-    return kinemend::frames_in(seconds, soles_.body.frame_rate_hz, 0);
+    return kinemend::frames_in(seconds, soles_.body.frame_rate_hz, 2);
   }
 
   // Returns the height of the floor under a foot that is slow in these frames.
@@ -219,7 +209,7 @@ class ContactFinder {
     // The least time of a stand, and of the part of it in which the foot is the lowest
     // (docs/details/feet.md, "Level"); the distance is in body heights. Chosen by hand, not swept.
     constexpr double least_s = 0.15, least_lowest_s = 0.1, most_travel = 0.02;
-    if (last - first + 1 < std::max<std::size_t>(frames_in(least_s), 2)) return false;
+    if (last - first + 1 < frames_in(least_s)) return false;
     std::vector<double> heights;
     std::size_t lowest = 0;
     for (std::size_t f = first; f <= last; ++f) {
@@ -229,7 +219,7 @@ class ContactFinder {
       });
       lowest += is_lowest ? 1 : 0;
     }
-    if (lowest < std::max<std::size_t>(frames_in(least_lowest_s), 2)) return false;
+    if (lowest < frames_in(least_lowest_s)) return false;
     const double low = quantile_of(heights, 0.1);
     if (quantile_of(heights, 0.9) - low > settings_.begin_height * soles_.height) return false;
     return std::any_of(soles_.points.begin() + static_cast<std::ptrdiff_t>(2 * leg),
@@ -243,12 +233,11 @@ class ContactFinder {
 
   // Removes the ends during which the part lands or leaves, because it is faster than its median or
   // at another height.
-  std::pair<std::size_t, std::size_t> trimmed(const SolePoint& sole,
-                                              std::pair<std::size_t, std::size_t> span) const {
+  FrameSpan trimmed(const SolePoint& sole, FrameSpan span) const {
     // See docs/details/feet.md, "Ends": body heights a second, and body heights (1 cm). Chosen by
     // hand, not swept.
     constexpr double times_median = 2.5, sure_speed = 0.05, sure_height = 0.006;
-    std::size_t first = span.first, last = span.second;
+    std::size_t first = span.first, last = span.last;
     const auto part = [&](const std::vector<double>& values) {
       return std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(first),
                                  values.begin() + static_cast<std::ptrdiff_t>(last + 1));
@@ -265,20 +254,17 @@ class ContactFinder {
     return {first, last};
   }
 
-  Spans without_short(const Spans& spans) const {
-    const std::size_t least = std::max<std::size_t>(frames_in(settings_.least_s), 2);
-    Spans bridged;
-    for (const auto& span : spans) {
-      if (!bridged.empty() && span.first - bridged.back().second - 1 < least)
-        bridged.back().second = span.second;
+  std::vector<FrameSpan> without_short(const std::vector<FrameSpan>& spans) const {
+    const std::size_t least = frames_in(settings_.least_s);
+    std::vector<FrameSpan> bridged;
+    for (const FrameSpan& span : spans) {
+      if (!bridged.empty() && span.first - bridged.back().last - 1 < least)
+        bridged.back().last = span.last;
       else
         bridged.push_back(span);
     }
-    Spans kept;
-    for (const auto& span : bridged) {
-      if (span.second - span.first + 1 >= least) kept.push_back(span);
-    }
-    return kept;
+    std::erase_if(bridged, [&](const FrameSpan& span) { return span.length() < least; });
+    return bridged;
   }
 
   const Soles& soles_;

@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/frame_span.hpp"
 #include "base/quantiles.hpp"
 
 namespace kinemend::feet {
@@ -17,7 +18,7 @@ namespace {
 
 // Returns the mean over the frames around each frame in which the point is seen.
 std::vector<Vec3> smoothed(const BodyPoints& body, std::size_t point, double reach_s) {
-  const auto reach = static_cast<std::size_t>(std::lround(reach_s * body.frame_rate_hz));
+  const std::size_t reach = frames_in(reach_s, body.frame_rate_hz, 0);
   std::vector<Vec3> result(body.frames);
   for (std::size_t f = 0; f < body.frames; ++f) {
     // The window is symmetric, so that a straight path is unchanged.
@@ -159,11 +160,11 @@ std::vector<double> depths_below_floor(const std::vector<Vec3>& places, Up up, d
 }
 
 double floor_height(const BodyPoints& body, Up up) {
-  constexpr double reach_s = 0.02;
   double lowest = std::numeric_limits<double>::infinity();
   for (const Foot& foot : body.feet) {
     for (const std::size_t point : foot.points)
-      lowest = std::min(lowest, sole_point(body, point, up, ContactThresholds{}, reach_s).level);
+      lowest =
+          std::min(lowest, sole_point(body, point, up, ContactThresholds{}, usual_reach_s).level);
   }
   return lowest;
 }

@@ -28,6 +28,10 @@ struct ContactThresholds {
   double begin_speed = 0.15, keep_speed = 0.25;
 };
 
+/// The reach of the means over a point, on either side, where noise does not ask for more. Chosen
+/// by hand, not swept.
+inline constexpr double usual_reach_s = 0.02;
+
 /// Smooths the point by means over `reach_s` on either side.
 SolePoint sole_point(const BodyPoints& body, std::size_t index, Up up,
                      const ContactThresholds& thresholds, double reach_s);

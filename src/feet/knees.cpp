@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 
+#include "base/frame_span.hpp"
 #include "base/portable.hpp"
 #include "feet/banded_least_squares.hpp"
 #include "feet/clean_legs.hpp"
@@ -83,8 +84,7 @@ std::vector<double> root_drops(const LegMotion& motion, const std::vector<Reach>
   }
   if (!any) return needed;
   // The mean of a maximum over its own width is never below the input.
-  const auto reach =
-      static_cast<std::size_t>(std::max(1L, std::lround(blend_s * motion.frame_rate_hz / 2)));
+  const std::size_t reach = frames_in(blend_s / 2, motion.frame_rate_hz, 1);
   return smoothed(running_maximum(needed, reach), reach);
 }
 

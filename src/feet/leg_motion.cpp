@@ -133,9 +133,8 @@ std::vector<std::size_t> needed_joints(const Skeleton& skeleton, const std::vect
 // Returns the heel in the ankle's frame from the mean height of the toe below the ankle and the
 // mean vector from ankle to toe, over the frames in which both are at their usual level.
 std::optional<Vec3> heel_of_flat_foot(const LegMotion& motion, std::size_t leg, Up up) {
-  // The reach of the mean on either side, and the least time with a flat foot. Chosen by hand, not
-  // swept.
-  constexpr double reach_s = 0.02, least_s = 0.1;
+  // The least time with a flat foot. Chosen by hand, not swept.
+  constexpr double least_s = 0.1;
   BodyPoints body;
   body.frames = motion.frames;
   body.points = 2;
@@ -149,7 +148,7 @@ std::optional<Vec3> heel_of_flat_foot(const LegMotion& motion, std::size_t leg, 
   const ContactThresholds thresholds;
   std::array<std::vector<std::uint8_t>, 2> down;
   for (std::size_t p = 0; p < 2; ++p) {
-    const SolePoint point = sole_point(body, p, up, thresholds, reach_s);
+    const SolePoint point = sole_point(body, p, up, thresholds, usual_reach_s);
     down[p] = touches(point, {point.level}, body.height, thresholds);
   }
   Vec3 sum;
@@ -182,6 +181,13 @@ Vec3 heel_at_rest(const Take& clip, const LegModel& model, Up up) {
 }
 
 }  // namespace
+
+Vec3 LegMotion::hips_at(std::size_t frame) const {
+  Vec3 mean;
+  for (std::size_t l = 0; l < legs(); ++l)
+    mean += (1.0 / static_cast<double>(legs())) * pose(frame, l).hip_at;
+  return mean;
+}
 
 void update_poses(const Take& clip, const std::vector<Leg>& legs, LegMotion& motion) {
   const Skeleton& skeleton = clip.skeleton;
@@ -256,12 +262,9 @@ std::optional<Up> up_of(const LegMotion& motion, std::optional<Axis> wanted) {
   body.frames = motion.frames;
   body.points = motion.legs();
   for (std::size_t f = 0; f < motion.frames; ++f) {
-    Vec3 centre;
-    for (std::size_t l = 0; l < motion.legs(); ++l) {
+    for (std::size_t l = 0; l < motion.legs(); ++l)
       body.positions.push_back(motion.pose(f, l).ankle_at);
-      centre += (1.0 / static_cast<double>(motion.legs())) * motion.pose(f, l).hip_at;
-    }
-    body.centres.push_back(centre);
+    body.centres.push_back(motion.hips_at(f));
   }
   for (std::size_t l = 0; l < motion.legs(); ++l) body.feet.push_back({"", {l}});
   return find_up(body);

@@ -61,6 +61,8 @@ struct LegMotion {
   const LegPose& pose(std::size_t frame, std::size_t leg) const {
     return poses[frame * legs() + leg];
   }
+  /// Returns the mean of the hips.
+  Vec3 hips_at(std::size_t frame) const;
 };
 
 /// Returns the legs without the heels of feet that have none in the skeleton; these need

@@ -119,10 +119,10 @@ Quat turn_for(const KneeCircle& circle, double distance) {
 }
 
 // The leg after its hip and knee have turned.
-class Leg {
+class LegSolver {
  public:
-  Leg(const LegPose& pose, const LegModel& model, const FootTarget& target, Vec3 hip_shift,
-      double soft_reach)
+  LegSolver(const LegPose& pose, const LegModel& model, const FootTarget& target, Vec3 hip_shift,
+            double soft_reach)
       : pose_(pose),
         model_(model),
         target_(target),
@@ -228,7 +228,7 @@ double soft_distance(double distance, const Reach& reach) {
 
 LegRotations solve_leg(const LegPose& pose, const LegModel& model, const FootTarget& target,
                        Vec3 hip_shift, double soft_reach) {
-  return Leg(pose, model, target, hip_shift, soft_reach).solve();
+  return LegSolver(pose, model, target, hip_shift, soft_reach).solve();
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/frame_span.hpp"
 #include "base/portable.hpp"
 #include "feet/leg_solver.hpp"
 #include "feet/placement.hpp"
@@ -21,10 +22,6 @@ constexpr double most_offset = 0.06;
 // The time in which a correction fades to a third once the foot lifts. The swing hides it; a faster
 // fade makes the knee pop.
 constexpr double fade_s = 0.15;
-
-std::size_t live_frames(const LegMotion& motion, double seconds) {
-  return static_cast<std::size_t>(std::max(1.0, std::round(seconds * motion.frame_rate_hz)));
-}
 
 // Returns the mean of `count` places from `first` on.
 Vec3 mean_place(const std::deque<Vec3>& path, std::size_t first, std::size_t count) {
@@ -75,11 +72,11 @@ void LiveFeet::hold(std::vector<Quat>& rotations, const std::vector<Vec3>& posit
 }
 
 void LiveFeet::track(Part& part, Vec3 place, double height) const {
-  const std::size_t reach = live_frames(motion_, speed_s);
+  const std::size_t reach = frames_in(speed_s, motion_.frame_rate_hz, 1);
   part.path.push_back(place);
   if (part.path.size() > reach + 1) part.path.pop_front();
   part.heights.push_back(height);
-  if (part.heights.size() > live_frames(motion_, floor_s)) part.heights.pop_front();
+  if (part.heights.size() > frames_in(floor_s, motion_.frame_rate_hz, 1)) part.heights.pop_front();
   part.level = *std::min_element(part.heights.begin(), part.heights.end());
   // The travel is measured between thirds at both ends, so that single frames add less noise.
   const std::size_t third = std::max<std::size_t>(1, part.path.size() / 3);

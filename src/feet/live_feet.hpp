@@ -45,7 +45,7 @@ class LiveFeet {
   int anchor_of(const Foot& foot) const;
   void move(Foot& foot) const;
 
-  std::vector<kinemend::Leg> legs_;
+  std::vector<Leg> legs_;
   Take one_;  ///< a take of one frame
   LegMotion motion_;
   std::optional<Up> up_;

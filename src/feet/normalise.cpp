@@ -13,7 +13,6 @@
 #include "feet/floor.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/experimental/subjects.hpp"
 #include "kinemend/feet.hpp"
 #include "motion/conversions.hpp"
 #include "motion/names.hpp"
@@ -106,12 +105,7 @@ std::vector<MarkerPair> pairs_of(const Take& take, const std::vector<std::size_t
 // distance are on pelvis and shoulders, not on feet and hands.
 Vec3 across_markers(const Take& take, std::size_t frame) {
   constexpr double steady = 0.03, times_steadiest = 2;
-  const std::vector<Subject> subjects = subjects_of(take);
-  const auto largest = std::max_element(
-      subjects.begin(), subjects.end(),
-      [](const Subject& a, const Subject& b) { return a.markers.size() < b.markers.size(); });
-  if (largest == subjects.end()) return {};
-  const std::vector<MarkerPair> pairs = pairs_of(take, largest->markers, frame);
+  const std::vector<MarkerPair> pairs = pairs_of(take, largest_subject(take).markers, frame);
   double most = 1;
   for (const MarkerPair& pair : pairs) most = std::min(most, times_steadiest * pair.variation);
   most = std::max(most, steady);

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/frame_span.hpp"
 #include "feet/clean_legs.hpp"
 #include "feet/floor.hpp"
 #include "feet/leg_solver.hpp"
@@ -42,9 +43,10 @@ class Placement {
 
   // Returns how far each contact is lifted so that it does not sink.
   std::vector<double> lifts() const {
+    const std::vector<double> offsets = level_offsets(soles_);
     std::vector<Vec3> places;
     for (std::size_t i = 0; i < contacts_.size(); ++i)
-      places.push_back(above_level(i, mean_place(i)));
+      places.push_back(mean_place(i) - offsets[point(i)] * soles_.up.direction());
     std::vector<double> depths = depths_below_floor(
         places, soles_.up, close_to_floor * soles_.height, soles_.height / usual_height_m);
     if (depths.empty()) depths.resize(contacts_.size());
@@ -52,17 +54,6 @@ class Placement {
       if (depth < most_sink * soles_.height) depth = 0;
     }
     return depths;
-  }
-
-  // Returns the place without the part's usual height above the lower part of its foot.
-  Vec3 above_level(std::size_t contact, Vec3 place) const {
-    const std::size_t leg = contacts_[contact].leg;
-    const double own = soles_.points[point(contact)].level;
-    double lower = own;
-    for (std::size_t p = 2 * leg; p < 2 * leg + 2; ++p) {
-      if (soles_.has[p] != 0) lower = std::min(lower, soles_.points[p].level);
-    }
-    return place + (lower - own) * soles_.up.direction();
   }
 
   // Places the longest contact at its mean and adapts overlapping ones to it.
@@ -115,8 +106,6 @@ class Placement {
   std::vector<double> lift_;
 };
 
-double smooth_step(double x) { return x * x * (3 - 2 * x); }
-
 // The end of a contact, and its motion there.
 struct Edge {
   std::size_t frame = 0;
@@ -129,8 +118,7 @@ Edge edge_at(const BodyPoints& body, const PartCorrection& part, std::size_t fra
              const FootContact& contact) {
   // One frame at 120 Hz, over which the slope is taken. Chosen by hand, not swept.
   constexpr double step_s = 0.008, most_speed = 0.5;  // body heights a second: faster is jitter
-  const auto wanted =
-      static_cast<std::size_t>(std::max(1L, std::lround(step_s * body.frame_rate_hz)));
+  const std::size_t wanted = frames_in(step_s, body.frame_rate_hz, 1);
   const std::size_t step = std::min(wanted, (contact.last_frame - contact.first_frame) / 2);
   Edge edge{frame, part.shift[frame], {}};
   if (step == 0) return edge;
@@ -178,8 +166,7 @@ std::vector<PartCorrection> place_contacts(const Soles& soles, const LegMotion& 
                                            const std::vector<FootContact>& contacts,
                                            const std::vector<std::uint8_t>& held, double blend_s) {
   const Placement placement(soles, motion, contacts, held);
-  const double rate = soles.body.frame_rate_hz;
-  const auto blend = static_cast<std::size_t>(std::max(2L, std::lround(blend_s * rate)));
+  const std::size_t blend = frames_in(blend_s, soles.body.frame_rate_hz, 2);
   std::vector<PartCorrection> parts(soles.points.size());
   for (std::size_t p = 0; p < parts.size(); ++p) {
     PartCorrection& part = parts[p];

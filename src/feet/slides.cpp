@@ -106,12 +106,8 @@ struct Judge {
     // hand, not swept.
     constexpr double least_share = 0.5, least_cosine = 0.8;
     const Vec3 own = moved(Soles::point_of(c), c.first_frame, c.last_frame);
-    const auto hips = [&](std::size_t frame) {
-      Vec3 sum;
-      for (std::size_t l = 0; l < motion.legs(); ++l) sum += motion.pose(frame, l).hip_at;
-      return (1.0 / static_cast<double>(motion.legs())) * sum;
-    };
-    const Vec3 body = level_part(hips(c.last_frame) - hips(c.first_frame), soles.up);
+    const Vec3 body =
+        level_part(motion.hips_at(c.last_frame) - motion.hips_at(c.first_frame), soles.up);
     const double seconds =
         static_cast<double>(c.last_frame - c.first_frame) / soles.body.frame_rate_hz;
     return norm(own) > glide_speed * soles.height * seconds &&

@@ -238,15 +238,13 @@ void fill_linear(Track& track, FrameSpan span) {
 void meet_end_values(Track& track, FrameSpan span, Vec3 miss_before, Vec3 miss_behind) {
   for (std::size_t f = span.first; f <= span.last; ++f) {
     const double t = from_start(span, f) / steps_across(span);
-    const double behind = t * t * (3 - 2 * t);
+    const double behind = smooth_step(t);
     track.values[f] += (1 - behind) * miss_before + behind * miss_behind;
   }
 }
 
 void fill_spline(Track& track, FrameSpan span, bool quintic, const CurveSettings& settings) {
-  const auto support =
-      std::max(least_support,
-               static_cast<std::size_t>(std::lround(to_frames(settings.support_s, settings))));
+  const std::size_t support = frames_in(settings.support_s, settings.frame_rate_hz, least_support);
   std::vector<std::size_t> frames = observed_on(track, Side::before, span.first, support);
   const std::size_t left = frames.size() - 1;
   const auto behind = observed_on(track, Side::behind, span.last, support);
@@ -287,9 +285,7 @@ void fill_spline(Track& track, FrameSpan span, bool quintic, const CurveSettings
 }  // namespace
 
 std::size_t velocity_window(const CurveSettings& settings) {
-  return std::max<std::size_t>(
-      least_robust,
-      static_cast<std::size_t>(std::lround(to_frames(settings.velocity_window_s, settings))));
+  return frames_in(settings.velocity_window_s, settings.frame_rate_hz, least_robust);
 }
 
 EndState state_before(const Track& track, FrameSpan span, const CurveSettings& settings) {

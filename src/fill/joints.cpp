@@ -412,7 +412,7 @@ std::vector<Sample> samples_at(const Track& track, const std::vector<std::size_t
 // Returns the methods' errors over an observed span.
 Proposals try_on(const Track& track, FrameSpan span, TakeEnds ends, std::vector<std::size_t> frames,
                  const Methods& methods, const JointContext& context) {
-  const auto reach = static_cast<std::size_t>(std::lround(reach_s * context.frame_rate_hz));
+  const std::size_t reach = frames_in(reach_s, context.frame_rate_hz, 0);
   Track part = hide_span(track, span, ends, reach + 2 * span.length(), context.frame_rate_hz);
   const std::size_t shift = part.first_frame - track.first_frame;
   const std::vector<Sample> truth = samples_at(track, frames);

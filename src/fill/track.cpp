@@ -34,8 +34,7 @@ Vec3 mean_velocity(std::span<const Quat> rotations, std::span<const std::uint8_t
 // Returns the rotation vector of the turn that a gap makes from `before` to `behind`.
 Vec3 turn_through(std::span<const Quat> rotations, std::span<const std::uint8_t> observed,
                   std::size_t before, std::size_t behind, double frame_rate_hz) {
-  const auto window = std::max<std::size_t>(
-      2, static_cast<std::size_t>(std::lround(turn_window_s * frame_rate_hz)));
+  const std::size_t window = frames_in(turn_window_s, frame_rate_hz, 2);
   const Vec3 shortest = log(conjugate(rotations[before]) * rotations[behind]);
   const double angle = norm(shortest);
   if (angle < 1e-6) return shortest;

@@ -134,6 +134,14 @@ std::vector<Subject> subjects_of(const Take& clip) {
   return subjects;
 }
 
+Subject largest_subject(const Take& clip) {
+  std::vector<Subject> subjects = subjects_of(clip);
+  const auto largest = std::max_element(
+      subjects.begin(), subjects.end(),
+      [](const Subject& a, const Subject& b) { return a.markers.size() < b.markers.size(); });
+  return largest == subjects.end() ? Subject{} : std::move(*largest);
+}
+
 namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }

@@ -1,11 +1,14 @@
-// Selects joints and markers by names and shell patterns, finds the subject in a name, and
-// recognises points that have a number from the capture system in place of a label.
+// Selects joints and markers by names and shell patterns, finds the subject in a name and the one
+// with the most markers, and recognises points that have a number from the capture system in place
+// of a label.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "kinemend/experimental/subjects.hpp"
 
 namespace kinemend {
 
@@ -28,5 +31,9 @@ std::vector<std::uint8_t> names_meant(const std::vector<std::string>& names,
 /// subject: `*52`, `U_12`, `uname*3`, `Unlabeled 1234`, or no name at all. Such a point changes
 /// from one marker to another within a take.
 bool is_unlabelled(std::string_view name);
+
+/// Returns the subject with the most markers, the first of several such; a subject without markers
+/// if there is none.
+Subject largest_subject(const Take& clip);
 
 }  // namespace kinemend

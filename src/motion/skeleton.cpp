@@ -109,6 +109,14 @@ void Skeleton::validate() const {
   }
 }
 
+std::vector<std::size_t> child_counts(const Skeleton& skeleton) {
+  std::vector<std::size_t> counts(skeleton.joint_count(), 0);
+  for (const std::int32_t parent : skeleton.parents) {
+    if (parent >= 0) ++counts[static_cast<std::size_t>(parent)];
+  }
+  return counts;
+}
+
 std::vector<Channel> make_channels(bool with_position, RotationOrder order) {
   std::vector<Channel> channels;
   if (with_position) channels = {Channel::x_position, Channel::y_position, Channel::z_position};

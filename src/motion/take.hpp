@@ -1,5 +1,6 @@
 // Gives access to the motion of a clip without its calibration frames and to the samples of one
-// joint, finds the joints that turn at all, notes the number of a file's first frame, and checks
+// joint, finds the joints that turn at all, counts the children of joints, notes the number of a
+// file's first frame, and checks
 // values for `validate` of skeletons and takes.
 #pragma once
 
@@ -41,6 +42,9 @@ std::optional<std::size_t> point_of_joint(const Take& take, std::size_t joint);
 
 /// Returns the rotations of a joint from frame `first` on.
 std::vector<Quat> rotations_of(const Take& take, std::size_t joint, std::size_t first = 0);
+
+/// Returns the number of children of each joint, end sites not included.
+std::vector<std::size_t> child_counts(const Skeleton& skeleton);
 
 inline bool is_finite(Vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);

@@ -15,6 +15,9 @@ namespace kinemend {
 
 namespace {
 
+// The longest list in the short report. Chosen by hand.
+constexpr std::size_t short_list = 8;
+
 std::string contact_text(const FeetReport& report, const FootContact& contact,
                          std::int64_t first_frame) {
   return fmt::format("{} {}, frames {} to {}", printable_name(report.sides[contact.leg]),
@@ -24,8 +27,6 @@ std::string contact_text(const FeetReport& report, const FootContact& contact,
 
 // Contacts that were already still are not listed.
 std::string left_alone_text(const FeetReport& report, std::int64_t first_frame, bool all_rows) {
-  // Chosen by hand.
-  constexpr std::size_t short_list = 8;
   std::string text;
   std::size_t listed = 0;
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {
@@ -69,9 +70,6 @@ std::string feet_text(const FeetReport& report, std::int64_t first_frame, bool a
 }
 
 namespace {
-
-// The longest list of names in the short report. Chosen by hand.
-constexpr std::size_t short_list = 8;
 
 // A take with less jitter is not called noisy.
 double noticeable_noise(const CleanReport& report) {
@@ -144,27 +142,19 @@ std::string gaps_text(const CleanReport& report, std::int64_t first_frame, bool 
           : fmt::format("  {} of unlabelled points left alone (--unlabelled fills them)\n",
                         counted(report.fill.unlabelled, "gap"));
   if (report.fill.gaps.empty()) return unlabelled;
-  std::map<std::string, std::size_t> filled;
   std::string refused;
   std::size_t listed = 0;
   for (const GapOutcome& outcome : report.fill.gaps) {
-    if (outcome.filled) {
-      ++filled[outcome.method];
-      continue;
-    }
+    if (outcome.filled) continue;
     if (++listed > short_list && !all_rows) continue;
     refused += fmt::format("    {}, frames {} to {}: {}\n",
                            printable_name(report.tracks[outcome.gap.track].name),
                            frame_number(outcome.gap.first_frame, first_frame),
                            frame_number(outcome.gap.last_frame, first_frame), outcome.reason);
   }
-  std::vector<std::string> methods;
-  methods.reserve(filled.size());
-  for (const auto& [method, count] : filled)
-    methods.push_back(fmt::format("{} by {}", grouped(count), method));
   std::string text = fmt::format("  {} of {} filled", report.fill.filled(),
                                  counted(report.fill.gaps.size(), "gap"));
-  if (!methods.empty()) text += fmt::format(": {}", fmt::join(methods, ", "));
+  if (report.fill.filled() > 0) text += ": " + methods_text(report.fill);
   text += "\n";
   if (listed > 0) text += fmt::format("  {} refused:\n{}", listed, refused);
   if (listed > short_list && !all_rows)

@@ -21,13 +21,6 @@ namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-void check_lengths(const Take& before, const Take& after) {
-  if (before.frame_count() != after.frame_count()) {
-    throw Error(ErrorKind::usage, fmt::format("curves: {} frames before and {} after",
-                                              before.frame_count(), after.frame_count()));
-  }
-}
-
 void check_track(std::size_t track, std::size_t before, std::size_t after) {
   if (track >= before || track >= after)
     throw Error(ErrorKind::usage, fmt::format("curves: there is no track {}", track));
@@ -51,7 +44,7 @@ void put(Vec3 position, std::size_t frame, std::vector<std::vector<double>>& cur
 }  // namespace
 
 TrackCurves rotation_curves(const Take& before, const Take& after, std::size_t joint) {
-  check_lengths(before, after);
+  check_frame_counts("curves", before, after);
   check_track(joint, before.joint_count(), after.joint_count());
   RotationOrder order = before.skeleton.rotation_order(joint);
   if (order.count == 0) order = parse_rotation_order("ZXY");
@@ -83,7 +76,7 @@ TrackCurves rotation_curves(const Take& before, const Take& after, std::size_t j
 }
 
 TrackCurves root_curves(const Take& before, const Take& after) {
-  check_lengths(before, after);
+  check_frame_counts("curves", before, after);
   check_track(0, before.joint_count(), after.joint_count());
   TrackCurves curves = empty_curves({"X", "Y", "Z"}, before.frame_count());
   curves.name = before.skeleton.names[0];
@@ -103,7 +96,7 @@ TrackCurves root_curves(const Take& before, const Take& after) {
 }
 
 TrackCurves marker_curves(const Take& before, const Take& after, std::size_t marker) {
-  check_lengths(before, after);
+  check_frame_counts("curves", before, after);
   check_track(marker, before.marker_count(), after.marker_count());
   TrackCurves curves = empty_curves({"X", "Y", "Z"}, before.frame_count());
   curves.name = before.names[marker];

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "kinemend/error.hpp"
 #include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/experimental/svg.hpp"
 #include "motion/rotation.hpp"
@@ -37,6 +38,12 @@ std::size_t character_length(std::string_view text) {
 }
 
 }  // namespace
+
+void check_frame_counts(std::string_view drawing, const Take& before, const Take& after) {
+  if (before.frame_count() == after.frame_count()) return;
+  throw Error(ErrorKind::usage, fmt::format("{}: {} frames before and {} after", drawing,
+                                            before.frame_count(), after.frame_count()));
+}
 
 std::string xml_escaped(std::string_view text) {
   constexpr std::string_view replacement = "\xEF\xBF\xBD";

@@ -23,6 +23,10 @@ inline constexpr std::string_view font =
 
 namespace kinemend {
 
+/// Throws `ErrorKind::usage` unless both takes have the same number of frames. `drawing`: its name
+/// for the message.
+void check_frame_counts(std::string_view drawing, const Take& before, const Take& after);
+
 /// Points of poses (none for a missing one), and the pairs that bones join.
 struct Poses {
   std::vector<std::vector<std::optional<Vec3>>> moments;

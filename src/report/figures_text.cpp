@@ -58,6 +58,10 @@ std::string finding_sentence(const Finding& finding, const TakeFacts& take,
 
 namespace {
 
+TakeKind kind_checked(const CheckReport& report) {
+  return report.is_markers ? TakeKind::markers : TakeKind::joints;
+}
+
 // Returns the number of findings that are a fault.
 std::size_t faults_in(const CheckReport& report) {
   return static_cast<std::size_t>(
@@ -117,7 +121,7 @@ std::string tracks_text(const CheckReport& report) {
   std::vector<Align> columns(with_rates ? 10 : 8, Align::right);
   columns.front() = Align::left;
   Table table(columns);
-  std::vector<std::string> heading = {report.is_markers ? "marker" : "joint",
+  std::vector<std::string> heading = {noun_of(kind_checked(report)),
                                       "gaps",
                                       "frames missing",
                                       "longest",
@@ -168,10 +172,9 @@ std::string check_text(const TakeFacts& take, const CheckReport& report,
   if (!take.contents.empty()) {
     return fmt::format("{}: {}: nothing to check\n", name, take.contents);
   }
-  std::string text =
-      fmt::format("{}: {}\n  {}, {}\n\n", name, check_verdict(report),
-                  length_text(report.frames, report.frame_rate_hz),
-                  counted(report.tracks.size(), report.is_markers ? "marker" : "joint"));
+  std::string text = fmt::format("{}: {}\n  {}, {}\n\n", name, check_verdict(report),
+                                 length_text(report.frames, report.frame_rate_hz),
+                                 counted(report.tracks.size(), noun_of(kind_checked(report))));
   Table table({Align::left, Align::left});
   for (const CheckFigure& entry : check_figure_table()) {
     const std::optional<double> value = entry.get(report.figures);
@@ -179,9 +182,10 @@ std::string check_text(const TakeFacts& take, const CheckReport& report,
     if (!value || (report.is_markers ? of_joints : of_markers)) continue;
     table.add({std::string(entry.rule.label), with_unit(*value, unit_of(entry, report))});
   }
-  const TakeKind kind = report.is_markers ? TakeKind::markers : TakeKind::joints;
-  for (const NoiseCharacter& noise : report.noise)
-    table.add({"noise found", noise_words(noise, kind, report.noise_unit, report.frame_rate_hz)});
+  for (const NoiseCharacter& noise : report.noise) {
+    table.add({"noise found",
+               noise_words(noise, kind_checked(report), report.noise_unit, report.frame_rate_hz)});
+  }
   table.add({"source", source_words(report.source)});
   for (const Diagnostic& entry : take.diagnostics.entries())
     table.add({"repaired", printable(diagnostic_text(take.format, entry))});

@@ -36,17 +36,6 @@ std::vector<std::string> gap_cells(const TakeFacts& take, const GapOutcome& outc
           grouped(gap.length()), fmt::format("{:.3f}", seconds_of(take, gap))};
 }
 
-// Returns the methods with their counts: "3 by pca, 1 by pchip".
-std::string methods_text(const FillReport& report) {
-  std::map<std::string, std::size_t> counts;
-  for (const GapOutcome& outcome : report.gaps) counts[outcome.method] += outcome.filled ? 1 : 0;
-  std::vector<std::string> parts;
-  for (const auto& [method, count] : counts) {
-    if (count > 0) parts.push_back(fmt::format("{} by {}", grouped(count), method));
-  }
-  return fmt::format("{}", fmt::join(parts, ", "));
-}
-
 // Lists the longest filled gaps, or all, in the order of the report.
 std::string filled_table(const TakeFacts& take, const FillReport& report, bool all) {
   std::vector<const GapOutcome*> filled;
@@ -63,8 +52,7 @@ std::string filled_table(const TakeFacts& take, const FillReport& report, bool a
     std::sort(filled.begin(), filled.end());
   }
   Table table({Align::left, Align::right, Align::right, Align::right, Align::left, Align::right});
-  table.add({take.kind == TakeKind::joints ? "joint" : "marker", "frames", "length", "s", "method",
-             "expected error"});
+  table.add({noun_of(take.kind), "frames", "length", "s", "method", "expected error"});
   for (const GapOutcome* outcome : filled) {
     std::vector<std::string> cells = gap_cells(take, *outcome);
     cells.insert(cells.end(), {outcome->method, expected_text(take, *outcome)});
@@ -95,6 +83,16 @@ std::string refused_table(const TakeFacts& take, const FillReport& report, bool 
 }
 
 }  // namespace
+
+std::string methods_text(const FillReport& report) {
+  std::map<std::string, std::size_t> counts;
+  for (const GapOutcome& outcome : report.gaps) counts[outcome.method] += outcome.filled ? 1 : 0;
+  std::vector<std::string> parts;
+  for (const auto& [method, count] : counts) {
+    if (count > 0) parts.push_back(fmt::format("{} by {}", grouped(count), method));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
 
 std::string fill_verdict(const FillOutcome& outcome) {
   const FillReport& report = outcome.report;

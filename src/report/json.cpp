@@ -16,20 +16,21 @@
 #include "kinemend/experimental/version.hpp"
 #include "kinemend/report.hpp"
 #include "report/figures.hpp"
+#include "report/texts.hpp"
 
 namespace kinemend {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns the JSON as text, on one line for an `indent` of -1. Invalid UTF-8 is replaced.
-std::string text_of(const Json& json, int indent = 2);
-
-/// The amount of detail of a report: without lists, without the changed spans of `clean`, or all.
-enum class Depth { row, summary, all };
-Json take_json(const Report& report, Depth depth);
-Json failure_entry(std::string_view input, std::string_view error, int exit_code);
-
 namespace {
+
+// Returns the JSON as text, on one line for an `indent` of -1. Invalid UTF-8 is replaced.
+std::string text_of(const Json& json, int indent = 2) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+// The amount of detail of a report: without lists, without the changed spans of `clean`, or all.
+enum class Depth { row, summary, all };
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
 Json positive_or_null(double value) { return value > 0 ? Json(value) : Json(); }
@@ -266,12 +267,6 @@ void append_indented(std::string_view text, std::size_t blanks, std::string& res
   }
 }
 
-}  // namespace
-
-std::string text_of(const Json& json, int indent) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
-
 Json take_json(const Report& report, Depth depth) {
   const TakeFacts& take = report.take;
   const std::optional<std::size_t> calibration = calibration_frames(report);
@@ -305,6 +300,8 @@ Json take_json(const Report& report, Depth depth) {
 Json failure_entry(std::string_view input, std::string_view error, int exit_code) {
   return {{"input", input}, {"error", error}, {"exit_code", exit_code}};
 }
+
+}  // namespace
 
 std::string to_json(const Report& report, bool with_spans) {
   return text_of(take_json(report, with_spans ? Depth::all : Depth::summary));

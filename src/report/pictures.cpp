@@ -19,6 +19,7 @@
 #include "kinemend/report.hpp"
 #include "motion/rotation.hpp"
 #include "report/drawing.hpp"
+#include "report/texts.hpp"
 
 namespace kinemend {
 
@@ -83,9 +84,9 @@ std::string gap_chart_svg(const Take& before, const Take* after) {
   const double bottom = chart_top + row_height * static_cast<double>(rows.size());
   Svg svg(chart_width, bottom + 26, "gaps");
   svg.open_group(inks::font);
-  const char* const noun = facts.kind == TakeKind::markers ? "marker" : "joint";
   svg.text(8, 20, fmt::format("font-weight=\"600\" fill=\"{}\"", inks::text),
-           fmt::format("gaps: {} of {} with some", grouped(rows.size()), counted(all, noun)));
+           fmt::format("gaps: {} of {} with some", grouped(rows.size()),
+                       counted(all, noun_of(facts.kind))));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     draw_row(svg, rows[i], facts.frames, after != nullptr,
              chart_top + row_height * static_cast<double>(i));
@@ -113,6 +114,12 @@ struct View {
   double floor = 0, scale = 1;
 };
 
+// Returns the axis beside `up` along which the size is larger.
+std::size_t broader_axis(const std::array<double, 3>& sizes, std::size_t up) {
+  const std::size_t one = (up + 1) % 3, other = (up + 2) % 3;
+  return sizes[one] >= sizes[other] ? one : other;
+}
+
 View view_of(const Poses& poses, std::size_t up, double slot) {
   View view;
   view.up = up;
@@ -126,8 +133,7 @@ View view_of(const Poses& poses, std::size_t up, double slot) {
     heights.add(own.low);
     heights.add(own.high);
   }
-  const std::size_t one = (up + 1) % 3, other = (up + 2) % 3;
-  view.across = broad[one] >= broad[other] ? one : other;
+  view.across = broader_axis(broad, up);
   view.floor = heights.low <= heights.high ? heights.low : 0;
   const double high = std::max(heights.size(), 1e-9);
   view.scale = std::min(tallest / high, 1.15 * slot / std::max(broad[view.across], 1e-9));
@@ -172,10 +178,7 @@ std::vector<std::size_t> moments_of(std::size_t frame_count, FrameSpanToDraw spa
 
 std::string film_strip_svg(const Take& before, const Take* after, FrameSpanToDraw span,
                            std::size_t count) {
-  if (after != nullptr && before.frame_count() != after->frame_count()) {
-    throw Error(ErrorKind::usage, fmt::format("film strip: {} frames before and {} after",
-                                              before.frame_count(), after->frame_count()));
-  }
+  if (after != nullptr) check_frame_counts("film strip", before, *after);
   const std::vector<std::size_t> frames = moments_of(before.frame_count(), span, count);
   Svg svg(strip_width, height, "poses");
   svg.open_group(inks::font);
@@ -222,7 +225,7 @@ struct Camera {
 Camera camera_of(const Poses& poses, std::size_t up, double width) {
   Camera camera;
   camera.up = up;
-  Range ranges[3];
+  std::array<Range, 3> ranges;
   for (const auto& points : poses.moments) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Range own = range_of(points, axis);
@@ -231,8 +234,7 @@ Camera camera_of(const Poses& poses, std::size_t up, double width) {
       ranges[axis].add(own.high);
     }
   }
-  const std::size_t one = (up + 1) % 3, other = (up + 2) % 3;
-  camera.across = ranges[one].size() >= ranges[other].size() ? one : other;
+  camera.across = broader_axis({ranges[0].size(), ranges[1].size(), ranges[2].size()}, up);
   camera.sides = ranges[camera.across];
   camera.heights = ranges[up];
   const double broad = std::max(camera.sides.size(), 1e-9);
@@ -303,10 +305,7 @@ void draw_panel(Svg& svg, const Poses& poses, const Camera& camera, const Motion
 }  // namespace
 
 std::string moving_picture_svg(const Take& before, const Take* after, FrameSpanToDraw span) {
-  if (after != nullptr && before.frame_count() != after->frame_count()) {
-    throw Error(ErrorKind::usage, fmt::format("moving picture: {} frames before and {} after",
-                                              before.frame_count(), after->frame_count()));
-  }
+  if (after != nullptr) check_frame_counts("moving picture", before, *after);
   std::vector<std::size_t> frames;
   const double rate = before.frame_rate_hz;
   const std::size_t step =

@@ -70,8 +70,6 @@ std::string diagnostic_line(const SourceInfo& source, const Diagnostic& diagnost
   return fmt::format("{}:{}: {}", source.name, diagnostic.first_line, counted_message(diagnostic));
 }
 
-const char* noun_of(TakeKind kind) { return kind == TakeKind::markers ? "marker" : "joint"; }
-
 std::string shown_name(const TakeFacts& take) {
   const std::string name = take.input == "-" ? "standard input" : printable(take.input);
   return take.animation.empty() ? name : fmt::format("{} ({})", name, printable(take.animation));

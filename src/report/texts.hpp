@@ -5,12 +5,11 @@
 #include <string>
 #include <string_view>
 
+#include "clean/changes.hpp"
 #include "kinemend/report.hpp"
 
 namespace kinemend {
 
-/// Returns "joint" or "marker".
-const char* noun_of(TakeKind kind);
 /// Returns the take's name, fit to print.
 std::string shown_name(const TakeFacts& take);
 /// Returns for example "1.5 deg per axis, slow, 90 % below 6.1 Hz; 30 Hz samples joined by lines".
@@ -37,6 +36,8 @@ std::string finding_sentence(const Finding& finding, const TakeFacts& take,
 /// Returns a figure of `check` with its unit; a whole number has no decimals.
 std::string with_unit(double value, std::string_view unit);
 
+/// Returns the methods that filled gaps, with their counts: "3 by pca, 1 by pchip".
+std::string methods_text(const FillReport& report);
 std::string fill_verdict(const FillOutcome& outcome);
 std::string fill_text(const TakeFacts& take, const FillOutcome& outcome,
                       const TextOptions& options);

@@ -62,9 +62,7 @@ inline SwapTrial with_random_swaps(Take clip, std::size_t wanted, double least_d
     const auto longest = static_cast<std::size_t>(2 * trial.clip.frame_rate_hz);
     const std::size_t length = 3 + pick(random, longest - 2);
     if (a >= b || used[a] != 0 || used[b] != 0 || length + 10 >= frames) continue;
-    if (!trial.clip.is_position.empty() &&
-        (trial.clip.is_position[a] == 0 || trial.clip.is_position[b] == 0))
-      continue;
+    if (!trial.clip.holds_positions(a) || !trial.clip.holds_positions(b)) continue;
     const std::size_t first = 5 + pick(random, frames - length - 9);
     const MarkerSwap swap{a, b, first, first + length - 1};
     const auto apart = [&](std::size_t f) {

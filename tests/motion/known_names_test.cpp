@@ -106,6 +106,13 @@ TEST(Subjects, AreToldApartByWhatStandsBeforeTheColon) {
   EXPECT_THAT(subjects[1].markers, ElementsAre(1));
   EXPECT_EQ(subjects[2].name, "");
   EXPECT_THAT(subjects[2].markers, ElementsAre(2));
+  EXPECT_EQ(largest_subject(clip).name, "Ann");
+}
+
+TEST(LargestSubject, HasTheMostMarkersAndComesFirstOfEquals) {
+  EXPECT_EQ(largest_subject(make_marker_take({"Ann:A", "Bob:A", "Bob:B"}, 2, 100)).name, "Bob");
+  EXPECT_EQ(largest_subject(make_marker_take({"Bob:A", "Ann:A"}, 2, 100)).name, "Bob");
+  EXPECT_TRUE(largest_subject(make_marker_take({}, 0, 100)).markers.empty());
 }
 
 TEST(Subjects, AreOneWhereNobodyElseIsThere) {

@@ -7,6 +7,7 @@
 
 #include "kinemend/error.hpp"
 #include "motion/clips.hpp"
+#include "motion/take.hpp"
 
 namespace kinemend {
 namespace {
@@ -140,6 +141,14 @@ TEST(LengthUnit, IsGuessedFromTheHeight) {
   EXPECT_EQ(guess_at(0.45 / 2.54)->name, "CMU unit");
   EXPECT_FALSE(guess_at(3));
   EXPECT_FALSE(guess_at(0));
+}
+
+TEST(ChildCounts, CountJointsAndNoEndSites) {
+  Skeleton skeleton = chain_skeleton(3);
+  skeleton.add_joint("side", 1, {0, 1, 0}, {});
+  skeleton.end_sites.push_back({3, {0, 1, 0}, ""});
+  skeleton.add_joint("other root", -1, {}, {});
+  EXPECT_THAT(child_counts(skeleton), testing::ElementsAre(1, 2, 0, 0, 0));
 }
 
 }  // namespace

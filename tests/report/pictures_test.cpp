@@ -19,6 +19,7 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
+using testing::ThrowsMessage;
 
 constexpr FrameSpanToDraw all_frames{0, std::numeric_limits<std::size_t>::max()};
 
@@ -150,8 +151,10 @@ TEST(Pictures, AreDrawnOfTakesWithNothingInThem) {
   EXPECT_THAT(moving_picture_svg(none, nullptr, all_frames), HasSubstr("no frames"));
   expect_svg(gap_chart_svg(unseen, nullptr));
   expect_svg(gap_chart_svg(Take(make_marker_take({}, 0, 100)), nullptr));
-  EXPECT_THROW(film_strip_svg(clip, &none, all_frames), Error);
-  EXPECT_THROW(moving_picture_svg(clip, &none, all_frames), Error);
+  EXPECT_THAT([&] { film_strip_svg(clip, &none, all_frames); },
+              ThrowsMessage<Error>("film strip: 60 frames before and 0 after"));
+  EXPECT_THAT([&] { moving_picture_svg(clip, &none, all_frames); },
+              ThrowsMessage<Error>("moving picture: 60 frames before and 0 after"));
 }
 
 TEST(Pictures, OfOneTakeHaveNoDifference) {

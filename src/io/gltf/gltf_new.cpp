@@ -291,8 +291,7 @@ std::string new_glb_of_markers(const Take& clip) {
     GlbAnimation animation(file, frames, clip.frame_rate_hz);
     for (std::size_t m = 0; m < markers; ++m) {
       const bool ever = std::count(present[m].begin(), present[m].end(), 1) > 0;
-      const bool is_place = clip.is_position.empty() || clip.is_position[m] != 0;
-      if (!ever || !is_place) continue;
+      if (!ever || !clip.holds_positions(m)) continue;
       std::vector<float> xyz;
       for (const Vec3& position : held_positions(clip, m)) append(xyz, scale * position);
       const std::size_t node = file.add_node(

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "base/frame_span.hpp"
 #include "base/parallel.hpp"
 #include "base/portable.hpp"
 #include "base/quantiles.hpp"
@@ -175,7 +176,7 @@ std::vector<double> smoothing_shares(const std::vector<double>& noise, double fr
   std::vector<double> shares(noise.size());
   for (std::size_t n = 0; n < noise.size(); ++n) {
     const double r = std::clamp((noise[n] / rate_factor - start) / (full - start), 0.0, 1.0);
-    shares[n] = squared(r) * (3 - 2 * r);
+    shares[n] = smooth_step(r);
   }
   return shares;
 }
