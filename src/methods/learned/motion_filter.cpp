@@ -10,7 +10,7 @@
 #include "methods/auto/track_cleaning.hpp"
 #include "methods/auto/vector_tracks.hpp"
 #include "methods/learned/motion_network.hpp"
-#include "nn/activation_kernel.hpp"
+#include "nn/kernels.hpp"
 
 namespace kinemend {
 
