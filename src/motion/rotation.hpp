@@ -1,12 +1,13 @@
 // Extends the rotations and vectors of `kinemend/rotation.hpp`: components by the number of an
-// axis, steps between samples, charts of rotations for linear filters, and the eigenvector behind
-// means.
+// axis, vectors of a matrix of channels, steps between samples, charts of rotations for linear
+// filters, and the eigenvector behind means.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <vector>
 
+#include "kinemend/experimental/pose_matrix.hpp"
 #include "kinemend/rotation.hpp"
 
 namespace kinemend {
@@ -17,6 +18,11 @@ inline double component(Vec3 v, std::size_t axis) {
 }
 inline double& component_of(Vec3& v, std::size_t axis) {
   return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+/// The channels 3 part, 3 part + 1 and 3 part + 2 of a frame.
+inline Vec3 vector_at(const PoseMatrix& values, std::size_t frame, std::size_t part) {
+  return {values(frame, 3 * part), values(frame, 3 * part + 1), values(frame, 3 * part + 2)};
 }
 
 inline Vec3 difference(Quat from, Quat to) { return log(conjugate(from) * to); }
