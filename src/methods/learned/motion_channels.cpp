@@ -33,33 +33,23 @@ void put(MotionTake& take, std::size_t frame, std::size_t n, Vec3 vector) {
 void read_together(const TakeView& take, const std::vector<std::size_t>& own,
                    MotionTracks& tracks) {
   if (own.empty()) return;
-  const std::size_t frames = take.frames, count = own.size();
-  VectorTracks vectors(frames, count);
-  SampleMarks suspects(frames, count), gaps(frames, count);
   std::vector<std::size_t> numbers;
-  numbers.reserve(count);
+  numbers.reserve(own.size());
   for (const std::size_t n : own) numbers.push_back(tracks.numbers[n]);
-  for_each_parallel(count, frames * count, [&](std::size_t i) {
-    TrackVectors curve = vectors_of(take, numbers[i]);
-    for (std::size_t f = 0; f < frames; ++f) {
-      vectors.set(f, i, curve.vectors[f]);
-      if (!curve.suspects.empty()) suspects(f, i) = curve.suspects[f];
-      gaps(f, i) = take.tracks[numbers[i]].is_observed(f) ? 0 : 1;
-    }
-    tracks.charts[own[i]] = std::move(curve.chart);
-  });
-  const DetectedSpikes spikes =
-      find_spikes(vectors, suspects, tracks_nearby(take, numbers), take.frame_rate_hz, &gaps);
-  for (std::size_t i = 0; i < count; ++i) {
+  TracksRead read = read_tracks(take, numbers, true);
+  const DetectedSpikes spikes = find_spikes(
+      read.vectors, read.suspects, tracks_nearby(take, numbers), take.frame_rate_hz, &read.gaps);
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    tracks.charts[own[i]] = std::move(read.charts[i]);
     // Relative positions make single precision sufficient far from the world's origin.
     const bool turns = tracks.charts[own[i]].has_value();
-    const Vec3 origin = turns ? Vec3{} : vectors.at(0, i);
+    const Vec3 origin = turns ? Vec3{} : read.vectors.at(0, i);
     tracks.origins[own[i]] = origin;
-    for (std::size_t f = 0; f < frames; ++f) {
-      put(tracks.take, f, own[i], vectors.at(f, i) - origin);
+    for (std::size_t f = 0; f < take.frames; ++f) {
+      put(tracks.take, f, own[i], read.vectors.at(f, i) - origin);
       const bool is_spike = spikes.marked(f, i) != 0;
       tracks.is_spike[f * tracks.numbers.size() + own[i]] = is_spike ? 1 : 0;
-      if (!is_spike && gaps(f, i) == 0) continue;
+      if (!is_spike && read.gaps(f, i) == 0) continue;
       for (std::size_t axis = 0; axis < 3; ++axis)
         tracks.take.missing[f * tracks.take.channels + 3 * own[i] + axis] = 1;
     }
