@@ -2,6 +2,7 @@
 // frame, and the table of all methods.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -100,6 +101,9 @@ struct Frame {
   std::vector<Vec3> positions;
   /// J or M, 1 if the joint's rotation or the marker was measured; empty: all were.
   std::vector<std::uint8_t> observed;
+
+  /// `owner`: the joint or marker.
+  bool is_observed(std::size_t owner) const { return observed.empty() || observed[owner] != 0; }
 };
 
 /// Returns frame `frame` of a take, unchanged.

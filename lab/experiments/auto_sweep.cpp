@@ -9,9 +9,9 @@
 
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/kinematics.hpp"
-#include "methods/auto/spikes.hpp"
 #include "methods/auto/track_cleaning.hpp"
 #include "methods/auto/track_vectors.hpp"
+#include "motion/rotation.hpp"
 #include "page.hpp"
 
 namespace kinemend::papers {
@@ -218,11 +218,8 @@ VectorMotion markers_of(const Take& clip) {
 
 VectorMotion cleaned_with(const Tuning& tuning, VectorMotion motion) {
   PoseMatrix& y = motion.values;
-  VectorTracks tracks(y.frames, y.channels / 3);
-  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
-    for (std::size_t t = 0; t < y.frames; ++t)
-      tracks.set(t, n, {y(t, 3 * n), y(t, 3 * n + 1), y(t, 3 * n + 2)});
-  }
+  VectorTracks tracks(y.frames, y.channels / 3,
+                      [&](std::size_t t, std::size_t n) { return vector_at(y, t, n); });
   const SampleMarks none(y.frames, tracks.tracks());
   clean_tracks(tracks, none, none, std::vector<std::vector<std::size_t>>(tracks.tracks()),
                motion.frame_rate_hz, {.kind = TrackKind::positions, .tuning = tuning.tracks});

@@ -10,6 +10,7 @@
 #include "kinemend/experimental/signal.hpp"
 #include "kinemend/rotation.hpp"
 #include "kinemend/take.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend::papers {
 
@@ -26,8 +27,7 @@ inline Take with_shaped_noise(Take clip, double std_deg, std::uint64_t seed,
       radians_per_degree * std_deg / std::sqrt(square / static_cast<double>(noise.values.size()));
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     for (std::size_t j = 0; j < clip.joint_count(); ++j) {
-      const Vec3 v{noise(f, 3 * j), noise(f, 3 * j + 1), noise(f, 3 * j + 2)};
-      clip.rotation(f, j) = clip.rotation(f, j) * exp(unit * v);
+      clip.rotation(f, j) = clip.rotation(f, j) * exp(unit * vector_at(noise, f, j));
     }
   }
   return clip;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/quantiles.hpp"
+#include "motion/rotation.hpp"
 #include "papers/xiao2015_sparse/descent_solver.hpp"
 #include "papers/xiao2015_sparse/dictionary.hpp"
 
@@ -30,17 +31,14 @@ PoseMatrix positions_of(const Take& clip) {
   return positions;
 }
 
-Vec3 marker_at(const PoseMatrix& positions, std::size_t frame, std::int32_t marker) {
-  const auto first = 3 * static_cast<std::size_t>(marker);
-  return {positions(frame, first), positions(frame, first + 1), positions(frame, first + 2)};
-}
-
 double trunk_of(const PoseMatrix& positions, const LocalPoints& points) {
   std::vector<double> lengths;
   for (std::size_t f = 0; f < positions.frames; ++f) {
-    const Vec3 hips = 0.5 * (marker_at(positions, f, points.left_hip) +
-                             marker_at(positions, f, points.right_hip));
-    lengths.push_back(norm(marker_at(positions, f, points.neck) - hips));
+    const auto at = [&](std::int32_t marker) {
+      return vector_at(positions, f, static_cast<std::size_t>(marker));
+    };
+    const Vec3 hips = 0.5 * (at(points.left_hip) + at(points.right_hip));
+    lengths.push_back(norm(at(points.neck) - hips));
   }
   return median_of(lengths);
 }

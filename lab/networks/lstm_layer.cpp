@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "nn/activation_kernel.hpp"
+#include "nn/kernels.hpp"
 
 namespace kinemend::train {
 

@@ -84,7 +84,7 @@ class CoreStream {
               reinterpret_cast<Vec3*>(positions.mutable_data()));
     bool* const marks = observed.mutable_data();
     for (py::ssize_t i = 0; i < owners_; ++i)
-      marks[i] = frame.observed.empty() || frame.observed[static_cast<std::size_t>(i)] != 0;
+      marks[i] = frame.is_observed(static_cast<std::size_t>(i));
     return py::make_tuple(rotations, positions, observed);
   }
 

@@ -283,4 +283,11 @@ std::vector<BoneName> bone_names(const std::vector<std::string>& names) {
   return result;
 }
 
+std::int32_t find_bone(const std::vector<BoneName>& bones, Bone bone, Side side) {
+  for (std::size_t j = bones.size(); j-- > 0;) {
+    if (bones[j].bone == bone && bones[j].side == side) return static_cast<std::int32_t>(j);
+  }
+  return -1;
+}
+
 }  // namespace kinemend::representation

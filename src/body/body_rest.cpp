@@ -205,13 +205,6 @@ Vec3 nearest_axis(Vec3 v) {
   return {v.x < 0 ? -1.0 : 1.0, 0, 0};
 }
 
-std::int32_t find_bone(const std::vector<BoneName>& bones, Bone bone, Side side) {
-  for (std::size_t j = bones.size(); j-- > 0;) {
-    if (bones[j].bone == bone && bones[j].side == side) return static_cast<std::int32_t>(j);
-  }
-  return -1;
-}
-
 RestPose rest_pose(const Take& clip, const std::vector<BoneName>& bones) {
   // A rest pose at least this straight is standing. Chosen by hand, not swept.
   constexpr double straight = 0.9;

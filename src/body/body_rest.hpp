@@ -1,7 +1,6 @@
 // The rest pose of a skeleton, its up direction, and the body height.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "body/body_names.hpp"
@@ -33,8 +32,5 @@ Quat shortest_rotation(Vec3 from, Vec3 to);
 
 /// Returns the positive or negative axis nearest to a direction; y for the zero vector.
 Vec3 nearest_axis(Vec3 direction);
-
-/// Returns the joint of that bone and side, the last one if there are several; -1 if there is none.
-std::int32_t find_bone(const std::vector<BoneName>& bones, Bone bone, Side side);
 
 }  // namespace kinemend::representation

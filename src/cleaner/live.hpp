@@ -115,7 +115,7 @@ class WindowedTracks final : public WindowedFilter {
 
   // Positions of joints have no gaps.
   static bool is_seen(const TakeView& take, std::size_t track, const Frame& frame) {
-    return track >= take.owners || frame.observed.empty() || frame.observed[track] != 0;
+    return track >= take.owners || frame.is_observed(track);
   }
 
   void step(const Frame& newest) override {
@@ -233,11 +233,11 @@ class CausalTracks final : public LiveFilter {
   bool push(const Frame& in, Frame& out) override {
     out = in;
     for (std::size_t j = 0; j < rotations_.size(); ++j)
-      out.rotations[j] = rotations_[j].step(in.rotations[j], is_seen(in, j));
+      out.rotations[j] = rotations_[j].step(in.rotations[j], in.is_observed(j));
     for (std::size_t i = 0; i < positions_.size(); ++i) {
       Positions& own = positions_[i];
       if (!own.selected) continue;
-      const bool seen = !cuts_gaps_ || is_seen(in, i);
+      const bool seen = !cuts_gaps_ || in.is_observed(i);
       if (seen && own.missing > longest_) own.step = start_;
       own.missing = seen ? 0 : own.missing + 1;
       const Vec3 result = own.step.step(seen ? in.positions[i] : Vec3{}, seen);
@@ -254,10 +254,6 @@ class CausalTracks final : public LiveFilter {
     bool selected;
     std::size_t missing;  ///< frames since the track was seen
   };
-
-  static bool is_seen(const Frame& frame, std::size_t owner) {
-    return frame.observed.empty() || frame.observed[owner] != 0;
-  }
 
   PositionStep start_;
   bool cuts_gaps_;

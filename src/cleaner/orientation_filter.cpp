@@ -16,24 +16,13 @@ using namespace lanes;  // NOLINT(google-build-using-namespace)
 
 void increments_lanes(const RotationTrack& q, VectorTrack& out) {
   for (std::size_t i = 0; i + 1 < q.frames; i += hn::Lanes(tag)) {
-    const LaneQuat a{load(&q.w[i]), load(&q.x[i]), load(&q.y[i]), load(&q.z[i])};
-    const LaneQuat b{load(&q.w[i + 1]), load(&q.x[i + 1]), load(&q.y[i + 1]), load(&q.z[i + 1])};
-    const LaneVec v = logarithm(a, b);
-    store(v.x, &out.x[i]);
-    store(v.y, &out.y[i]);
-    store(v.z, &out.z[i]);
+    store_sample(logarithm(load_sample(q, i), load_sample(q, i + 1)), out, i);
   }
 }
 
 void turn_lanes(RotationTrack& q, const VectorTrack& turns) {
   for (std::size_t i = 0; i < q.frames; i += hn::Lanes(tag)) {
-    const LaneQuat a{load(&q.w[i]), load(&q.x[i]), load(&q.y[i]), load(&q.z[i])};
-    const LaneQuat e = exponential({load(&turns.x[i]), load(&turns.y[i]), load(&turns.z[i])});
-    const LaneQuat product = multiply(a, e);
-    store(product.w, &q.w[i]);
-    store(product.x, &q.x[i]);
-    store(product.y, &q.y[i]);
-    store(product.z, &q.z[i]);
+    store_sample(multiply(load_sample(q, i), exponential(load_sample(turns, i))), q, i);
   }
 }
 
@@ -44,13 +33,12 @@ void weigh_increments_lanes(const VectorTrack& padded, std::span<const double> w
     LaneVec sum{hn::Zero(tag), hn::Zero(tag), hn::Zero(tag)};
     for (std::size_t r = 0; r < weights.size(); ++r) {
       const Lanes b = all(weights[r]);
-      sum.x = mul_add(b, load(&padded.x[i + r]), sum.x);
-      sum.y = mul_add(b, load(&padded.y[i + r]), sum.y);
-      sum.z = mul_add(b, load(&padded.z[i + r]), sum.z);
+      const LaneVec increment = load_sample(padded, i + r);
+      sum.x = mul_add(b, increment.x, sum.x);
+      sum.y = mul_add(b, increment.y, sum.y);
+      sum.z = mul_add(b, increment.z, sum.z);
     }
-    store(sum.x, &out.x[i]);
-    store(sum.y, &out.y[i]);
-    store(sum.z, &out.z[i]);
+    store_sample(sum, out, i);
   }
 }
 

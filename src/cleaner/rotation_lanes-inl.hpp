@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "cleaner/pieces.hpp"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -39,6 +40,25 @@ struct LaneVec {
 struct LaneQuat {
   Lanes w, x, y, z;
 };
+
+// Consecutive samples of a track from frame i on, one in each lane.
+HWY_INLINE LaneQuat load_sample(const RotationTrack& track, std::size_t i) {
+  return {load(&track.w[i]), load(&track.x[i]), load(&track.y[i]), load(&track.z[i])};
+}
+HWY_INLINE LaneVec load_sample(const VectorTrack& track, std::size_t i) {
+  return {load(&track.x[i]), load(&track.y[i]), load(&track.z[i])};
+}
+HWY_INLINE void store_sample(const LaneQuat& sample, RotationTrack& track, std::size_t i) {
+  store(sample.w, &track.w[i]);
+  store(sample.x, &track.x[i]);
+  store(sample.y, &track.y[i]);
+  store(sample.z, &track.z[i]);
+}
+HWY_INLINE void store_sample(const LaneVec& sample, VectorTrack& track, std::size_t i) {
+  store(sample.x, &track.x[i]);
+  store(sample.y, &track.y[i]);
+  store(sample.z, &track.z[i]);
+}
 
 // sum_i coefficients[i] x^i
 template <std::size_t count>

@@ -306,7 +306,7 @@ void MarkerWriter::append_frame(const Frame& frame, std::int64_t number) {
   }
   for (std::size_t m = 0; m < frame.positions.size(); ++m) {
     if (m > 0) append(",");
-    const bool seen = frame.observed.empty() || frame.observed[m] != 0;
+    const bool seen = frame.is_observed(m);
     const Vec3 v = frame.positions[m];
     if (!seen) {
       append(json ? "null" : ",,");

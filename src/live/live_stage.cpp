@@ -252,7 +252,7 @@ std::vector<TrackChange> LiveStage::changes() const {
 // An unmeasured joint is repaired, and a repair is complete at any strength.
 void LiveStage::blend(const Frame& from) {
   for (std::size_t j = 0; j < out_.rotations.size(); ++j) {
-    const bool seen = from.observed.empty() || from.observed[j] != 0;
+    const bool seen = from.is_observed(j);
     if (seen || strength_ == 0)
       out_.rotations[j] = slerp(from.rotations[j], out_.rotations[j], strength_);
   }

@@ -185,7 +185,7 @@ MarkerErrors summary(const Errors& errors, const std::vector<std::optional<PoseM
   for (std::size_t f = 0; f < e.frames; ++f) {
     for (std::size_t m = first; m < last; ++m) {
       if (errors.seen[f * errors.markers() + m] == 0) continue;
-      const double distance = norm(Vec3{e(f, 3 * m), e(f, 3 * m + 1), e(f, 3 * m + 2)});
+      const double distance = norm(vector_at(e, f, m));
       distances.add(distance);
       result.max_distance = std::max(result.max_distance, distance);
     }
@@ -217,8 +217,7 @@ double percentile_99(const Errors& errors) {
   const PoseMatrix& e = errors.values;
   for (std::size_t f = 0; f < e.frames; ++f) {
     for (std::size_t m = 0; m < errors.markers(); ++m) {
-      if (errors.seen[f * errors.markers() + m] != 0)
-        distances.push_back(norm(Vec3{e(f, 3 * m), e(f, 3 * m + 1), e(f, 3 * m + 2)}));
+      if (errors.seen[f * errors.markers() + m] != 0) distances.push_back(norm(vector_at(e, f, m)));
     }
   }
   return metrics::percentile_of(std::move(distances), 99);

@@ -1,12 +1,13 @@
 // Extends the rotations and vectors of `kinemend/rotation.hpp`: components and unit vectors by
-// axis, steps between samples, charts of rotations for linear filters, and the eigenvector behind
-// means.
+// axis, vectors of a matrix of channels, steps between samples, charts of rotations for linear
+// filters, and the eigenvector behind means.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <vector>
 
+#include "kinemend/experimental/pose_matrix.hpp"
 #include "kinemend/rotation.hpp"
 
 namespace kinemend {
@@ -25,6 +26,11 @@ inline double& component_of(Vec3& v, Axis axis) {
 }
 inline Vec3 unit_vector(Axis axis) {
   return {axis == Axis::x ? 1.0 : 0.0, axis == Axis::y ? 1.0 : 0.0, axis == Axis::z ? 1.0 : 0.0};
+}
+
+/// The channels 3 part, 3 part + 1 and 3 part + 2 of a frame.
+inline Vec3 vector_at(const PoseMatrix& values, std::size_t frame, std::size_t part) {
+  return {values(frame, 3 * part), values(frame, 3 * part + 1), values(frame, 3 * part + 2)};
 }
 
 inline Vec3 difference(Quat from, Quat to) { return log(conjugate(from) * to); }

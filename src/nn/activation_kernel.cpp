@@ -1,6 +1,6 @@
 // The functions exp, tanh, sigmoid and relu and the gates of an LSTM, compiled once for each
 // instruction set.
-#include "nn/activation_kernel.hpp"
+#include "nn/kernels.hpp"
 
 #include "base/simd.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "nn/gemm_kernel.hpp"
+#include "nn/kernels.hpp"
 
 namespace kinemend::nn {
 

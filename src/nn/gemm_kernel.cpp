@@ -1,5 +1,5 @@
 // Multiplies tiles whose sums stay in registers, compiled once for each instruction set.
-#include "nn/gemm_kernel.hpp"
+#include "nn/kernels.hpp"
 
 #include <algorithm>
 

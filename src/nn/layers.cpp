@@ -9,7 +9,7 @@
 #include <cassert>
 
 #include "kinemend/error.hpp"
-#include "nn/activation_kernel.hpp"
+#include "nn/kernels.hpp"
 
 namespace kinemend::nn {
 

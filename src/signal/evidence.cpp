@@ -18,7 +18,6 @@ namespace {
 
 // Chosen by hand, not swept.
 constexpr double largest_cutoff_share = 0.45;  // of the frame rate
-constexpr double largest_strength = 1e10;      // beyond it the factor loses precision
 
 using Channels = std::vector<std::size_t>;
 

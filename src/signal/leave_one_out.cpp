@@ -38,9 +38,8 @@ std::size_t memory_of(const SharedFactor& factor) {
 }  // namespace
 
 LeaveOneOut::LeaveOneOut(std::size_t frames, double frame_rate_hz, const CutoffGrid& cutoffs) {
-  // A larger strength loses precision, as in `ModelGrid`; the weight prevents a division by zero.
-  // Chosen by hand, not swept.
-  constexpr double largest_strength = 1e10, least_weight = 1e-3;
+  // Prevents a division by zero. Chosen by hand, not swept.
+  constexpr double least_weight = 1e-3;
   if (frames <= order + 1) return;
   std::vector<double> strengths;
   for (std::size_t i = 0; i < cutoffs.count; ++i) {

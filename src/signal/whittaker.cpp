@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 
 #include "base/portable.hpp"
 #include "signal/whittaker_kernels.hpp"
@@ -11,8 +12,6 @@
 namespace kinemend::signal {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 // Entry [t, t - k] of D^d (D^d)^T.
 double product_entry(const std::array<double, largest_order + 1>& c, std::size_t order,
@@ -53,7 +52,8 @@ SharedRows rows_of(const SharedFactor& factor) {
 }
 
 double strength_of_cutoff(double cutoff, std::size_t order) {
-  return portable::pow(2 * portable::sin(pi * cutoff), -2.0 * static_cast<double>(order));
+  return portable::pow(2 * portable::sin(std::numbers::pi * cutoff),
+                       -2.0 * static_cast<double>(order));
 }
 
 SharedFactor factor_shared(std::size_t frames, std::size_t order, double strength) {

@@ -49,6 +49,8 @@ constexpr std::array<double, largest_order + 1> difference_coefficients(std::siz
 /// The strength p / w at which the smoother passes half the amplitude at `cutoff` cycles a frame
 /// (up to 1/2): (2 sin(pi cutoff))^(-2 order).
 double strength_of_cutoff(double cutoff, std::size_t order);
+/// The factor of a system with a larger strength loses precision. Chosen by hand, not swept.
+inline constexpr double largest_strength = 1e10;
 
 /// Cutoffs spaced by equal ratios.
 struct CutoffGrid {

@@ -1,4 +1,5 @@
-// The recursions of Whittaker smoothing, compiled once for each instruction set.
+// The recursions of Whittaker smoothing and the residuals of many models at once, compiled once for
+// each instruction set.
 #include "base/simd.hpp"
 #include "signal/whittaker.hpp"
 #include "signal/whittaker_kernels.hpp"
@@ -13,6 +14,7 @@ namespace kinemend::signal::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Tag = hn::CappedTag<double, block_channels>;
+using Vector = hn::Vec<Tag>;
 
 // Calls work(column) for each vector of columns of a block.
 template <class Work>
@@ -80,6 +82,73 @@ void solve_shared_rows(const SharedRows& factor, const double* y, double* x, dou
     if (factor.order == 2) solve_shared_column<2>(factor, y + c, x + c, residuals + c);
     if (factor.order == 3) solve_shared_column<3>(factor, y + c, x + c, residuals + c);
   });
+}
+
+// Models processed together, to hide the latency of each one's recursion. For speed, not swept.
+constexpr std::size_t models_at_once = 4;
+
+// Adds differences [first, last) of one vector of columns. `sums` and `before` (order rows) are
+// those of the first model; both continue over models and calls.
+template <std::size_t order, std::size_t models>
+HWY_INLINE void add_residuals(const SharedRows* factors, std::size_t first, std::size_t last,
+                              const double* y, double* sums, double* before) {
+  const Tag d;
+  Vector sum[models], past[models][order];
+  for (std::size_t m = 0; m < models; ++m) {
+    sum[m] = hn::LoadU(d, sums + m * block_channels);
+    for (std::size_t k = 0; k < order; ++k)
+      past[m][k] = hn::LoadU(d, before + (m * largest_order + k) * block_channels);
+  }
+  for (std::size_t t = first; t < last; ++t) {
+    const Vector difference = difference_at<order>(y, t);
+    for (std::size_t m = 0; m < models; ++m) {
+      const std::size_t row = t < factors[m].stored - 1 ? t : factors[m].stored - 1;
+      const double* lower = factors[m].lower + row * order;
+      Vector value = difference;
+      for (std::size_t k = order; k >= 1; --k)
+        value = hn::Sub(value, hn::Mul(hn::Set(d, lower[k - 1]), past[m][k - 1]));
+      for (std::size_t k = order - 1; k >= 1; --k) past[m][k] = past[m][k - 1];
+      past[m][0] = value;
+      const Vector scaled = hn::Mul(value, hn::Set(d, factors[m].inverse_diagonal[row]));
+      sum[m] = hn::Add(sum[m], hn::Mul(scaled, value));
+    }
+  }
+  for (std::size_t m = 0; m < models; ++m) {
+    hn::StoreU(sum[m], d, sums + m * block_channels);
+    for (std::size_t k = 0; k < order; ++k)
+      hn::StoreU(past[m][k], d, before + (m * largest_order + k) * block_channels);
+  }
+}
+
+template <std::size_t order>
+HWY_INLINE void add_all_residuals(const SharedRows* factors, std::size_t models, std::size_t first,
+                                  std::size_t last, const double* y, double* sums, double* before) {
+  for_columns([&](std::size_t c) {
+    std::size_t m = 0;
+    const auto of = [c](double* data, std::size_t rows) {
+      return data + rows * block_channels + c;
+    };
+    for (; m + models_at_once <= models; m += models_at_once) {
+      add_residuals<order, models_at_once>(factors + m, first, last, y + c, of(sums, m),
+                                           of(before, m * largest_order));
+    }
+    for (; m < models; ++m) {
+      add_residuals<order, 1>(factors + m, first, last, y + c, of(sums, m),
+                              of(before, m * largest_order));
+    }
+  });
+}
+
+void add_shared_residuals(const SharedRows* factors, std::size_t models, std::size_t first,
+                          std::size_t last, const double* y, double* sums, double* before) {
+  switch (factors[0].order) {
+    case 1:
+      return add_all_residuals<1>(factors, models, first, last, y, sums, before);
+    case 2:
+      return add_all_residuals<2>(factors, models, first, last, y, sums, before);
+    default:
+      return add_all_residuals<3>(factors, models, first, last, y, sums, before);
+  }
 }
 
 // A[t, t - k] of the penalty: sum_u c[u] c[u + k] penalty[t - k - u].
@@ -242,12 +311,17 @@ HWY_AFTER_NAMESPACE();
 namespace kinemend::signal {
 
 HWY_EXPORT(solve_shared_rows);
+HWY_EXPORT(add_shared_residuals);
 HWY_EXPORT(factor_weighted_rows);
 HWY_EXPORT(refine_weighted_rows);
 HWY_EXPORT(difference_variance_rows);
 
 void solve_shared_rows(const SharedRows& factor, const double* y, double* x, double* residuals) {
   HWY_DYNAMIC_DISPATCH(solve_shared_rows)(factor, y, x, residuals);
+}
+void add_shared_residuals(const SharedRows* factors, std::size_t models, std::size_t first,
+                          std::size_t last, const double* y, double* sums, double* before) {
+  HWY_DYNAMIC_DISPATCH(add_shared_residuals)(factors, models, first, last, y, sums, before);
 }
 void factor_weighted_rows(const WeightedRows& rows, const double* weight, const double* penalty) {
   HWY_DYNAMIC_DISPATCH(factor_weighted_rows)(rows, weight, penalty);

@@ -39,6 +39,17 @@ TEST(BodyLayout, NamesItsChannels) {
   EXPECT_EQ(to_string(markers.kind), "markers");
 }
 
+TEST(BodyLayout, DiffersByAnyMember) {
+  const BodyLayout layout = layout_of(walk());
+  BodyLayout other = layout;
+  EXPECT_EQ(layout, other);
+  other.references[1] = -other.references[1];
+  EXPECT_NE(layout, other);
+  other = layout;
+  other.trend_s *= 2;
+  EXPECT_NE(layout, other);
+}
+
 TEST(BodyLayout, SaysWhichTrackBreaksARule) {
   const BodyLayout good = layout_of(walk());
   EXPECT_NO_THROW(good.validate());

@@ -139,6 +139,16 @@ TEST(BoneNames, LeaveOtherNamesWhole) {
   EXPECT_EQ(bones[2].side, Side::none);
 }
 
+TEST(FindBone, FindsTheLastJointOfABoneAndSide) {
+  const std::vector<BoneName> bones =
+      bone_names({"Hips", "Spine", "Spine1", "LeftArm", "RightArm"});
+  EXPECT_EQ(find_bone(bones, Bone::spine, none), 2);
+  EXPECT_EQ(find_bone(bones, Bone::upper_arm, left), 3);
+  EXPECT_EQ(find_bone(bones, Bone::upper_arm, right), 4);
+  EXPECT_EQ(find_bone(bones, Bone::upper_arm, none), -1);
+  EXPECT_EQ(find_bone(bones, Bone::foot, left), -1);
+}
+
 TEST(PlainName, DropsCaseSeparatorsAndPrefixes) {
   EXPECT_EQ(plain_name("Ann:Left Arm"), "leftarm");
   EXPECT_EQ(plain_name("mixamorig:LeftArm"), "leftarm");

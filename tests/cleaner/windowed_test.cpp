@@ -70,6 +70,15 @@ std::vector<Frame> streamed_frames(LiveFilter& filter, const TakeView& take) {
   return frames;
 }
 
+TEST(Frame, HasSeenAllIfItMarksNone) {
+  Frame frame;
+  frame.positions.resize(two);
+  EXPECT_TRUE(frame.is_observed(0) && frame.is_observed(1));
+  frame.observed = {1, 0};
+  EXPECT_TRUE(frame.is_observed(0));
+  EXPECT_FALSE(frame.is_observed(1));
+}
+
 TEST(Windowed, GivesWhatPiecesGiveForTheWholeTake) {
   for (const std::size_t frames : {0, 1, 2, 3, 4, 5, 6, 40}) {
     const Take clip = moving_take(frames, 100), expected = offline_two_before(clip);

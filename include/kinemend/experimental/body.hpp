@@ -60,6 +60,9 @@ struct BodyLayout {
   /// children, at least three anchors. Errors: `ErrorKind::usage` naming the first track that
   /// breaks a rule.
   void validate() const;
+
+  /// Models with equal layouts have the same channels of the same body.
+  friend bool operator==(const BodyLayout&, const BodyLayout&) = default;
 };
 
 /// Computes the means and references of a set of takes, before a model is trained. Takes are added

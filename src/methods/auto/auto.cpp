@@ -55,22 +55,12 @@ struct JudgedTracks {
 // Tracks of one space, and the verdicts of `clean_tracks` on them.
 JudgedTracks judge_tracks(const TakeView& take, const std::vector<std::size_t>& numbers,
                           const TrackCleaningSettings& settings, ShareProgress* progress) {
-  const std::size_t frames = take.frames, count = numbers.size();
-  VectorTracks tracks(frames, count);
-  SampleMarks suspects(frames, count), gaps(frames, count);
-  if (progress != nullptr) progress->begin_part(0.2, count);
-  for_each_parallel(count, frames * count, [&](std::size_t n) {
-    const TrackVectors curve = vectors_of(take, numbers[n]);
-    for (std::size_t t = 0; t < frames; ++t) {
-      tracks.set(t, n, curve.vectors[t]);
-      if (!curve.suspects.empty()) suspects(t, n) = curve.suspects[t];
-      gaps(t, n) = !take.tracks[numbers[n]].is_observed(t);
-    }
-    if (progress != nullptr) progress->step();
-  });
-  CleanedTracks verdicts = clean_tracks(tracks, suspects, gaps, tracks_nearby(take, numbers),
-                                        take.frame_rate_hz, settings, progress);
-  return {std::move(tracks), std::move(verdicts)};
+  if (progress != nullptr) progress->begin_part(0.2, numbers.size());
+  TracksRead read = read_tracks(take, numbers, false, progress);
+  CleanedTracks verdicts =
+      clean_tracks(read.vectors, read.suspects, read.gaps, tracks_nearby(take, numbers),
+                   take.frame_rate_hz, settings, progress);
+  return {std::move(read.vectors), std::move(verdicts)};
 }
 
 // The tracks that may change, by space.

@@ -297,8 +297,7 @@ std::vector<double> coloured_shares(const NoiseSpectrum& spectrum, double scale,
   for (const Vec3 d : spectrum.deviations) {
     const double level =
         scale * std::max({d.x, d.y, d.z}) * spectrum.fast_share() / rate_factor_of(frame_rate_hz);
-    const double r = std::clamp((level - tuning.start) / (tuning.full - tuning.start), 0.0, 1.0);
-    shares.push_back(smooth_step(r));
+    shares.push_back(smooth_ramp(level, tuning.start, tuning.full));
   }
   return shares;
 }

@@ -249,33 +249,6 @@ void iterate_candidates(Detection& detection, ShareProgress* progress) {
 
 }  // namespace
 
-std::vector<std::vector<std::size_t>> joints_nearby(std::span<const std::int32_t> parents) {
-  const std::size_t count = parents.size();
-  std::vector<std::vector<std::size_t>> neighbours(count), nearby(count);
-  for (std::size_t j = 0; j < count; ++j) {
-    if (parents[j] < 0) continue;
-    const auto parent = static_cast<std::size_t>(parents[j]);
-    neighbours[j].push_back(parent);
-    neighbours[parent].push_back(j);
-  }
-  for (std::size_t j = 0; j < count; ++j) {
-    std::vector<std::uint8_t> seen(count);
-    seen[j] = 1;
-    std::vector<std::size_t> ring{j};
-    for (int bones = 0; bones < 3; ++bones) {
-      std::vector<std::size_t> next;
-      for (const std::size_t from : ring) {
-        for (const std::size_t to : neighbours[from]) {
-          if (std::exchange(seen[to], std::uint8_t{1}) == 0) next.push_back(to);
-        }
-      }
-      nearby[j].insert(nearby[j].end(), next.begin(), next.end());
-      ring = std::move(next);
-    }
-  }
-  return nearby;
-}
-
 DetectedSpikes find_spikes(VectorTracks& tracks, const SampleMarks& initial_candidates,
                            const std::vector<std::vector<std::size_t>>& nearby,
                            double frame_rate_hz, const SampleMarks* missing,

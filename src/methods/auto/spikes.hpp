@@ -13,16 +13,6 @@
 
 namespace kinemend {
 
-/// Gross spikes of one joint: samples whose deviation from the mean of their two neighbours exceeds
-/// 6 degrees and 6 times the median deviation of the samples about them. In `track` that mean
-/// replaces them, so that a smooth reference can be computed. Takes under 5 frames have none.
-/// Returns F marks.
-std::vector<std::uint8_t> replace_gross_spikes(std::vector<Quat>& track,
-                                               const GrossSpikeTuning& tuning = {});
-
-/// The joints within three bones of each joint, without the joint itself.
-std::vector<std::vector<std::size_t>> joints_nearby(std::span<const std::int32_t> parents);
-
 struct DetectedSpikes {
   SampleMarks marked;
   std::vector<double> noise;  ///< per track without its spikes, degrees

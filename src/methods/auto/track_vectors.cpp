@@ -69,6 +69,25 @@ TrackVectors vectors_of(const TakeView& take, std::size_t number) {
   return curve;
 }
 
+TracksRead read_tracks(const TakeView& take, const std::vector<std::size_t>& numbers,
+                       bool keep_charts, ShareProgress* progress) {
+  const std::size_t frames = take.frames, count = numbers.size();
+  TracksRead read{
+      VectorTracks(frames, count), SampleMarks(frames, count), SampleMarks(frames, count), {}};
+  if (keep_charts) read.charts.resize(count);
+  for_each_parallel(count, frames * count, [&](std::size_t n) {
+    TrackVectors curve = vectors_of(take, numbers[n]);
+    for (std::size_t t = 0; t < frames; ++t) {
+      read.vectors.set(t, n, curve.vectors[t]);
+      if (!curve.suspects.empty()) read.suspects(t, n) = curve.suspects[t];
+      read.gaps(t, n) = take.tracks[numbers[n]].is_observed(t) ? 0 : 1;
+    }
+    if (keep_charts) read.charts[n] = std::move(curve.chart);
+    if (progress != nullptr) progress->step();
+  });
+  return read;
+}
+
 CleanedTrack track_of(const TakeView& take, std::size_t number, std::span<const Vec3> vectors,
                       std::span<const std::uint8_t> spikes, bool smoothed,
                       const RotationChart* chart) {
@@ -222,6 +241,33 @@ std::vector<std::uint8_t> replace_gross_spikes(std::vector<Quat>& track,
     track = std::move(replaced);
   }
   return marks;
+}
+
+std::vector<std::vector<std::size_t>> joints_nearby(std::span<const std::int32_t> parents) {
+  const std::size_t count = parents.size();
+  std::vector<std::vector<std::size_t>> neighbours(count), nearby(count);
+  for (std::size_t j = 0; j < count; ++j) {
+    if (parents[j] < 0) continue;
+    const auto parent = static_cast<std::size_t>(parents[j]);
+    neighbours[j].push_back(parent);
+    neighbours[parent].push_back(j);
+  }
+  for (std::size_t j = 0; j < count; ++j) {
+    std::vector<std::uint8_t> seen(count);
+    seen[j] = 1;
+    std::vector<std::size_t> ring{j};
+    for (int bones = 0; bones < 3; ++bones) {
+      std::vector<std::size_t> next;
+      for (const std::size_t from : ring) {
+        for (const std::size_t to : neighbours[from]) {
+          if (std::exchange(seen[to], std::uint8_t{1}) == 0) next.push_back(to);
+        }
+      }
+      nearby[j].insert(nearby[j].end(), next.begin(), next.end());
+      ring = std::move(next);
+    }
+  }
+  return nearby;
 }
 
 namespace {

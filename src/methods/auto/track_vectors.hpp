@@ -1,5 +1,5 @@
 // Converts tracks of a take to vectors in degrees, and back: rotations about a smoothed copy of the
-// track, positions by a scale. Finds the tracks that move together.
+// track, positions by a scale. Replaces gross spikes, and finds the tracks that move together.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +8,11 @@
 #include <span>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "kinemend/cleaner.hpp"
 #include "kinemend/take_view.hpp"
 #include "methods/auto/tuning.hpp"
+#include "methods/auto/vector_tracks.hpp"
 #include "motion/rotation.hpp"
 
 namespace kinemend {
@@ -38,6 +40,19 @@ struct TrackVectors {
 /// Rotations in their smooth chart, positions by `degrees_per_unit`.
 TrackVectors vectors_of(const TakeView& take, std::size_t number);
 
+/// Some tracks of a take, as input of `find_spikes` and `clean_tracks`.
+struct TracksRead {
+  VectorTracks vectors;
+  SampleMarks suspects;  ///< as of `TrackVectors`
+  SampleMarks gaps;      ///< samples that were not observed; their vectors are bridges
+  /// One per track, as of `TrackVectors`; empty if they are not kept.
+  std::vector<std::optional<RotationChart>> charts;
+};
+/// The vectors of the tracks `numbers`. Charts take more memory than the vectors, and are kept if
+/// `keep_charts`. `progress`, if any, takes a step for each track.
+TracksRead read_tracks(const TakeView& take, const std::vector<std::size_t>& numbers,
+                       bool keep_charts, ShareProgress* progress = nullptr);
+
 /// A cleaned track from its vectors: those of all samples if it is smoothed, else those of spikes
 /// (F marks). `chart` is that of `vectors_of`, which takes more memory than the vectors; null: it
 /// is computed again.
@@ -50,6 +65,16 @@ CleanedTrack track_of(const TakeView& take, std::size_t number, std::span<const 
 /// quaternions do not matter.
 RotationChart smooth_chart(std::span<const Quat> track, double frame_rate_hz,
                            const ChartTuning& tuning = {});
+
+/// Gross spikes of one joint: samples whose deviation from the mean of their two neighbours exceeds
+/// 6 degrees and 6 times the median deviation of the samples about them. In `track` that mean
+/// replaces them, so that a smooth reference can be computed. Takes under 5 frames have none.
+/// Returns F marks.
+std::vector<std::uint8_t> replace_gross_spikes(std::vector<Quat>& track,
+                                               const GrossSpikeTuning& tuning = {});
+
+/// The joints within three bones of each joint, without the joint itself.
+std::vector<std::vector<std::size_t>> joints_nearby(std::span<const std::int32_t> parents);
 
 /// For each of `tracks`, the indices in that list of the others that move with it. Rotations: the
 /// joints near it on the body. Markers: up to four others that keep their distance to it, nearest

@@ -160,6 +160,11 @@ std::vector<double> noise_levels(const VectorTracks& tracks, const SampleMarks& 
   return levels;
 }
 
+double smooth_ramp(double value, double start, double full) {
+  const double r = std::clamp((value - start) / (full - start), 0.0, 1.0);
+  return squared(r) * (3 - 2 * r);
+}
+
 double rate_factor_of(double frame_rate_hz, const DeadZoneTuning& tuning) {
   return std::max(1.0, portable::pow(120 / frame_rate_hz, tuning.rate_exponent));
 }
@@ -175,8 +180,7 @@ std::vector<double> smoothing_shares(const std::vector<double>& noise, double fr
   const double full = tuning.full_quiet + (tuning.full_noisy - tuning.full_quiet) * noisy;
   std::vector<double> shares(noise.size());
   for (std::size_t n = 0; n < noise.size(); ++n) {
-    const double r = std::clamp((noise[n] / rate_factor - start) / (full - start), 0.0, 1.0);
-    shares[n] = smooth_step(r);
+    shares[n] = smooth_ramp(noise[n] / rate_factor, start, full);
   }
   return shares;
 }

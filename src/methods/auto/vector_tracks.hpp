@@ -23,6 +23,14 @@ struct VectorTracks {
 
   VectorTracks(std::size_t frames, std::size_t tracks)
       : values(frames * tracks), is_whitened(tracks), frames_(frames) {}
+  /// Sets each vector to `vector(frame, track)`.
+  template <class Vector>
+  VectorTracks(std::size_t frames, std::size_t tracks, const Vector& vector)
+      : VectorTracks(frames, tracks) {
+    for (std::size_t n = 0; n < tracks; ++n) {
+      for (std::size_t t = 0; t < frames; ++t) set(t, n, vector(t, n));
+    }
+  }
   std::size_t frames() const noexcept { return frames_; }
   std::size_t tracks() const noexcept { return is_whitened.size(); }
   Vec3 at(std::size_t frame, std::size_t track) const { return values[track * frames_ + frame]; }
@@ -48,6 +56,14 @@ struct SampleMarks {
 
   SampleMarks(std::size_t frame_count, std::size_t track_count)
       : frames(frame_count), tracks(track_count), marks(frame_count * track_count) {}
+  /// Marks each sample for which `is_marked(frame, track)`.
+  template <class IsMarked>
+  SampleMarks(std::size_t frame_count, std::size_t track_count, const IsMarked& is_marked)
+      : SampleMarks(frame_count, track_count) {
+    for (std::size_t n = 0; n < tracks; ++n) {
+      for (std::size_t t = 0; t < frames; ++t) (*this)(t, n) = is_marked(t, n) ? 1 : 0;
+    }
+  }
   std::uint8_t& operator()(std::size_t frame, std::size_t track) {
     return marks[track * frames + frame];
   }
@@ -87,6 +103,9 @@ std::vector<Vec3> fifth_differences(std::span<const Vec3> track,
 /// Huber's estimate of the standard deviation of such differences along three unit vectors. 0 for
 /// no differences.
 Vec3 noise_along(std::span<const Vec3> differences, const std::array<Vec3, 3>& directions);
+
+/// 0 up to `start`, 1 from `full` on; between them a cubic that is level at both ends.
+double smooth_ramp(double value, double start, double full);
 
 /// How much more motion looks like noise than at 120 Hz: 1 from there up.
 double rate_factor_of(double frame_rate_hz, const DeadZoneTuning& tuning = {});

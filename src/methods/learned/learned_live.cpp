@@ -190,7 +190,7 @@ class LearnedLive final : public LiveFilter {
   };
 
   static bool is_seen_in(const Frame& frame, const StreamedTrack& track) {
-    return !track.owner || frame.observed.empty() || frame.observed[*track.owner] != 0;
+    return !track.owner || frame.is_observed(*track.owner);
   }
 
   void put(std::size_t n, const std::optional<Vec3>& vector) {

@@ -33,33 +33,23 @@ void put(MotionTake& take, std::size_t frame, std::size_t n, Vec3 vector) {
 void read_together(const TakeView& take, const std::vector<std::size_t>& own,
                    MotionTracks& tracks) {
   if (own.empty()) return;
-  const std::size_t frames = take.frames, count = own.size();
-  VectorTracks vectors(frames, count);
-  SampleMarks suspects(frames, count), gaps(frames, count);
   std::vector<std::size_t> numbers;
-  numbers.reserve(count);
+  numbers.reserve(own.size());
   for (const std::size_t n : own) numbers.push_back(tracks.numbers[n]);
-  for_each_parallel(count, frames * count, [&](std::size_t i) {
-    TrackVectors curve = vectors_of(take, numbers[i]);
-    for (std::size_t f = 0; f < frames; ++f) {
-      vectors.set(f, i, curve.vectors[f]);
-      if (!curve.suspects.empty()) suspects(f, i) = curve.suspects[f];
-      gaps(f, i) = take.tracks[numbers[i]].is_observed(f) ? 0 : 1;
-    }
-    tracks.charts[own[i]] = std::move(curve.chart);
-  });
-  const DetectedSpikes spikes =
-      find_spikes(vectors, suspects, tracks_nearby(take, numbers), take.frame_rate_hz, &gaps);
-  for (std::size_t i = 0; i < count; ++i) {
+  TracksRead read = read_tracks(take, numbers, true);
+  const DetectedSpikes spikes = find_spikes(
+      read.vectors, read.suspects, tracks_nearby(take, numbers), take.frame_rate_hz, &read.gaps);
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    tracks.charts[own[i]] = std::move(read.charts[i]);
     // Relative positions make single precision sufficient far from the world's origin.
     const bool turns = tracks.charts[own[i]].has_value();
-    const Vec3 origin = turns ? Vec3{} : vectors.at(0, i);
+    const Vec3 origin = turns ? Vec3{} : read.vectors.at(0, i);
     tracks.origins[own[i]] = origin;
-    for (std::size_t f = 0; f < frames; ++f) {
-      put(tracks.take, f, own[i], vectors.at(f, i) - origin);
+    for (std::size_t f = 0; f < take.frames; ++f) {
+      put(tracks.take, f, own[i], read.vectors.at(f, i) - origin);
       const bool is_spike = spikes.marked(f, i) != 0;
       tracks.is_spike[f * tracks.numbers.size() + own[i]] = is_spike ? 1 : 0;
-      if (!is_spike && gaps(f, i) == 0) continue;
+      if (!is_spike && read.gaps(f, i) == 0) continue;
       for (std::size_t axis = 0; axis < 3; ++axis)
         tracks.take.missing[f * tracks.take.channels + 3 * own[i] + axis] = 1;
     }
@@ -131,13 +121,10 @@ bool is_tame(const BodyChannels& body, std::size_t part) {
   // Strong noise makes smaller steps; a vector that switches to the other way around steps by about
   // a turn. Chosen by hand, not swept.
   constexpr double most_step_deg = 180;
-  const auto vector_at = [&](std::size_t frame) {
-    return Vec3{body.poses(frame, 3 * part), body.poses(frame, 3 * part + 1),
-                body.poses(frame, 3 * part + 2)};
-  };
+  const auto turn_at = [&](std::size_t frame) { return vector_at(body.poses, frame, part); };
   for (std::size_t f = 0; f < body.poses.frames; ++f) {
-    if (norm(vector_at(f)) > degrees_per_radian * tangent_limit_rad) return false;
-    if (f > 0 && norm(vector_at(f) - vector_at(f - 1)) > most_step_deg) return false;
+    if (norm(turn_at(f)) > degrees_per_radian * tangent_limit_rad) return false;
+    if (f > 0 && norm(turn_at(f) - turn_at(f - 1)) > most_step_deg) return false;
   }
   return true;
 }
@@ -273,9 +260,8 @@ void decode_known_body(KnownBody& body, const BodyLayout& layout, const MotionTa
 
 namespace {
 
-Vec3 vector_at(const PoseMatrix& poses, std::size_t frame, std::size_t joint) {
-  const std::size_t c = 3 * joint;
-  return radians_per_degree * Vec3{poses(frame, c), poses(frame, c + 1), poses(frame, c + 2)};
+Quat turn_of(const PoseMatrix& poses, std::size_t frame, std::size_t joint) {
+  return exp(radians_per_degree * vector_at(poses, frame, joint));
 }
 
 // Multiplies the rotations of joints by `left` and `right`.
@@ -287,7 +273,7 @@ PoseMatrix turned(const PoseMatrix& poses, double rate_hz, const BodyLayout& lay
     const Quat reference = layout.references[j];
     const Quat before = conjugate(reference) * left[j] * reference;
     for (std::size_t f = 0; f < poses.frames; ++f)
-      vectors[f] = log(normalized(before * exp(vector_at(poses, f, j)) * right[j]));
+      vectors[f] = log(normalized(before * turn_of(poses, f, j) * right[j]));
     representation::continue_vectors(vectors, rate_hz);
     for (std::size_t f = 0; f < poses.frames; ++f) {
       const Vec3 v = degrees_per_radian * vectors[f];
@@ -314,7 +300,7 @@ BodyCalibration calibration_of(const PoseMatrix& poses, const BodyLayout& layout
   };
   for (std::size_t f = 0; f < poses.frames; ++f) {
     for (std::size_t j = 0; j < joints; ++j) {
-      globals[j] = follow(j, layout.references[j] * exp(vector_at(poses, f, j)), globals);
+      globals[j] = follow(j, layout.references[j] * turn_of(poses, f, j), globals);
       const Quat q = f == 0 ? globals[j] : align_hemisphere(globals[j], sums[j]);
       sums[j] = {sums[j].w + q.w, sums[j].x + q.x, sums[j].y + q.y, sums[j].z + q.z};
     }

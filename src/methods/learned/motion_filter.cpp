@@ -10,7 +10,7 @@
 #include "methods/auto/track_cleaning.hpp"
 #include "methods/auto/vector_tracks.hpp"
 #include "methods/learned/motion_network.hpp"
-#include "nn/activation_kernel.hpp"
+#include "nn/kernels.hpp"
 
 namespace kinemend {
 
@@ -121,16 +121,14 @@ namespace {
 void smooth_together(const std::vector<std::size_t>& numbers, TrackKind kind, MotionTake& take) {
   const std::size_t count = numbers.size();
   if (count == 0) return;
-  VectorTracks tracks(take.frames, count);
+  VectorTracks tracks(take.frames, count, [&](std::size_t f, std::size_t n) {
+    const float* const v = take.values.data() + f * take.channels + 3 * numbers[n];
+    return Vec3{v[0], v[1], v[2]};
+  });
   const SampleMarks no_suspects(take.frames, count);
-  SampleMarks gaps(take.frames, count);
-  for (std::size_t n = 0; n < count; ++n) {
-    for (std::size_t f = 0; f < take.frames; ++f) {
-      const float* const v = take.values.data() + f * take.channels + 3 * numbers[n];
-      tracks.set(f, n, {v[0], v[1], v[2]});
-      gaps(f, n) = take.is_missing(f, 3 * numbers[n]) ? 1 : 0;
-    }
-  }
+  const SampleMarks gaps(take.frames, count, [&](std::size_t f, std::size_t n) {
+    return take.is_missing(f, 3 * numbers[n]);
+  });
   const CleanedTracks verdicts =
       clean_tracks(tracks, no_suspects, gaps, std::vector<std::vector<std::size_t>>(count),
                    take.frame_rate_hz, {1, false, kind, {}});

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "base/portable.hpp"
-#include "methods/learned/smoother_kernel.hpp"
 
 namespace kinemend {
 

@@ -54,6 +54,11 @@ class SmootherBank {
   std::vector<std::vector<float>> taps_;  // of each level, from the middle outwards
 };
 
+/// The inner loop of the bank: rows of `width` numbers follow each other around `middle`. Writes
+/// taps[0] middle + the sum over k of taps[k] (row k before + row k after). Every processor gives
+/// the same numbers.
+void sum_rows(const float* middle, std::size_t width, std::span<const float> taps, float* result);
+
 // Steps of the network per second: every fourth frame at 120 Hz. A model file is made for it.
 // Chosen by hand, not swept.
 inline constexpr double motion_steps_hz = 30;

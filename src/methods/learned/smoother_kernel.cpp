@@ -1,7 +1,6 @@
-// Sums weighted rows, compiled once for each instruction set.
-#include "methods/learned/smoother_kernel.hpp"
-
+// The inner loop of the bank of smoothers, compiled once for each instruction set.
 #include "base/simd.hpp"
+#include "methods/learned/motion_steps.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "methods/learned/smoother_kernel.cpp"

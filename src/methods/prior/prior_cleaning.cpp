@@ -19,6 +19,7 @@
 #include "methods/auto/track_vectors.hpp"
 #include "methods/auto/vector_tracks.hpp"
 #include "methods/prior/prior_fall_backs.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend {
 
@@ -151,10 +152,6 @@ std::string lacking(const BodyMatch& match) {
                      match.missing.size(), match.tracks.size(), fmt::join(match.missing, ", "));
 }
 
-Vec3 turn_of(const PoseMatrix& poses, std::size_t frame, std::size_t part) {
-  return {poses(frame, 3 * part), poses(frame, 3 * part + 1), poses(frame, 3 * part + 2)};
-}
-
 // Turn from one frame to the next, at least, and in medians of such turns where noise is strong.
 // Chosen by hand, not swept; docs/details/wiener.md states what leaving flips to `auto`
 // brings.
@@ -181,10 +178,10 @@ void leave_far_turns_to_auto(PriorWork& work, const BodyLayout& layout,
     double fastest = 0;
     for (std::size_t f = 0; f < steady.frames; ++f) {
       if (!is_seen(f)) continue;
-      turns.push_back(norm(turn_of(steady, f, part)));
+      turns.push_back(norm(vector_at(steady, f, part)));
       if (f == 0 || !is_seen(f - 1)) continue;
       const auto step = [&](const PoseMatrix& poses) {
-        return norm(turn_of(poses, f, part) - turn_of(poses, f - 1, part));
+        return norm(vector_at(poses, f, part) - vector_at(poses, f - 1, part));
       };
       fastest = std::max(fastest, step(steady));
       steps.push_back(step(work.channels.poses));

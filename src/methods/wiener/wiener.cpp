@@ -15,6 +15,7 @@
 #include "methods/wiener/wiener_prior.hpp"
 #include "methods/wiener/wiener_steps.hpp"
 #include "models/model_reading.hpp"
+#include "motion/rotation.hpp"
 #include "signal/fourth_difference.hpp"
 
 namespace kinemend {
@@ -88,15 +89,12 @@ std::vector<double> noise_of(const PriorWork& work, std::span<const std::uint8_t
 // The axes of each three channels' noise, as rows: along them noise is independent.
 std::vector<Eigen::Matrix3d> noise_axes(const PriorWork& work) {
   const PoseMatrix& poses = work.channels.poses;
-  VectorTracks tracks(poses.frames, poses.channels / 3);
-  SampleMarks marks(poses.frames, tracks.tracks());
-  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
-    for (std::size_t f = 0; f < poses.frames; ++f) {
-      tracks.set(f, n, {poses(f, 3 * n), poses(f, 3 * n + 1), poses(f, 3 * n + 2)});
-      const std::uint8_t* observed = &work.channels.observed[f * poses.channels + 3 * n];
-      marks(f, n) = observed[0] == 0 || observed[1] == 0 || observed[2] == 0 ? 1 : 0;
-    }
-  }
+  const VectorTracks tracks(poses.frames, poses.channels / 3,
+                            [&](std::size_t f, std::size_t n) { return vector_at(poses, f, n); });
+  const SampleMarks marks(poses.frames, tracks.tracks(), [&](std::size_t f, std::size_t n) {
+    const std::uint8_t* observed = &work.channels.observed[f * poses.channels + 3 * n];
+    return observed[0] == 0 || observed[1] == 0 || observed[2] == 0;
+  });
   std::vector<Eigen::Matrix3d> axes;
   for (const Whitening& whitening : estimate_whitening(tracks, marks, work.channels.frame_rate_hz))
     axes.push_back(whitening.matrix.rowwise().normalized());

@@ -18,6 +18,7 @@
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "methods/auto/smoothing.hpp"
+#include "motion/rotation.hpp"
 #include "signal/fourth_difference.hpp"
 
 namespace kinemend {
@@ -375,17 +376,14 @@ void smooth_channels(PoseMatrix& poses, std::span<const std::uint8_t> missing,
                      std::span<const double> noise, double frame_rate_hz) {
   // Chosen by hand, not swept.
   constexpr std::size_t fewest_smoothed_frames = 16;  // fewer do not determine a strength
-  VectorTracks tracks(poses.frames, poses.channels / 3);
-  SampleMarks marks(poses.frames, tracks.tracks());
-  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
-    const double* of_axes = &noise[3 * n];
-    for (std::size_t f = 0; f < poses.frames; ++f) {
-      const std::size_t i = f * poses.channels + 3 * n;
-      const double* v = &poses.values[i];
-      tracks.set(f, n, {v[0] / of_axes[0], v[1] / of_axes[1], v[2] / of_axes[2]});
-      marks(f, n) = missing[i] | missing[i + 1] | missing[i + 2];
-    }
-  }
+  VectorTracks tracks(poses.frames, poses.channels / 3, [&](std::size_t f, std::size_t n) {
+    const Vec3 v = vector_at(poses, f, n);
+    return Vec3{v.x / noise[3 * n], v.y / noise[3 * n + 1], v.z / noise[3 * n + 2]};
+  });
+  const SampleMarks marks(poses.frames, tracks.tracks(), [&](std::size_t f, std::size_t n) {
+    const std::size_t i = f * poses.channels + 3 * n;
+    return missing[i] != 0 || missing[i + 1] != 0 || missing[i + 2] != 0;
+  });
   const std::vector<double> one(tracks.tracks(), 1);
   std::vector<double> shares(tracks.tracks(), 1);
   for (std::size_t n = 0; n < tracks.tracks(); ++n) {

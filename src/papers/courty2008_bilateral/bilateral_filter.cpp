@@ -22,12 +22,6 @@ namespace HWY_NAMESPACE {
 
 using namespace lanes;  // NOLINT(google-build-using-namespace)
 
-HWY_INLINE LaneQuat load_sample(const RotationTrack& t, std::size_t i) {
-  return {load(&t.w[i]), load(&t.x[i]), load(&t.y[i]), load(&t.z[i])};
-}
-HWY_INLINE LaneVec load_sample(const VectorTrack& t, std::size_t i) {
-  return {load(&t.x[i]), load(&t.y[i]), load(&t.z[i])};
-}
 HWY_INLINE Lanes squared_distance(const LaneQuat& a, const LaneQuat& b) {
   return squared_angle(a, b);
 }
@@ -93,9 +87,7 @@ void bilateral_moves(const Track& track, const VectorTrack& steps, const double*
       Lanes mask_sum;
       const LaneVec sum = weigh(steps, sample_weights, band, k, i + k, mask_sum);
       const Lanes share = hn::Div(all(1.0), hn::Max(mask_sum, all(1e-300)));
-      store(mul(share, sum.x), &moves.x[i]);
-      store(mul(share, sum.y), &moves.y[i]);
-      store(mul(share, sum.z), &moves.z[i]);
+      store_sample({mul(share, sum.x), mul(share, sum.y), mul(share, sum.z)}, moves, i);
     }
   }
 }

@@ -353,15 +353,11 @@ class CausalNonlocal final : public LiveFilter {
     std::vector<double> sums, pairs;
   };
 
-  static bool is_observed(const Frame& frame, std::size_t joint) {
-    return frame.observed.empty() || frame.observed[joint] != 0;
-  }
-
   // Adds the frame to the past ones. Unmeasured rotations are held.
   void remember(const Frame& frame) {
     past_.add() = frame;
     for (const std::size_t joint : joints_) {
-      if (past_.size() > 1 && !is_observed(frame, joint)) {
+      if (past_.size() > 1 && !frame.is_observed(joint)) {
         past_[0].rotations[joint] = past_[1].rotations[joint];
       }
     }
@@ -371,7 +367,7 @@ class CausalNonlocal final : public LiveFilter {
     for (std::size_t lag = 1; lag < past_.size(); ++lag) {
       double sum = 0, pairs = 0;
       for (const std::size_t joint : joints_) {
-        if (!is_observed(frame, joint) || !is_observed(past_[lag], joint)) continue;
+        if (!frame.is_observed(joint) || !past_[lag].is_observed(joint)) continue;
         const double angle = angle_between(frame.rotations[joint], past_[lag].rotations[joint]);
         sum += angle * angle;
         pairs += 1;
@@ -386,8 +382,8 @@ class CausalNonlocal final : public LiveFilter {
     double sum = 0;
     std::size_t count = 0;
     for (const std::size_t joint : joints_) {
-      if (!is_observed(past_[0], joint) || !is_observed(past_[1], joint) ||
-          !is_observed(past_[2], joint)) {
+      if (!past_[0].is_observed(joint) || !past_[1].is_observed(joint) ||
+          !past_[2].is_observed(joint)) {
         continue;
       }
       const Quat middle = conjugate(past_[1].rotations[joint]);
@@ -403,10 +399,10 @@ class CausalNonlocal final : public LiveFilter {
   Vec3 mean_turn(std::size_t joint) const {
     const Quat present = conjugate(past_[0].rotations[joint]);
     Vec3 sum;
-    double total = is_observed(past_[0], joint) ? 1 : 0;
+    double total = past_[0].is_observed(joint) ? 1 : 0;
     for (std::size_t lag = 1; lag <= weights_.size(); ++lag) {
       const double weight = weights_[lag - 1];
-      if (weight == 0 || !is_observed(past_[lag], joint)) continue;
+      if (weight == 0 || !past_[lag].is_observed(joint)) continue;
       sum += weight * log(present * past_[lag].rotations[joint]);
       total += weight;
     }

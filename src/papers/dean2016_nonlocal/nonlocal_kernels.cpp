@@ -14,13 +14,6 @@ namespace HWY_NAMESPACE {
 
 using namespace lanes;  // NOLINT(google-build-using-namespace)
 
-HWY_INLINE LaneQuat load_sample(const RotationTrack& t, std::size_t i) {
-  return {load(&t.w[i]), load(&t.x[i]), load(&t.y[i]), load(&t.z[i])};
-}
-HWY_INLINE LaneVec load_sample(const VectorTrack& t, std::size_t i) {
-  return {load(&t.x[i]), load(&t.y[i]), load(&t.z[i])};
-}
-
 HWY_INLINE bool weighs_nothing(Lanes weights) {
   return hn::AllFalse(tag, hn::Gt(weights, hn::Zero(tag)));
 }
@@ -78,9 +71,7 @@ void mean_point_move_lanes(const VectorTrack& track, const double* observed, std
       sum.z = mul_add(weight, sub(sub(p.z, own.z), travel.z), sum.z);
     }
     const Lanes share = hn::Div(all(1.0), total);
-    store(mul(share, sum.x), &out.x[i]);
-    store(mul(share, sum.y), &out.y[i]);
-    store(mul(share, sum.z), &out.z[i]);
+    store_sample({mul(share, sum.x), mul(share, sum.y), mul(share, sum.z)}, out, i);
   }
 }
 
@@ -148,9 +139,7 @@ void mean_turn_lanes(const RotationTrack& track, const double* observed, std::si
     }
     const Lanes share = hn::Div(all(1.0), hn::Max(total, all(1e-300)));
     const LaneVec mean = vector_part(own, sum);
-    store(mul(share, mean.x), &out.x[i]);
-    store(mul(share, mean.y), &out.y[i]);
-    store(mul(share, mean.z), &out.z[i]);
+    store_sample({mul(share, mean.x), mul(share, mean.y), mul(share, mean.z)}, out, i);
   }
 }
 
@@ -170,9 +159,7 @@ void mean_move_lanes(const VectorTrack& track, std::size_t first, std::size_t co
       sum.z = mul_add(weight, sub(p.z, own.z), sum.z);
     }
     const Lanes share = hn::Div(all(1.0), total);
-    store(mul(share, sum.x), &out.x[i]);
-    store(mul(share, sum.y), &out.y[i]);
-    store(mul(share, sum.z), &out.z[i]);
+    store_sample({mul(share, sum.x), mul(share, sum.y), mul(share, sum.z)}, out, i);
   }
 }
 

@@ -359,13 +359,6 @@ FilterNetwork gap_network_of(const Model& model) {
   return network;
 }
 
-bool are_same(const BodyLayout& one, const BodyLayout& other) {
-  return one.kind == other.kind && one.names == other.names && one.parents == other.parents &&
-         one.references == other.references && one.bones == other.bones &&
-         one.with_place == other.with_place && one.place == other.place &&
-         one.trend_s == other.trend_s;
-}
-
 bool has_rate_of(const FilterNetwork& network, double frame_rate_hz) {
   // Chosen by hand, not swept.
   constexpr double same_rate = 0.01;  // share of the rate

@@ -113,7 +113,7 @@ std::shared_ptr<const PaperNetworks> networks_of(const std::shared_ptr<const Mod
                 "this model of the method recurrent fills gaps and cleans nothing: kinemend fill "
                 "--method recurrent --model, or the gap model beside one that filters");
   if (gap_model) {
-    if (!are_same(model->layout, gap_model->layout))
+    if (model->layout != gap_model->layout)
       throw Error(ErrorKind::usage,
                   "the gap model knows another body than the model: train both on the same takes");
     networks.gaps = gap_network_of(*gap_model);
@@ -273,14 +273,10 @@ class RecurrentLive final : public LiveFilter {
     unturned_ = conjugate(match.upright * at_rest);
   }
 
-  static bool is_seen(const Frame& frame, std::size_t joint) {
-    return frame.observed.empty() || frame.observed[joint] != 0;
-  }
-
   // Holds the last seen rotation in gaps; the samples there are arbitrary.
   void hold_missing(Frame& frame) {
     for (std::size_t j = 0; j < held_.size(); ++j) {
-      if (is_seen(frame, j))
+      if (frame.is_observed(j))
         held_[j] = frame.rotations[j];
       else
         frame.rotations[j] = held_[j];
@@ -293,10 +289,10 @@ class RecurrentLive final : public LiveFilter {
       const Quat q = known.before * in.rotations[known.joint] * known.after;
       if (known.track == 0) {
         input.root = root_of(in, q);
-        input.root_is_missing = !is_seen(in, known.joint) || !is_nearly_unit(input.root);
+        input.root_is_missing = !in.is_observed(known.joint) || !is_nearly_unit(input.root);
         continue;
       }
-      if (!is_seen(in, known.joint)) continue;
+      if (!in.is_observed(known.joint)) continue;
       const Vec3 v =
           continue_within_a_turn(log(normalized(conjugate(known.reference) * q)), known.last);
       if (!std::isfinite(norm(v))) continue;

@@ -14,6 +14,7 @@
 #include "base/parallel.hpp"
 #include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/experimental/representation.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend {
 
@@ -28,10 +29,6 @@ constexpr double degrees_per_height = 4 * degrees_per_radian;
 constexpr double least_bone = 1e-4;                      // body heights
 constexpr double shortest_end = 0.02, usual_end = 0.05;  // for bones of unknown length
 
-Vec3 three(const PoseMatrix& values, std::size_t frame, std::size_t part) {
-  return {values(frame, 3 * part), values(frame, 3 * part + 1), values(frame, 3 * part + 2)};
-}
-
 void put(PoseMatrix& values, std::size_t frame, std::size_t part, Vec3 v) {
   values(frame, 3 * part) = v.x;
   values(frame, 3 * part + 1) = v.y;
@@ -40,7 +37,7 @@ void put(PoseMatrix& values, std::size_t frame, std::size_t part, Vec3 v) {
 
 Quat local_rotation(const BodyLayout& layout, const PoseMatrix& channels, std::size_t frame,
                     std::size_t track) {
-  return layout.references[track] * exp(radians_per_degree * three(channels, frame, track));
+  return layout.references[track] * exp(radians_per_degree * vector_at(channels, frame, track));
 }
 
 // Rotations of all tracks in the body's frame.
@@ -127,13 +124,15 @@ PoseMatrix points_of(const SparsePoints& points, const BodyLayout& layout,
   for_each_parallel(channels.frames, channels.values.size(), [&](std::size_t f) {
     if (points.kind == BodyKind::markers) {
       for (std::size_t p = 0; p < points.count(); ++p)
-        put(positions, f, p, points.offsets[p] + (1 / degrees_per_height) * three(channels, f, p));
+        put(positions, f, p,
+            points.offsets[p] + (1 / degrees_per_height) * vector_at(channels, f, p));
       return;
     }
     const std::vector<Quat> global = global_rotations(layout, channels, f);
     for (std::size_t p = 1; p < points.count(); ++p) {
       const auto parent = static_cast<std::size_t>(points.parents[p]);
-      put(positions, f, p, three(positions, f, parent) + rotate(global[parent], points.offsets[p]));
+      put(positions, f, p,
+          vector_at(positions, f, parent) + rotate(global[parent], points.offsets[p]));
     }
   });
   return positions;
@@ -185,7 +184,7 @@ class FrameTurning {
       if (below_[i].empty()) continue;
       Matrix3d wanted = stiffness_ * stiffness_ * matrix_of(global[i]);
       for (const std::size_t p : below_[i]) {
-        const Vec3 bone = three(positions, frame, p) - three(positions, frame, i);
+        const Vec3 bone = vector_at(positions, frame, p) - vector_at(positions, frame, i);
         wanted += eigen(bone) * eigen(points_.offsets[p]).transpose();
       }
       global[i] = nearest_rotation(wanted);
@@ -193,7 +192,7 @@ class FrameTurning {
       const Vec3 v = log(normalized(conjugate(layout_.references[i]) * local));
       put(channels, frame, i,
           degrees_per_radian *
-              continue_rotation_vector(v, radians_per_degree * three(guide, frame, i)));
+              continue_rotation_vector(v, radians_per_degree * vector_at(guide, frame, i)));
     }
   }
 
@@ -212,7 +211,7 @@ PoseMatrix channels_of(const SparsePoints& points, const BodyLayout& layout,
   if (points.kind == BodyKind::markers) {
     for (std::size_t f = 0; f < guide.frames; ++f) {
       for (std::size_t p = 0; p < points.count(); ++p)
-        put(channels, f, p, degrees_per_height * (three(positions, f, p) - points.offsets[p]));
+        put(channels, f, p, degrees_per_height * (vector_at(positions, f, p) - points.offsets[p]));
     }
     return channels;
   }
@@ -230,8 +229,7 @@ constexpr double least_sine = 0.1;
 constexpr double least_length = 1e-9;
 
 Vec3 point(const PoseMatrix& positions, std::size_t frame, std::int32_t number) {
-  const auto first = 3 * static_cast<std::size_t>(number);
-  return {positions(frame, first), positions(frame, first + 1), positions(frame, first + 2)};
+  return vector_at(positions, frame, static_cast<std::size_t>(number));
 }
 
 // The turn that brings the axes of a pose to those of the world; none if the points do not

@@ -238,13 +238,6 @@ std::vector<Place> places_of(const BodyLayout& layout, const SparsePoints& point
   return places;
 }
 
-std::int32_t track_of_bone(const std::vector<BoneName>& bones, Bone bone, Side side) {
-  for (std::size_t i = bones.size(); i-- > 0;) {
-    if (bones[i].bone == bone && bones[i].side == side) return static_cast<std::int32_t>(i);
-  }
-  return -1;
-}
-
 std::int32_t track_of_name(const BodyLayout& layout,
                            std::initializer_list<std::string_view> names) {
   for (const std::string_view name : names) {
@@ -288,17 +281,17 @@ std::vector<SparsePoselet> find_poselets(const BodyLayout& layout, const SparseP
 LocalPoints find_local_points(const BodyLayout& layout) {
   const std::vector<BoneName> bones = representation::bone_names(layout.names);
   const auto found = [&](Bone bone, Side side, std::initializer_list<std::string_view> names) {
-    const std::int32_t track = track_of_bone(bones, bone, side);
+    const std::int32_t track = representation::find_bone(bones, bone, side);
     return track >= 0 ? track : track_of_name(layout, names);
   };
   LocalPoints points;
   points.left_hip = found(Bone::thigh, Side::left, {"lasi", "lfwt"});
   points.right_hip = found(Bone::thigh, Side::right, {"rasi", "rfwt"});
   points.neck = found(Bone::neck, Side::none, {"c7", "clav", "t10"});
-  if (points.neck < 0) points.neck = track_of_bone(bones, Bone::head, Side::none);
+  if (points.neck < 0) points.neck = representation::find_bone(bones, Bone::head, Side::none);
   points.root = 0;
   if (layout.kind == BodyKind::joints) return points;
-  const std::int32_t pelvis = track_of_bone(bones, Bone::pelvis, Side::none);
+  const std::int32_t pelvis = representation::find_bone(bones, Bone::pelvis, Side::none);
   points.root = pelvis >= 0 ? pelvis : std::max(points.left_hip, std::int32_t{0});
   return points;
 }

@@ -11,6 +11,7 @@
 #include "kinemend/error.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "lab/training/training_sequences.hpp"
+#include "motion/rotation.hpp"
 
 namespace kinemend {
 namespace {
@@ -24,10 +25,6 @@ TrainingSequences walk() {
                          return synthesize(options);
                        }},
                       {}, 60);
-}
-
-Vec3 vector_at(const PoseMatrix& poses, std::size_t f, std::size_t n) {
-  return {poses(f, 3 * n), poses(f, 3 * n + 1), poses(f, 3 * n + 2)};
 }
 
 TEST(SequenceDamage, TurnsJointsAndMovesThePlaceByWhatIsAskedFor) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "kinemend/lab/synth.hpp"
 #include "methods/auto/smoothing.hpp"
 #include "methods/auto/spikes.hpp"
 #include "methods/auto/track_vectors.hpp"
@@ -211,6 +212,33 @@ TEST(JointsNearby, AreThoseWithinThreeBones) {
   EXPECT_EQ(nearby[0], (std::vector<std::size_t>{1, 2, 3, 5}));
   EXPECT_EQ(nearby[4], (std::vector<std::size_t>{1, 2, 3}));
   EXPECT_EQ(nearby[5], (std::vector<std::size_t>{0, 1, 2}));
+}
+
+TEST(ReadTracks, GivesTheVectorsOfEachTrackAndMarksItsGaps) {
+  Take clip = synthesize({});
+  clip.observed.assign(clip.rotations.size(), 1);
+  clip.observed[10 * clip.joint_count() + 2] = 0;
+  const TakeView take = view_of(clip);
+  const TracksRead read = read_tracks(take, {1, 2}, true);
+  const TrackVectors own = vectors_of(take, 2);
+  EXPECT_TRUE(std::ranges::equal(read.vectors.track(1), own.vectors));
+  EXPECT_TRUE(std::ranges::equal(read.suspects.track(1), own.suspects));
+  for (std::size_t t = 0; t < take.frames; ++t) {
+    EXPECT_EQ(read.gaps(t, 0), 0) << "frame " << t;
+    EXPECT_EQ(read.gaps(t, 1), t == 10 ? 1 : 0) << "frame " << t;
+  }
+  ASSERT_TRUE(read.charts[1].has_value());
+  EXPECT_EQ(read.charts[1]->path, own.chart->path);
+  EXPECT_TRUE(read_tracks(take, {1, 2}, false).charts.empty());
+}
+
+TEST(SmoothRamp, RisesFromItsStartToItsEnd) {
+  EXPECT_EQ(smooth_ramp(1, 2, 4), 0);
+  EXPECT_EQ(smooth_ramp(2, 2, 4), 0);
+  EXPECT_EQ(smooth_ramp(2.5, 2, 4), 0.15625);
+  EXPECT_EQ(smooth_ramp(3, 2, 4), 0.5);
+  EXPECT_EQ(smooth_ramp(4, 2, 4), 1);
+  EXPECT_EQ(smooth_ramp(9, 2, 4), 1);
 }
 
 TEST(SmoothTracks, LeavesTracksOfShareZeroAndShortTakesAlone) {

@@ -1,4 +1,5 @@
-// The inner loops of `multiply`, compiled for each instruction set and chosen at run time.
+// The inner loops of products of matrices and of layers, compiled for each instruction set and
+// chosen at run time.
 #pragma once
 
 #include <cstddef>
@@ -31,5 +32,16 @@ void multiply_rows(const MatrixView& a, std::size_t first, std::size_t depth, co
 void multiply_rows(const MatrixViewF& a, std::size_t first, std::size_t depth, const float* packed,
                    const MutableMatrixViewF& c, std::size_t first_row, std::size_t last_row,
                    Product product);
+
+/// Functions of `count` floats in place.
+void exp_of(float* values, std::size_t count);
+void tanh_of(float* values, std::size_t count);
+/// For training, which keeps the gates of each step.
+void sigmoid_of(float* values, std::size_t count);
+void relu_of(float* values, std::size_t count);
+
+/// A step of an LSTM's memory from its gates i, f, g and o before activation, `units` each, one
+/// after the other: c = s(f) c + s(i) tanh(g), h = s(o) tanh(c).
+void lstm_gates(float* gates, std::size_t units, float* cell, float* state);
 
 }  // namespace kinemend::nn
