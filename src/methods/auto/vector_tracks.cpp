@@ -161,8 +161,7 @@ std::vector<double> noise_levels(const VectorTracks& tracks, const SampleMarks& 
 }
 
 double smooth_ramp(double value, double start, double full) {
-  const double r = std::clamp((value - start) / (full - start), 0.0, 1.0);
-  return squared(r) * (3 - 2 * r);
+  return smooth_step(std::clamp((value - start) / (full - start), 0.0, 1.0));
 }
 
 double rate_factor_of(double frame_rate_hz, const DeadZoneTuning& tuning) {
