@@ -102,7 +102,7 @@ std::vector<std::string> axes_of(const Take& clip, const PlannedGap& row) {
 
 Values joint_values(const Take& clip, const PlannedGap& row, std::size_t first, std::size_t last) {
   Values values;
-  const std::size_t joint = row.gap.track, index = position_index(clip, joint);
+  const std::size_t joint = row.gap.track, index = point_of_joint(clip, joint).value_or(0);
   const RotationOrder order = order_of(clip, joint);
   std::array<double, 3> angles{};
   for (std::size_t f = first; f <= last; ++f) {
