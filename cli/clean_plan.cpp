@@ -140,6 +140,7 @@ CleanPlan make_cleaning(const Arguments& arguments) {
   plan.cleaner = make_cleaner(method.name, plan.options);
   plan.preset_note = preset_note(arguments, method);
   plan.settings = settings_of(settings);
+  plan.settings.leftovers = Leftovers::all;
   plan.settings.noise = known_noise(arguments.text("noise"));
   if (arguments.given("contacts") && !plan.settings.feet) plan.settings.feet.emplace();
   if (plan.settings.feet)

@@ -72,7 +72,9 @@ struct CleanSettings {
   /// A leg keeps its slide unless all its joints are selected. Contacts are given in frames of the
   /// whole take. Markers are measured points and are not moved; a warning says so.
   std::optional<FeetSettings> feet;
-  Leftovers leftovers = Leftovers::all;  ///< faults of the result to be listed
+  /// The faults to be listed in the report. The program and the Python package ask for all; finding
+  /// them takes a check of the take.
+  Leftovers leftovers = Leftovers::none;
   /// Receives the current stage and its progress (0..1, never decreasing), from one thread at a
   /// time. Stages are "cleaning", then "filling" and "feet" if asked for; each runs once from 0 to
   /// 1.

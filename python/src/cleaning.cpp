@@ -92,6 +92,7 @@ py::tuple clean(const HeldTakePtr& held, const HeldCleanerPtr& cleaner, const py
                 const py::object& progress) {
   CleanWork work{held, cleaner, clean_settings(option_values_of(values)), threads};
   CleanSettings& settings = work.settings;
+  settings.leftovers = Leftovers::all;
   settings.max_change = max_change;
   settings.joints = all_bytes_of(joints);
   settings.exclude = all_bytes_of(exclude);

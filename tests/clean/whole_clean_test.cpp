@@ -34,6 +34,7 @@ TEST(WholeClean, UndoesSwapsBeforeItCleans) {
   const auto cleaner = make_auto();
   CleanSettings settings;
   settings.fix_swaps = true;
+  settings.leftovers = Leftovers::all;
   const CleanResult result = clean_take(trial.clip, *cleaner, settings);
   Take mended = trial.clip;
   const std::vector<MarkerSwap> swaps = find_swaps(mended);
@@ -46,7 +47,9 @@ TEST(WholeClean, UndoesSwapsBeforeItCleans) {
 
 TEST(WholeClean, NamesTheSwapsThatItWasNotAskedToUndo) {
   const SwapTrial trial = with_random_swaps(synthetic_markers("walk"), 3, 4, 2);
-  const CleanReport report = clean_take(trial.clip, *make_auto()).report;
+  CleanSettings settings;
+  settings.leftovers = Leftovers::all;
+  const CleanReport report = clean_take(trial.clip, *make_auto(), settings).report;
   EXPECT_THAT(report.swaps, IsEmpty());
   EXPECT_THAT(report.leftovers,
               Contains(AllOf(says("3 swaps of markers left"), advises("--fix-swaps"))));
