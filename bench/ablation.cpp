@@ -7,7 +7,7 @@
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"
-#include "papers/page.hpp"
+#include "page.hpp"
 
 namespace kinemend::papers {
 namespace {

@@ -11,7 +11,7 @@
 #include "papers/mall2017_recurrent/filter_network.hpp"
 #include "papers/mall2017_recurrent/live_filter_network.hpp"
 #ifdef KINEMEND_HAS_TRAINING
-#include "sequence_network.hpp"
+#include "lab/networks/sequence_network.hpp"
 #endif
 
 namespace {
