@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <variant>
 
 #include "base/options.hpp"
 #include "clean/steps.hpp"
@@ -104,6 +105,10 @@ const OptionSpec& clean_option(std::string_view name) {
 }
 
 CleanSettings clean_settings(const OptionValues& values) {
+  // The message about an unknown source suggests a similar one.
+  if (const auto given = values.find("source"); given != values.end()) {
+    if (const auto* name = std::get_if<std::string>(&given->second)) parse_source(*name);
+  }
   const SingleValues single = table().parse(values);
   CleanSettings settings;
   settings.source = parse_source(single.source);
