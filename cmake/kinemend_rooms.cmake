@@ -1,4 +1,4 @@
-# A room is a folder below src/ or below a wing of such folders (methods/auto): a static library with its own test
+# A room is a folder below src/, src/methods/ or src/papers/ (methods/auto): a static library with its own test
 # program. The library of methods/auto is kinemend_methods_auto. Rooms of lab/ are built alike and not installed.
 
 set(KINEMEND_ROOMS "" CACHE INTERNAL "")

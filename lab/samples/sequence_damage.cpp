@@ -1,4 +1,4 @@
-// Passes a sequence to the damages of `corrupt` and bridges the samples that are lost.
+// Passes a sequence to the damages of the room damage and bridges the samples that are lost.
 #include "lab/samples/sequence_damage.hpp"
 
 #include <utility>

@@ -25,7 +25,7 @@ function standing(contacts: Contact[]): number {
   return frames.size;
 }
 
-/** Short reason why a contact was not changed (src/feet/judge.cpp). */
+/** Short reason why a contact was not changed (src/feet/slides.cpp). */
 function kindOf({ reason }: Contact): string {
   if (reason?.startsWith('stands still')) return 'stand still already';
   if (reason?.endsWith('intended')) return 'slide on purpose';

@@ -1,4 +1,4 @@
-// Tests of the table of learned methods and of the code that all trainings share.
+// Tests of the table of trainings, the settings that they share, and models from each of them.
 #include "kinemend/lab/train.hpp"
 
 #include <gmock/gmock.h>
