@@ -5,14 +5,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iterator>
 #include <utility>
 
 #include "fit_format.hpp"
-#include "kinemend/check.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/pictures.hpp"
-#include "kinemend/experimental/threads.hpp"
 #include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"

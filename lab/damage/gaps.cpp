@@ -19,8 +19,8 @@ struct Span {
   std::size_t first = 0, last = 0;
 };
 
-// The values in a span: that of the frame before it ("last"; the rest pose if there is none) or the
-// rest pose.
+// The values in a span: that of the frame before it ("last"; at the start of the take the rest
+// pose) or the rest pose.
 struct Filling {
   bool rest = false;
   bool mark = true;  // as not observed
@@ -78,7 +78,7 @@ void lose_channel(Take& clip, std::size_t joint, std::size_t channel,
   }
 }
 
-// Returns the last sample before a span; zero if there is none.
+// Returns the last sample before a span; zero if no earlier sample was seen.
 Vec3 last_seen(const VectorMotion& motion, std::size_t track, std::size_t first) {
   for (std::size_t f = first; f-- > 0;) {
     if (is_observed(motion, f, track)) return vector_at(motion, f, track);

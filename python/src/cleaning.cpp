@@ -10,7 +10,6 @@
 
 #include "conversions.hpp"
 #include "held.hpp"
-#include "kinemend/check.hpp"
 #include "kinemend/clean.hpp"
 #include "kinemend/experimental/threads.hpp"
 #include "reports.hpp"

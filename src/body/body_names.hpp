@@ -39,7 +39,7 @@ struct BoneName {
 /// others: "LeftShoulder" is a clavicle beside "LeftArm", but an upper arm beside "LeftCollar".
 std::vector<BoneName> bone_names(const std::vector<std::string>& names);
 
-/// Returns the joint of that bone and side, the last one if there are several; -1 if there is none.
+/// Returns the last joint of that bone and side; -1 if no joint has them.
 std::int32_t find_bone(const std::vector<BoneName>& bones, Bone bone, Side side);
 
 /// Returns the name in lower case, without subject, separators and prefixes such as `mixamorig:`.

@@ -25,7 +25,8 @@ std::vector<Vec3> bone_directions(const BodyLayout& layout, const Take& clip, co
 void align_joints(const BodyLayout& layout, const Take& clip, const RestPose& rest,
                   BodyMatch& match);
 
-/// Returns the nearest ancestor in the layout's tree that the take has; -1 if there is none.
+/// Returns the nearest ancestor in the layout's tree that the take has; -1 if the take has no
+/// ancestor of the track.
 std::int32_t matched_parent(const BodyLayout& layout, const std::vector<std::int32_t>& tracks,
                             std::size_t track);
 

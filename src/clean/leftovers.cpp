@@ -142,10 +142,6 @@ Leftover noise_not_measured(const CheckReport& check, const CleanReport& report)
                       report.method)};
 }
 
-}  // namespace
-
-namespace {
-
 bool is_unchanged(const CleanReport& report) {
   return report.swaps.empty() && report.root_max_change == 0 &&
          std::all_of(report.tracks.begin(), report.tracks.end(),

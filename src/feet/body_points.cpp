@@ -204,7 +204,7 @@ std::string_view side_of(const std::string& joint) {
   return "";
 }
 
-// Returns the joint at the other end of the bone above `joint`; -1 if there is none.
+// Returns the joint at the other end of the bone above `joint`; -1 if no bone is above it.
 std::int32_t upper_end(const Skeleton& skeleton, std::int32_t joint, double shortest) {
   double length = 0;
   std::int32_t at = joint;

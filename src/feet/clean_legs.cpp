@@ -305,10 +305,6 @@ class FeetCleaning {
   FeetReport report_;
 };
 
-}  // namespace
-
-namespace {
-
 /// Renames joints during its lifetime.
 class Renamed {
  public:

@@ -32,8 +32,8 @@ std::vector<std::uint8_t> names_meant(const std::vector<std::string>& names,
 /// from one marker to another within a take.
 bool is_unlabelled(std::string_view name);
 
-/// Returns the subject with the most markers, the first of several such; a subject without markers
-/// if there is none.
+/// Returns the subject with the most markers, the first of several such. A take without subjects
+/// gives a subject without markers.
 Subject largest_subject(const Take& clip);
 
 }  // namespace kinemend

@@ -1,7 +1,6 @@
 // Gives access to the motion of a clip without its calibration frames and to the samples of one
 // joint, finds the joints that turn at all, counts the children of joints, notes the number of a
-// file's first frame, and checks
-// values for `validate` of skeletons and takes.
+// file's first frame, and checks values for `validate` of skeletons and takes.
 #pragma once
 
 #include <fmt/format.h>

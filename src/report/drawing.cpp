@@ -18,7 +18,7 @@ namespace {
 
 long in_tenths(double value) { return std::lround(10 * value); }
 
-// Returns the bytes of the UTF-8 character that begins here; 0 if there is none.
+// Returns the bytes of the UTF-8 character that begins here; 0 for bytes that are not UTF-8.
 std::size_t character_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
