@@ -6,7 +6,6 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <numeric>
@@ -462,14 +461,22 @@ void plan_steps(const Arguments& arguments, CleanPlan& plan) {
 // Names the results of --to after their format. Only results in AMC include skeletons.
 void name_by_format(const Format& to, std::vector<BatchItem>& items) {
   std::erase_if(items, [](const BatchItem& item) { return item.is_copied; });
-  std::map<std::string, std::string> taken;
+  ResultPaths results("batch");
   for (BatchItem& item : items) {
     item.name = fs::path(item.name).replace_extension(to.extensions.front()).generic_string();
-    const auto [known, is_new] = taken.emplace(item.name, item.input);
-    if (is_new) continue;
-    throw Error(ErrorKind::usage, fmt::format("batch: {} and {} would both be written to {}",
-                                              known->second, item.input, item.name));
+    results.add(item.name, item.input);
   }
+}
+
+/// The words for the work on a take, before and after it.
+struct WorkWords {
+  std::string_view to_do, done;
+};
+WorkWords work_words(const CleanPlan& plan) {
+  if (plan.cleans) return {"clean", "cleaned"};
+  if (plan.settings.fill) return {"fill", "filled"};
+  if (plan.to != nullptr) return {"convert", "converted"};
+  return {"change", "changed"};
 }
 
 /// The text of `--dry-run` for one file: what a run would do with it.
@@ -488,11 +495,7 @@ std::string planned_text(const BatchItem& item, const Batch& batch, Done& done) 
         batch.index.empty() || fs::is_regular_file(page_path(batch, item), ignored);
     if (record && has_page && is_done(*record, key, output)) return "done     " + names;
     done.is_new = true;
-    return (batch.plan.cleans          ? "clean    "
-            : batch.plan.settings.fill ? "fill     "
-            : batch.plan.to != nullptr ? "convert  "
-                                       : "change   ") +
-           names;
+    return fmt::format("{:<9}{}", work_words(batch.plan).to_do, names);
   } catch (const Error& error) {
     done.code = static_cast<int>(error.kind());
     return fmt::format("refuse   {} ({})", printable(item.input), error.what());
@@ -565,6 +568,7 @@ int run_batch(const Arguments& arguments) {
   BatchCounts counts;
   counts.part = batch.shard.index;
   counts.parts = batch.shard.count;
+  counts.work = work_words(batch.plan).done;
   std::vector<BatchRow> rows;
   for (const Done& one : done) {
     counts.add(one.row, one.is_new, one.code);

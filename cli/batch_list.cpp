@@ -7,13 +7,13 @@
 #include <charconv>
 #include <filesystem>
 #include <fstream>
-#include <map>
 
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/content_hash.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/experimental/wildcards.hpp"
 #include "kinemend/io.hpp"
+#include "run_files.hpp"
 
 namespace kinemend::cli {
 
@@ -134,13 +134,8 @@ std::vector<BatchItem> find_items(const std::vector<std::string>& inputs, const 
       add_file(input, items);
     }
   }
-  std::map<std::string, std::string> taken;
-  for (const BatchItem& item : items) {
-    const auto [known, is_new] = taken.emplace(item.name, item.input);
-    if (is_new) continue;
-    throw Error(ErrorKind::usage, fmt::format("batch: {} and {} would both be written to {}",
-                                              known->second, item.input, item.name));
-  }
+  ResultPaths results("batch");
+  for (const BatchItem& item : items) results.add(item.name, item.input);
   std::sort(items.begin(), items.end(),
             [](const BatchItem& a, const BatchItem& b) { return a.name < b.name; });
   return items;

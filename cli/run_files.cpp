@@ -50,6 +50,13 @@ std::string identity_of(const std::string& path) {
 
 }  // namespace
 
+void ResultPaths::add(const std::string& result, const std::string& input) {
+  const auto [known, is_new] = inputs_.emplace(result, input);
+  if (is_new) return;
+  throw Error(ErrorKind::usage, fmt::format("{}: {} and {} would both be written to {}", command_,
+                                            known->second, input, result));
+}
+
 bool is_same_file(const std::string& a, const std::string& b) {
   const std::string identity = identity_of(a);
   return !identity.empty() && identity == identity_of(b);

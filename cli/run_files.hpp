@@ -1,6 +1,7 @@
 // The files of one run, so that no output replaces what the run needs.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -48,6 +49,19 @@ class RunFiles {
   static void refuse_input(const File& output, const File& input);
 
   std::vector<File> inputs_, outputs_;
+};
+
+/// The results of the inputs of one run, no two of which may share a path.
+class ResultPaths {
+ public:
+  /// `command` is named in the message.
+  explicit ResultPaths(std::string command) : command_(std::move(command)) {}
+  /// Errors: `ErrorKind::usage` if the result is already that of another input.
+  void add(const std::string& result, const std::string& input);
+
+ private:
+  std::string command_;
+  std::map<std::string, std::string> inputs_;  // by result
 };
 
 /// Returns whether both paths name one file, even if it does not exist yet. Streams (`-`) and empty

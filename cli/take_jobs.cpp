@@ -18,6 +18,7 @@
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/experimental/threads.hpp"
 #include "kinemend/report.hpp"
+#include "run_files.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
@@ -198,18 +199,14 @@ TakeJobs plan_take_jobs(const Arguments& arguments, const std::vector<std::strin
   const std::string output = takes.folder.empty() ? arguments.text("output") : std::string();
   std::vector<std::string> chosen = inputs;
   takes.skipped = take_earlier_results(chosen, takes.folder, names, from);
-  std::map<std::string, std::string> taken;
+  ResultPaths results(command);
   for (const std::string& input : chosen) {
     if (is_stream(input) && !takes.folder.empty())
       throw Error(ErrorKind::usage, fmt::format("{}: standard input has no name for {}", command,
                                                 result_option(takes)));
     const std::string target =
         output.empty() ? named_after(input, takes.folder, names, from) : output;
-    const auto [known, is_new] = taken.emplace(target, input);
-    if (!is_new) {
-      throw Error(ErrorKind::usage, fmt::format("{}: {} and {} would both be written to {}",
-                                                command, known->second, input, target));
-    }
+    results.add(target, input);
     takes.jobs.push_back({input, target, false});
   }
   if (!takes.folder.empty()) check_can_make(takes.folder);

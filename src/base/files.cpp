@@ -1,8 +1,12 @@
 // Reads files and pipes to their end, and reports why one cannot be read. Writes and reads the
-// records of a spool, whose file has no name.
+// records of a spool, whose file has no name. Computes the hash of a content with XXH3.
 #include "base/files.hpp"
 
 #include <fmt/format.h>
+
+// The functions are compiled here, so that no library is needed.
+#define XXH_INLINE_ALL
+#include <xxhash.h>
 
 #include <cassert>
 #include <cerrno>
@@ -15,6 +19,7 @@
 
 #include "base/platform/files.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/content_hash.hpp"
 
 namespace kinemend {
 
@@ -129,6 +134,11 @@ void Spool::read(std::size_t record, std::size_t from, std::span<std::byte> byte
            count < 0 ? errno : EIO);
     done += static_cast<std::size_t>(count);
   }
+}
+
+std::string content_hash(std::string_view bytes) {
+  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
 }  // namespace kinemend

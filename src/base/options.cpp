@@ -1,4 +1,5 @@
-// Parses and checks the values of options, and suggests the name that a misspelt one may mean.
+// Parses and checks the values of options, checks frame rates, and suggests the name that a
+// misspelt one may mean.
 #include "base/options.hpp"
 
 #include <fast_float/fast_float.h>
@@ -11,6 +12,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/options.hpp"
 
 namespace kinemend {
@@ -96,6 +98,13 @@ OptionValue check_option(const OptionSpec& spec, const OptionValue& value) {
     }
   }
   return value;
+}
+
+void check_frame_rate(double frame_rate_hz) {
+  if (is_usable_frame_rate(frame_rate_hz)) return;
+  throw Error(ErrorKind::usage,
+              fmt::format("a frame rate of {} Hz is outside {} to {} Hz", frame_rate_hz,
+                          least_frame_rate_hz, most_frame_rate_hz));
 }
 
 namespace {

@@ -11,7 +11,6 @@
 
 #include "base/frame_span.hpp"
 #include "base/parallel.hpp"
-#include "base/progress.hpp"
 #include "kinemend/cleaner.hpp"
 #include "kinemend/rotation.hpp"
 

@@ -480,8 +480,8 @@ void BatchCounts::add(const BatchRow& row, bool is_new, int code) {
 
 std::string to_text(const BatchCounts& counts, const BatchSums& sums,
                     std::span<const BatchRow> worst) {
-  std::string text = fmt::format("{} cleaned, {} done already, {} failed", grouped(counts.cleaned),
-                                 grouped(counts.kept), grouped(counts.failed));
+  std::string text = fmt::format("{} {}, {} done already, {} failed", grouped(counts.cleaned),
+                                 counts.work, grouped(counts.kept), grouped(counts.failed));
   if (counts.copied > 0) text += fmt::format(", {} copied", counted(counts.copied, "skeleton"));
   if (counts.with_warnings > 0)
     text += fmt::format(", {} with warnings", grouped(counts.with_warnings));

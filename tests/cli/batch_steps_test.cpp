@@ -25,6 +25,7 @@ TEST_F(BatchSteps, FillWithoutCleaningChangesNothingButGaps) {
   const Ran ran =
       run({"batch", "raw", "-o", "out", "--no-clean", "--fill", "auto", "--gaps", "gaps.csv"});
   EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("2 filled, 0 done already"));
   ASSERT_EQ(run({"fill", "raw/a.bvh", "--gaps", "gaps.csv", "-o", "filled.bvh"}).code, 0);
   EXPECT_EQ(contents(folder / "out/a.bvh"), contents(folder / "filled.bvh"));
   EXPECT_NE(contents(folder / "out/a.bvh"), hand_take());
@@ -33,11 +34,13 @@ TEST_F(BatchSteps, FillWithoutCleaningChangesNothingButGaps) {
 TEST_F(BatchSteps, ConvertsATree) {
   const Ran ran = run({"batch", "raw", "-o", "out", "--no-clean", "--to", "trc"});
   EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("2 converted, 0 done already"));
+  EXPECT_THAT(contents(folder / "out/rows.jsonl"), HasSubstr("\"status\":\"cleaned\""));
   ASSERT_EQ(run({"convert", "raw/a.bvh", "a.trc"}).code, 0);
   EXPECT_EQ(contents(folder / "out/a.trc"), contents(folder / "a.trc"));
   EXPECT_TRUE(fs::exists(folder / "out/deep/b.trc"));
   EXPECT_THAT(run({"batch", "raw", "-o", "out", "--no-clean", "--to", "trc"}).out,
-              HasSubstr("0 cleaned, 2 done already"));
+              HasSubstr("0 converted, 2 done already"));
   put(folder / "raw/a.csv", contents(folder / "a.trc"));
   fs::copy_file(folder / "a.trc", folder / "raw/a.trc");
   const Ran both = run({"batch", "raw", "-o", "other", "--no-clean", "--to", "trc"});

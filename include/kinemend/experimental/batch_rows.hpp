@@ -15,8 +15,9 @@ namespace kinemend {
 
 /// A take of a batch: the summary of its report, without lists.
 struct BatchRow {
-  std::string name;    ///< path below the output folder
-  std::string status;  ///< "begun", "cleaned", "failed", "copied"
+  std::string name;  ///< path below the output folder
+  /// "begun", "cleaned", "failed", "copied"; a take that was only filled or converted is "cleaned".
+  std::string status;
   std::string input;
   std::string verdict;
   std::string error;  ///< why the take failed; else empty
@@ -59,8 +60,9 @@ std::string to_json(const BatchSums& sums, std::string_view options_hash);
 
 /// Counts of one run.
 struct BatchCounts {
-  std::size_t cleaned = 0;  ///< by this run
-  std::size_t kept = 0;     ///< cleaned by an earlier run
+  std::string_view work = "cleaned";  ///< what this run did with its takes: "filled", "converted"
+  std::size_t cleaned = 0;            ///< takes done by this run
+  std::size_t kept = 0;               ///< done by an earlier run
   std::size_t copied = 0;
   std::size_t failed = 0;
   std::size_t with_warnings = 0;    ///< takes with warnings that did not fail

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "base/parallel.hpp"
-#include "base/progress.hpp"
 #include "io/bvh/bvh.hpp"
 #include "io/bvh/bvh_hierarchy.hpp"
 #include "io/motion/clip_rows.hpp"

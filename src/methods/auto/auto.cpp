@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/progress.hpp"
+#include "base/parallel.hpp"
 #include "base/quantiles.hpp"
 #include "cleaner/pieces.hpp"
 #include "kinemend/methods.hpp"

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "base/progress.hpp"
+#include "base/parallel.hpp"
 #include "methods/auto/noise_spectrum.hpp"
 #include "methods/auto/vector_tracks.hpp"
 

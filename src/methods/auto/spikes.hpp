@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "base/progress.hpp"
+#include "base/parallel.hpp"
 #include "kinemend/rotation.hpp"
 #include "methods/auto/tuning.hpp"
 #include "methods/auto/vector_tracks.hpp"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/progress.hpp"
+#include "base/parallel.hpp"
 #include "methods/auto/held_samples.hpp"
 #include "methods/auto/noise_spectrum.hpp"
 #include "methods/auto/vector_tracks.hpp"

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "base/progress.hpp"
+#include "base/parallel.hpp"
 #include "kinemend/cleaner.hpp"
 #include "kinemend/take_view.hpp"
 #include "methods/auto/tuning.hpp"

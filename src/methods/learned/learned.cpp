@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/progress.hpp"
+#include "base/parallel.hpp"
 #include "base/quantiles.hpp"
 #include "cleaner/live.hpp"
 #include "cleaner/pieces.hpp"

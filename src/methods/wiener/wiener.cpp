@@ -16,7 +16,6 @@
 #include "methods/wiener/wiener_steps.hpp"
 #include "models/model_reading.hpp"
 #include "motion/rotation.hpp"
-#include "signal/fourth_difference.hpp"
 
 namespace kinemend {
 
@@ -52,16 +51,13 @@ double channel_noise(const PriorWork& work, std::span<const std::uint8_t> suspec
                      std::size_t channel) {
   const PoseMatrix& y = work.channels.poses;
   std::vector<double> sizes;
-  std::size_t run = 0;
-  for (std::size_t f = 0; f < y.frames; ++f) {
-    const std::size_t sample = f * y.channels + channel;
-    run = work.channels.observed[sample] != 0 && suspect[sample] == 0 ? run + 1 : 0;
-    if (run <= signal::fourth_difference_span) continue;
-    sizes.push_back(std::abs(signal::fourth_difference(y, f, channel)));
-  }
+  const auto is_used = [&](std::size_t sample) {
+    return work.channels.observed[sample] != 0 && suspect[sample] == 0;
+  };
+  for_each_fourth_difference(y, channel, is_used,
+                             [&](double difference) { sizes.push_back(std::abs(difference)); });
   if (sizes.size() < fewest_differences) return work.noise[channel];
-  return deviations_per_median * upper_median_of(sizes) /
-         std::sqrt(signal::fourth_difference_variance);
+  return deviations_per_median * upper_median_of(sizes) / std::sqrt(fourth_difference_variance);
 }
 
 double share_of(const std::vector<std::uint8_t>& suspect, const PriorWork& work) {

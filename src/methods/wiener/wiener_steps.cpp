@@ -19,7 +19,6 @@
 #include "kinemend/experimental/signal.hpp"
 #include "methods/auto/smoothing.hpp"
 #include "motion/rotation.hpp"
-#include "signal/fourth_difference.hpp"
 
 namespace kinemend {
 
@@ -128,15 +127,12 @@ class Guard {
     for (std::size_t d = 0; d < y.channels; ++d) {
       const double typical = take_.noise[d] * take_.noise[d];
       double sum = 0, count = 0;
-      std::size_t run = 0;
-      for (std::size_t f = 0; f < y.frames; ++f) {
-        run = counted_[f * y.channels + d] != 0 ? run + 1 : 0;
-        if (run <= signal::fourth_difference_span) continue;
-        const double difference = signal::fourth_difference(y, f, d);
-        sum += std::min(difference * difference / signal::fourth_difference_variance,
+      const auto is_counted = [&](std::size_t sample) { return counted_[sample] != 0; };
+      for_each_fourth_difference(y, d, is_counted, [&](double difference) {
+        sum += std::min(difference * difference / fourth_difference_variance,
                         most_of_typical * typical);
         count += 1;
-      }
+      });
       variance_[d] = std::max(count > 0 ? sum / count : typical, least_guard_variance);
     }
   }
@@ -291,14 +287,11 @@ std::vector<double> noise_with_outliers(const WienerTake& take) {
   std::vector<double> noise(take.noise.begin(), take.noise.end());
   for (std::size_t d = 0; d < y.channels; ++d) {
     double sum = 0, count = 0;
-    std::size_t run = 0;
-    for (std::size_t f = 0; f < y.frames; ++f) {
-      run = is_observed(take, f * y.channels + d) ? run + 1 : 0;
-      if (run <= signal::fourth_difference_span) continue;
-      const double difference = signal::fourth_difference(y, f, d);
-      sum += difference * difference / signal::fourth_difference_variance;
+    const auto is_used = [&](std::size_t sample) { return is_observed(take, sample); };
+    for_each_fourth_difference(y, d, is_used, [&](double difference) {
+      sum += difference * difference / fourth_difference_variance;
       count += 1;
-    }
+    });
     if (count > 0) noise[d] = std::max(noise[d], std::sqrt(sum / count));
   }
   return noise;

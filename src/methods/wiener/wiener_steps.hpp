@@ -1,13 +1,32 @@
-// Declares the steps around the Wiener filter: the detection of dense outliers, and the guard that
-// compares the filter with others.
+// Declares the steps around the Wiener filter: the detection of dense outliers, the guard that
+// compares the filter with others, and the fourth differences from which they learn the noise.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "methods/wiener/wiener_filter.hpp"
 
 namespace kinemend {
+
+/// Variance of the fourth difference of white noise of variance 1; that of motion is small. By
+/// definition: 1 + 16 + 36 + 16 + 1.
+inline constexpr double fourth_difference_variance = 70;
+
+/// Calls `visit(y_f - 4 y_(f-1) + 6 y_(f-2) - 4 y_(f-3) + y_(f-4))` for each frame f of a channel
+/// if all five samples are used, as `is_used(index in y.values)` says.
+template <class IsUsed, class Visit>
+void for_each_fourth_difference(const PoseMatrix& y, std::size_t channel, const IsUsed& is_used,
+                                const Visit& visit) {
+  std::size_t run = 0;
+  for (std::size_t f = 0; f < y.frames; ++f) {
+    run = is_used(f * y.channels + channel) ? run + 1 : 0;
+    if (run < 5) continue;
+    visit(y(f, channel) - 4 * y(f - 1, channel) + 6 * y(f - 2, channel) - 4 * y(f - 3, channel) +
+          y(f - 4, channel));
+  }
+}
 
 struct WienerOutliers {
   std::vector<std::uint8_t>

@@ -187,7 +187,7 @@ std::string batch_page(std::span<const BatchPageRow> rows, const BatchSums& sums
   }
   const std::string batch = fmt::format("{{\"command_line\": {}, \"summary\": {}, \"rows\": {}]}}",
                                         quoted(settings.command_line), to_json(sums, ""), text);
-  const std::string verdict = fmt::format("{} of {} cleaned, {} failed", grouped(sums.cleaned),
+  const std::string verdict = fmt::format("{} of {} done, {} failed", grouped(sums.cleaned),
                                           counted(sums.takes, "take"), grouped(sums.failed));
   return page::document("kinemend batch", verdict, {{"batch", batch}});
 }

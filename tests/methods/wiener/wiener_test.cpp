@@ -383,6 +383,19 @@ TEST(WienerPrior, TurnsItsChannels) {
   }
 }
 
+TEST(FourthDifferences, OfAQuarticAre24WhereFiveSamplesInARowAreUsed) {
+  PoseMatrix poses(12, 2);
+  for (std::size_t f = 0; f < 12; ++f) poses(f, 1) = std::pow(static_cast<double>(f), 4);
+  std::size_t count = 0;
+  for_each_fourth_difference(
+      poses, 1, [](std::size_t sample) { return sample != 2 * 5 + 1; },
+      [&](double difference) {
+        EXPECT_EQ(difference, 24);
+        ++count;
+      });
+  EXPECT_EQ(count, 3u);  // at frames 4, 10 and 11
+}
+
 TEST(WienerPrior, ComesBackFromAModel) {
   Random random(9);
   const WienerPrior prior = random_prior(random, 2);
