@@ -198,8 +198,6 @@ Method recurrent_method() {
 
 namespace {
 
-constexpr std::size_t turn_axes = 3;  // of a rotation vector
-
 Vec3 vector_at(const std::vector<float>& values, std::size_t place) {
   return {static_cast<double>(values[place]), static_cast<double>(values[place + 1]),
           static_cast<double>(values[place + 2])};
