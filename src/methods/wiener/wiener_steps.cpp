@@ -24,12 +24,6 @@
 
 namespace kinemend {
 
-/// Smooths channels in place as `auto` smooths tracks, each three of them one track, without a
-/// learned model. `missing` is F x D, 1 for samples without weight; `noise` D, standard deviations,
-/// degrees, all above 0. Tracks of fewer than 16 frames are not changed.
-void smooth_channels(PoseMatrix& poses, std::span<const std::uint8_t> missing,
-                     std::span<const double> noise, double frame_rate_hz);
-
 namespace {
 
 // Widths of the Gaussians that the guard tries, each about 4/3 of the one before.
@@ -60,6 +54,40 @@ double centre_weight(double sigma_frames) {
   for (int j = 1; j < 4 * sigma_frames + 1; ++j)
     sum += 2 * portable::exp(-0.5 * (j / sigma_frames) * (j / sigma_frames));
   return 1 / sum;
+}
+
+// Smooths channels in place as `auto` smooths tracks, each three of them one track, without a
+// learned model. `missing` is F x D, 1 for samples without weight; `noise` D, standard deviations,
+// degrees, all above 0. Tracks of fewer than 16 frames are not changed.
+void smooth_channels(PoseMatrix& poses, std::span<const std::uint8_t> missing,
+                     std::span<const double> noise, double frame_rate_hz) {
+  // Chosen by hand, not swept.
+  constexpr std::size_t fewest_smoothed_frames = 16;  // fewer do not determine a strength
+  // Channels are scaled to the same noise, which is then isotropic.
+  VectorTracks tracks(poses.frames, poses.channels / 3, [&](std::size_t f, std::size_t n) {
+    const Vec3 v = vector_at(poses, f, n);
+    return Vec3{v.x / noise[3 * n], v.y / noise[3 * n + 1], v.z / noise[3 * n + 2]};
+  });
+  const SampleMarks marks(poses.frames, tracks.tracks(), [&](std::size_t f, std::size_t n) {
+    const std::size_t i = f * poses.channels + 3 * n;
+    return missing[i] != 0 || missing[i + 1] != 0 || missing[i + 2] != 0;
+  });
+  const std::vector<double> one(tracks.tracks(), 1);
+  std::vector<double> shares(tracks.tracks(), 1);
+  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
+    std::size_t seen = 0;
+    for (std::size_t f = 0; f < tracks.frames(); ++f) seen += marks(f, n) == 0;
+    if (seen < fewest_smoothed_frames) shares[n] = 0;
+  }
+  smooth_tracks(tracks, marks, one, shares, frame_rate_hz);
+  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
+    for (std::size_t f = 0; f < poses.frames; ++f) {
+      const Vec3 v = tracks.at(f, n);
+      poses(f, 3 * n) = v.x * noise[3 * n];
+      poses(f, 3 * n + 1) = v.y * noise[3 * n + 1];
+      poses(f, 3 * n + 2) = v.z * noise[3 * n + 2];
+    }
+  }
 }
 
 class Guard {
@@ -369,37 +397,6 @@ WienerOutliers dense_outliers(const WienerPrior& prior, const WienerTake& take) 
     bridge(take, result.suspect, result.guess);
   }
   return result;
-}
-
-// Channels are scaled to the same noise, which is then isotropic.
-void smooth_channels(PoseMatrix& poses, std::span<const std::uint8_t> missing,
-                     std::span<const double> noise, double frame_rate_hz) {
-  // Chosen by hand, not swept.
-  constexpr std::size_t fewest_smoothed_frames = 16;  // fewer do not determine a strength
-  VectorTracks tracks(poses.frames, poses.channels / 3, [&](std::size_t f, std::size_t n) {
-    const Vec3 v = vector_at(poses, f, n);
-    return Vec3{v.x / noise[3 * n], v.y / noise[3 * n + 1], v.z / noise[3 * n + 2]};
-  });
-  const SampleMarks marks(poses.frames, tracks.tracks(), [&](std::size_t f, std::size_t n) {
-    const std::size_t i = f * poses.channels + 3 * n;
-    return missing[i] != 0 || missing[i + 1] != 0 || missing[i + 2] != 0;
-  });
-  const std::vector<double> one(tracks.tracks(), 1);
-  std::vector<double> shares(tracks.tracks(), 1);
-  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
-    std::size_t seen = 0;
-    for (std::size_t f = 0; f < tracks.frames(); ++f) seen += marks(f, n) == 0;
-    if (seen < fewest_smoothed_frames) shares[n] = 0;
-  }
-  smooth_tracks(tracks, marks, one, shares, frame_rate_hz);
-  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
-    for (std::size_t f = 0; f < poses.frames; ++f) {
-      const Vec3 v = tracks.at(f, n);
-      poses(f, 3 * n) = v.x * noise[3 * n];
-      poses(f, 3 * n + 1) = v.y * noise[3 * n + 1];
-      poses(f, 3 * n + 2) = v.z * noise[3 * n + 2];
-    }
-  }
 }
 
 }  // namespace kinemend
