@@ -1,5 +1,4 @@
-// Declares the entry of `auto` in the table of methods, and measures the noise and the spikes of a
-// take for the reports of every method.
+// Measures the noise and the spikes of a take, as `auto` does, for the reports of every method.
 #pragma once
 
 #include <cstdint>

@@ -17,7 +17,6 @@
 #include "kinemend/methods.hpp"
 #include "kinemend/rotation.hpp"
 #include "metrics/track_noise.hpp"
-#include "papers/dean2016_nonlocal/entries.hpp"
 #include "papers/dean2016_nonlocal/nonlocal_filter.hpp"
 
 namespace kinemend {

@@ -21,7 +21,6 @@
 #include "methods/prior/prior_cleaning.hpp"
 #include "methods/prior/prior_fall_backs.hpp"
 #include "models/model_reading.hpp"
-#include "papers/mall2017_recurrent/entries.hpp"
 #include "papers/mall2017_recurrent/filter_network.hpp"
 #include "papers/mall2017_recurrent/live_filter_network.hpp"
 
