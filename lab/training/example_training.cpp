@@ -8,7 +8,7 @@
 #include "lab/training/channel_ranges.hpp"
 #include "lab/training/training_sequences.hpp"
 #include "lab/training/trainings.hpp"
-#include "papers/lou2010_example/entries.hpp"
+#include "models/model_reading.hpp"
 #include "papers/lou2010_example/example.hpp"
 #include "papers/lou2010_example/filter_bases.hpp"
 

@@ -18,8 +18,8 @@
 #include "lab/training/training_sequences.hpp"
 #include "lab/training/training_stages.hpp"
 #include "lab/training/trainings.hpp"
+#include "models/model_reading.hpp"
 #include "papers/xiao2015_sparse/dictionary.hpp"
-#include "papers/xiao2015_sparse/entries.hpp"
 #include "papers/xiao2015_sparse/sparse_prior.hpp"
 
 namespace kinemend {

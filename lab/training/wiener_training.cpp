@@ -9,7 +9,7 @@
 #include "lab/training/training_stages.hpp"
 #include "lab/training/trainings.hpp"
 #include "lab/training/wiener_fit.hpp"
-#include "methods/wiener/entries.hpp"
+#include "models/model_reading.hpp"
 
 namespace kinemend {
 

@@ -19,50 +19,15 @@
 
 namespace kinemend::check {
 
-/// A place where a track departs from its extrapolation, or is missing for a while.
+namespace {
+
+// A place where a track departs from its extrapolation, or is missing for a while.
 struct Break {
   std::size_t marker = 0;
-  std::size_t before = 0;  ///< last frame seen
-  std::size_t after = 0;   ///< next frame seen
-  double mismatch = 0;     ///< distance of the extrapolated sides, file units
+  std::size_t before = 0;  // last frame seen
+  std::size_t after = 0;   // next frame seen
+  double mismatch = 0;     // distance of the extrapolated sides, file units
 };
-
-/// Returns the distance between the track of `from` up to frame `before` and that of `to` from
-/// frame `after` on, both extrapolated to the middle with their velocities there. For successive
-/// frames of one track it is about half the third difference.
-double side_mismatch(const Take& clip, std::size_t from, std::size_t before, std::size_t to,
-                     std::size_t after);
-
-/// Returns all gaps between samples, and the successive samples whose mismatch is 6 times the usual
-/// one of their marker, by frame `before`. `markers`: those examined.
-std::vector<Break> find_breaks(const Take& clip, const std::vector<std::size_t>& markers);
-
-/// Two breaks at which the markers exchange their labels: each track continues in the other's.
-struct Exchange {
-  std::size_t first_marker = 0;  ///< the lower one
-  std::size_t second_marker = 0;
-  std::size_t last_before = 0;  ///< last frame in which either is seen before the exchange
-  std::size_t first_after = 0;  ///< first frame in which either is seen after it
-  std::size_t longest_gap = 0;  ///< frames missing between the sides of either
-  double doubt = 0;             ///< mismatch with labels exchanged over that without
-};
-
-/// Returns the exchanges by frame. No break is in two of them; the least doubtful ones are kept.
-std::vector<Exchange> find_exchanges(const Take& clip, const std::vector<Break>& breaks);
-
-/// Evidence on an exchange from distances to nearby markers: their mean departure from the usual
-/// distances in the frames in question, as labelled and with labels exchanged.
-struct NeighbourVerdict {
-  double as_labelled = 0;
-  double exchanged = 0;
-  bool known = false;  ///< false if no neighbour was seen
-};
-/// `swapped[f]`: 1 in the frames in question, 0 in those that give the usual distances.
-NeighbourVerdict ask_neighbours(const Take& clip, const std::vector<std::size_t>& markers,
-                                std::size_t first_marker, std::size_t second_marker,
-                                const std::vector<std::uint8_t>& swapped);
-
-namespace {
 
 // Returns the velocity a frame at the end of a run of samples; `step` is -1 for the run before
 // `frame`, 1 for the one after. Across a gap noise has more influence, so more samples are used.
@@ -91,29 +56,9 @@ std::optional<std::size_t> next_seen(const Take& clip, std::size_t marker, std::
   return std::nullopt;
 }
 
-std::optional<Exchange> exchange_of(const Take& clip, const Break& a, const Break& b) {
-  // The mismatch as exchanged over that as labelled. A quarter is the "four times less" of
-  // docs/details/check.md. Chosen by hand, not swept.
-  constexpr double largest_doubt = 0.25;
-  const double a_to_b = side_mismatch(clip, a.marker, a.before, b.marker, b.after);
-  const double b_to_a = side_mismatch(clip, b.marker, b.before, a.marker, a.after);
-  const double worst = std::max(a_to_b, b_to_a), least = std::min(a.mismatch, b.mismatch);
-  if (!(worst < 2 * largest_doubt * least)) return std::nullopt;
-  const double doubt = (a_to_b + b_to_a) / (a.mismatch + b.mismatch);
-  if (!(doubt < largest_doubt)) return std::nullopt;
-  return Exchange{std::min(a.marker, b.marker),
-                  std::max(a.marker, b.marker),
-                  std::max(a.before, b.before),
-                  std::min(a.after, b.after),
-                  std::max({a.after - a.before, b.after - b.before,
-                            b.after > a.before ? b.after - a.before : std::size_t{1},
-                            a.after > b.before ? a.after - b.before : std::size_t{1}}) -
-                      1,
-                  doubt};
-}
-
-}  // namespace
-
+// Returns the distance between the track of `from` up to frame `before` and that of `to` from
+// frame `after` on, both extrapolated to the middle with their velocities there. For successive
+// frames of one track it is about half the third difference.
 double side_mismatch(const Take& clip, std::size_t from, std::size_t before, std::size_t to,
                      std::size_t after) {
   const double half = 0.5 * static_cast<double>(after - before);
@@ -126,6 +71,8 @@ double side_mismatch(const Take& clip, std::size_t from, std::size_t before, std
               (clip.position(after, to) - half * *arriving));
 }
 
+// Returns all gaps between samples, and the successive samples whose mismatch is 6 times the usual
+// one of their marker, by frame `before`. `markers`: those examined.
 std::vector<Break> find_breaks(const Take& clip, const std::vector<std::size_t>& markers) {
   // Chosen by hand, not swept.
   constexpr double clear_ratio = 6;  // of the median mismatch from frame to frame
@@ -154,6 +101,38 @@ std::vector<Break> find_breaks(const Take& clip, const std::vector<std::size_t>&
   return breaks;
 }
 
+// Two breaks at which the markers exchange their labels: each track continues in the other's.
+struct Exchange {
+  std::size_t first_marker = 0;  // the lower one
+  std::size_t second_marker = 0;
+  std::size_t last_before = 0;  // last frame in which either is seen before the exchange
+  std::size_t first_after = 0;  // first frame in which either is seen after it
+  std::size_t longest_gap = 0;  // frames missing between the sides of either
+  double doubt = 0;             // mismatch with labels exchanged over that without
+};
+
+std::optional<Exchange> exchange_of(const Take& clip, const Break& a, const Break& b) {
+  // The mismatch as exchanged over that as labelled. A quarter is the "four times less" of
+  // docs/details/check.md. Chosen by hand, not swept.
+  constexpr double largest_doubt = 0.25;
+  const double a_to_b = side_mismatch(clip, a.marker, a.before, b.marker, b.after);
+  const double b_to_a = side_mismatch(clip, b.marker, b.before, a.marker, a.after);
+  const double worst = std::max(a_to_b, b_to_a), least = std::min(a.mismatch, b.mismatch);
+  if (!(worst < 2 * largest_doubt * least)) return std::nullopt;
+  const double doubt = (a_to_b + b_to_a) / (a.mismatch + b.mismatch);
+  if (!(doubt < largest_doubt)) return std::nullopt;
+  return Exchange{std::min(a.marker, b.marker),
+                  std::max(a.marker, b.marker),
+                  std::max(a.before, b.before),
+                  std::min(a.after, b.after),
+                  std::max({a.after - a.before, b.after - b.before,
+                            b.after > a.before ? b.after - a.before : std::size_t{1},
+                            a.after > b.before ? a.after - b.before : std::size_t{1}}) -
+                      1,
+                  doubt};
+}
+
+// Returns the exchanges by frame. No break is in two of them; the least doubtful ones are kept.
 std::vector<Exchange> find_exchanges(const Take& clip, const std::vector<Break>& breaks) {
   struct Candidate {
     Exchange exchange;
@@ -184,8 +163,6 @@ std::vector<Exchange> find_exchanges(const Take& clip, const std::vector<Break>&
   return exchanges;
 }
 
-namespace {
-
 std::vector<std::size_t> spread_frames(const std::vector<std::uint8_t>& swapped,
                                        std::uint8_t wanted) {
   std::vector<std::size_t> frames;
@@ -209,8 +186,14 @@ std::vector<Neighbour> steady_neighbours(const Take& clip, const std::vector<std
   return found;
 }
 
-}  // namespace
-
+// Evidence on an exchange from distances to nearby markers: their mean departure from the usual
+// distances in the frames in question, as labelled and with labels exchanged.
+struct NeighbourVerdict {
+  double as_labelled = 0;
+  double exchanged = 0;
+  bool known = false;  // false if no neighbour was seen
+};
+// `swapped[f]`: 1 in the frames in question, 0 in those that give the usual distances.
 NeighbourVerdict ask_neighbours(const Take& clip, const std::vector<std::size_t>& markers,
                                 std::size_t first_marker, std::size_t second_marker,
                                 const std::vector<std::uint8_t>& swapped) {
@@ -240,6 +223,8 @@ NeighbourVerdict ask_neighbours(const Take& clip, const std::vector<std::size_t>
   for (const double d : exchanged) verdict.exchanged += d;
   return verdict;
 }
+
+}  // namespace
 
 }  // namespace kinemend::check
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "classic/entries.hpp"
 #include "classic/filter_channels.hpp"
 #include "cleaner/live.hpp"
 #include "kinemend/experimental/representation.hpp"

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "base/portable.hpp"
-#include "classic/entries.hpp"
 #include "cleaner/live.hpp"
 #include "cleaner/orientation_filter.hpp"
 #include "cleaner/pieces.hpp"

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/quantiles.hpp"
-#include "classic/entries.hpp"
 #include "classic/medians.hpp"
 #include "cleaner/live.hpp"
 #include "kinemend/experimental/frame_rate.hpp"

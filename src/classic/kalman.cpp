@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "classic/entries.hpp"
 #include "classic/track_kalman.hpp"
 #include "cleaner/live.hpp"
 #include "kinemend/methods.hpp"

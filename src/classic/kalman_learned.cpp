@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "classic/entries.hpp"
 #include "classic/linear_dynamics.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "kinemend/methods.hpp"

@@ -1,7 +1,6 @@
 // The method `median`: the L1 median of a moving window of each track.
 #include <algorithm>
 
-#include "classic/entries.hpp"
 #include "classic/medians.hpp"
 #include "cleaner/live.hpp"
 #include "kinemend/experimental/frame_rate.hpp"

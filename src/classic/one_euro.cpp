@@ -1,5 +1,4 @@
 // The method `one-euro`: a causal low-pass filter whose cutoff grows with the speed.
-#include "classic/entries.hpp"
 #include "classic/filter_channels.hpp"
 #include "classic/track_kalman.hpp"
 #include "cleaner/live.hpp"

@@ -1,5 +1,4 @@
 // The method `wavelet`: shrinks the wavelet coefficients of a take's channels.
-#include "classic/entries.hpp"
 #include "classic/filter_channels.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "kinemend/methods.hpp"

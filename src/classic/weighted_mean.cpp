@@ -1,5 +1,4 @@
 // The method `weighted-mean`: repeated means of neighbouring samples.
-#include "classic/entries.hpp"
 #include "classic/filter_channels.hpp"
 #include "cleaner/live.hpp"
 #include "kinemend/experimental/representation.hpp"

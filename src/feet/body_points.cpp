@@ -21,9 +21,6 @@
 
 namespace kinemend::feet {
 
-/// Returns the uppermost joint of each foot, of those named after parts of a foot (`foot_joints`).
-std::vector<std::size_t> ankles_of(const Skeleton& skeleton);
-
 double along(Vec3 v, Up up) {
   return up.sign * (up.axis == Axis::x ? v.x : up.axis == Axis::y ? v.y : v.z);
 }
@@ -80,6 +77,22 @@ std::size_t carrier_of(const Skeleton& skeleton) {
   const auto found =
       std::find_if(children.begin(), children.end(), [](std::size_t count) { return count > 1; });
   return found == children.end() ? 0 : static_cast<std::size_t>(found - children.begin());
+}
+
+// Returns the uppermost joint of each foot, of those named after parts of a foot (`foot_joints`).
+std::vector<std::size_t> ankles_of(const Skeleton& skeleton) {
+  const std::vector<std::size_t> named = foot_joints(skeleton);
+  std::vector<std::size_t> ankles;
+  for (const std::size_t joint : named) {
+    bool is_upper = true;
+    for (std::int32_t p = skeleton.parents[joint]; p >= 0;
+         p = skeleton.parents[static_cast<std::size_t>(p)]) {
+      is_upper = is_upper &&
+                 std::find(named.begin(), named.end(), static_cast<std::size_t>(p)) == named.end();
+    }
+    if (is_upper) ankles.push_back(joint);
+  }
+  return ankles;
 }
 
 // Returns ankles with their descendants, without the ankle itself, which rolls over the foot.
@@ -248,25 +261,6 @@ void name_sides(const Skeleton& skeleton, std::vector<Leg>& legs) {
 }
 
 }  // namespace
-
-namespace feet {
-
-std::vector<std::size_t> ankles_of(const Skeleton& skeleton) {
-  const std::vector<std::size_t> named = foot_joints(skeleton);
-  std::vector<std::size_t> ankles;
-  for (const std::size_t joint : named) {
-    bool is_upper = true;
-    for (std::int32_t p = skeleton.parents[joint]; p >= 0;
-         p = skeleton.parents[static_cast<std::size_t>(p)]) {
-      is_upper = is_upper &&
-                 std::find(named.begin(), named.end(), static_cast<std::size_t>(p)) == named.end();
-    }
-    if (is_upper) ankles.push_back(joint);
-  }
-  return ankles;
-}
-
-}  // namespace feet
 
 std::vector<Leg> find_legs(const Skeleton& skeleton) {
   // A shorter bone is a twist joint, and a shorter foot is rejected. Chosen by hand, not swept.

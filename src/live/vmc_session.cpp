@@ -25,7 +25,8 @@
 
 namespace kinemend {
 
-/// A message `/VMC/Ext/Bone/Pos` or `/VMC/Ext/Root/Pos`.
+/// A message `/VMC/Ext/Bone/Pos` or `/VMC/Ext/Root/Pos`. It has a name outside this file because a
+/// member of `VmcSession::Work` holds such messages.
 struct VmcPose {
   bool is_root = false;
   std::string_view name;
@@ -33,24 +34,67 @@ struct VmcPose {
       0;  ///< of its seven floats in the datagram: position, then quaternion x y z w
 };
 
-/// Appends the poses among the messages of a datagram, in order. Messages with other argument types
-/// are skipped.
+namespace {
+
+constexpr std::size_t float_bytes = 4, position_floats = 3, pose_floats = 7;
+
+bool write_floats(std::string& datagram, std::size_t place, std::span<const double> values) {
+  for (const double value : values) {
+    if (!std::isfinite(static_cast<float>(value))) return false;
+  }
+  for (std::size_t i = 0; i < values.size(); ++i)
+    set_osc_float(datagram, place + float_bytes * i, static_cast<float>(values[i]));
+  return true;
+}
+
+// Appends the poses among the messages of a datagram, in order. Messages with other argument types
+// are skipped.
 void read_vmc_poses(std::string_view datagram, const std::vector<OscMessage>& messages,
-                    std::vector<VmcPose>& poses);
+                    std::vector<VmcPose>& poses) {
+  for (const OscMessage& message : messages) {
+    const bool is_root = message.address == "/VMC/Ext/Root/Pos";
+    // Later versions of the protocol add arguments after these.
+    if (!(is_root || message.address == "/VMC/Ext/Bone/Pos") ||
+        !message.types.starts_with("sfffffff"))
+      continue;
+    const auto name = osc_string(datagram, message.arguments, message.end);
+    if (!name) continue;
+    const std::size_t place = message.arguments + osc_string_bytes(name->size());
+    if (message.end - place < pose_floats * float_bytes) continue;
+    poses.push_back({is_root, *name, place});
+  }
+}
 
 struct VmcValues {
   Vec3 position;
-  Quat rotation;  ///< as received: with any norm
-  /// Whether all values are finite and the quaternion is a rotation once it is normalised.
-  bool is_usable() const;
-};
-VmcValues vmc_values(std::string_view datagram, std::size_t place);
-/// Sets the pose and returns true; values that a float cannot hold leave it unchanged and return
-/// false.
-bool set_vmc_rotation(std::string& datagram, std::size_t place, Quat rotation);
-bool set_vmc_position(std::string& datagram, std::size_t place, Vec3 position);
+  Quat rotation;  // as received: with any norm
 
-namespace {
+  // Whether all values are finite and the quaternion is a rotation once it is normalised.
+  bool is_usable() const {
+    const double length = norm(rotation);
+    // Senders round their quaternions; zeros mark a bone that is not tracked.
+    constexpr double least = 0.5, most = 2;
+    return is_finite(position) && length >= least && length <= most;
+  }
+};
+
+VmcValues vmc_values(std::string_view datagram, std::size_t place) {
+  std::array<double, pose_floats> v{};
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] = osc_float(datagram, place + float_bytes * i);
+  return {{v[0], v[1], v[2]}, {v[6], v[3], v[4], v[5]}};
+}
+
+// Sets the pose and returns true; values that a float cannot hold leave it unchanged and return
+// false.
+bool set_vmc_rotation(std::string& datagram, std::size_t place, Quat rotation) {
+  const double values[] = {rotation.x, rotation.y, rotation.z, rotation.w};
+  return write_floats(datagram, place + position_floats * float_bytes, values);
+}
+
+bool set_vmc_position(std::string& datagram, std::size_t place, Vec3 position) {
+  const double values[] = {position.x, position.y, position.z};
+  return write_floats(datagram, place, values);
+}
 
 // A sender sends the datagrams of a frame in succession: after a pause of this share of a frame the
 // rest of the frame is lost.
@@ -356,59 +400,5 @@ double VmcSession::measured_hz() const noexcept { return work_->measured_hz(); }
 std::size_t VmcSession::waiting_bytes() const noexcept { return work_->waiting_bytes(); }
 std::vector<TrackChange> VmcSession::changes() const { return work_->changes(); }
 std::vector<std::string> VmcSession::take_notes() { return work_->take_notes(); }
-
-namespace {
-
-constexpr std::size_t float_bytes = 4, position_floats = 3, pose_floats = 7;
-
-bool write_floats(std::string& datagram, std::size_t place, std::span<const double> values) {
-  for (const double value : values) {
-    if (!std::isfinite(static_cast<float>(value))) return false;
-  }
-  for (std::size_t i = 0; i < values.size(); ++i)
-    set_osc_float(datagram, place + float_bytes * i, static_cast<float>(values[i]));
-  return true;
-}
-
-}  // namespace
-
-void read_vmc_poses(std::string_view datagram, const std::vector<OscMessage>& messages,
-                    std::vector<VmcPose>& poses) {
-  for (const OscMessage& message : messages) {
-    const bool is_root = message.address == "/VMC/Ext/Root/Pos";
-    // Later versions of the protocol add arguments after these.
-    if (!(is_root || message.address == "/VMC/Ext/Bone/Pos") ||
-        !message.types.starts_with("sfffffff"))
-      continue;
-    const auto name = osc_string(datagram, message.arguments, message.end);
-    if (!name) continue;
-    const std::size_t place = message.arguments + osc_string_bytes(name->size());
-    if (message.end - place < pose_floats * float_bytes) continue;
-    poses.push_back({is_root, *name, place});
-  }
-}
-
-bool VmcValues::is_usable() const {
-  const double length = norm(rotation);
-  // Senders round their quaternions; zeros mark a bone that is not tracked.
-  constexpr double least = 0.5, most = 2;
-  return is_finite(position) && length >= least && length <= most;
-}
-
-VmcValues vmc_values(std::string_view datagram, std::size_t place) {
-  std::array<double, pose_floats> v{};
-  for (std::size_t i = 0; i < v.size(); ++i) v[i] = osc_float(datagram, place + float_bytes * i);
-  return {{v[0], v[1], v[2]}, {v[6], v[3], v[4], v[5]}};
-}
-
-bool set_vmc_rotation(std::string& datagram, std::size_t place, Quat rotation) {
-  const double values[] = {rotation.x, rotation.y, rotation.z, rotation.w};
-  return write_floats(datagram, place + position_floats * float_bytes, values);
-}
-
-bool set_vmc_position(std::string& datagram, std::size_t place, Vec3 position) {
-  const double values[] = {position.x, position.y, position.z};
-  return write_floats(datagram, place, values);
-}
 
 }  // namespace kinemend

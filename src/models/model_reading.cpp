@@ -1,20 +1,29 @@
-// Finds the model for a method (the one given, the one of a file, or the one compiled into the
-// program), and looks up its numbers and tensors, with errors that name what is missing or invalid.
+// Lists the kinds of models. Finds the model for a method (the one given, the one of a file, or the
+// one compiled into the program), and looks up its numbers and tensors, with errors that name what
+// is missing or invalid.
 #include "models/model_reading.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <mutex>
 
 #include "base/files.hpp"
+#include "base/options.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/model.hpp"
 #include "nn/layers.hpp"
 
 namespace kinemend {
+
+std::span<const ModelKind> model_kinds() {
+  static constexpr std::array kinds = {example_models,        wiener_models,    sparse_models,
+                                       kalman_learned_models, recurrent_models, learned_models};
+  return kinds;
+}
 
 std::vector<ShippedModel> shipped_models() {
   std::vector<ShippedModel> models;
@@ -59,6 +68,31 @@ std::shared_ptr<const Model> model_of(const ModelKind& kind, const std::string& 
                                               name, kind.name, given->method));
   }
   return given;
+}
+
+namespace {
+
+const ModelKind& kind_of(std::string_view method) {
+  return find_named(model_kinds(), method, "no model is known for");
+}
+
+}  // namespace
+
+Model parse_model(std::string_view bytes, std::string_view name) {
+  return parse_model_of(bytes, name, {model_kinds(), true});
+}
+
+Model read_model(const std::filesystem::path& path) {
+  return parse_model(file_bytes(path), path.string());
+}
+
+std::shared_ptr<const Model> shipped_model(std::string_view method) {
+  return shipped_model_of(kind_of(method));
+}
+
+std::shared_ptr<const Model> model_for(std::string_view method, const std::string& path,
+                                       std::shared_ptr<const Model> given) {
+  return model_of(kind_of(method), path, std::move(given));
 }
 
 namespace {

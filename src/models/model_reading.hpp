@@ -1,6 +1,5 @@
-// Reads models, and the numbers of networks in them, for the methods that work with them;
-// cmake/embed_models.cmake compiles the models in models/ into the program. The public functions,
-// which know all methods, are in `registry/methods.cpp`.
+// Names the kinds of models, and reads models, and the numbers of networks in them, for the methods
+// that work with them; cmake/embed_models.cmake compiles the models in models/ into the program.
 #pragma once
 
 #include <cstddef>
@@ -13,6 +12,14 @@
 #include "kinemend/experimental/model.hpp"
 
 namespace kinemend {
+
+/// The models of each method that works with them, in the order of `model_kinds`.
+inline constexpr ModelKind example_models{"example", 1, "kinemend train"};
+inline constexpr ModelKind wiener_models{"wiener", 1, "kinemend train"};
+inline constexpr ModelKind sparse_models{"sparse", 1, "kinemend train"};
+inline constexpr ModelKind kalman_learned_models{"kalman-learned", 1, "kinemend train"};
+inline constexpr ModelKind recurrent_models{"recurrent", 1, "kinemend-train"};
+inline constexpr ModelKind learned_models{"learned", 1, "kinemend-train"};
 
 /// The kinds of models that a reader accepts.
 struct KnownModels {

@@ -11,7 +11,6 @@
 #include "base/quantiles.hpp"
 #include "cleaner/pieces.hpp"
 #include "kinemend/methods.hpp"
-#include "methods/auto/entries.hpp"
 #include "methods/auto/track_cleaning.hpp"
 #include "methods/auto/track_vectors.hpp"
 #include "methods/auto/vector_tracks.hpp"

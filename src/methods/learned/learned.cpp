@@ -23,7 +23,6 @@
 #include "kinemend/methods.hpp"
 #include "kinemend/options.hpp"
 #include "methods/auto/track_vectors.hpp"
-#include "methods/learned/entries.hpp"
 #include "methods/learned/learned_live.hpp"
 #include "methods/learned/motion_channels.hpp"
 #include "methods/learned/motion_filter.hpp"

@@ -2,6 +2,7 @@
 // the method filter them, and decodes them into the take.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -13,6 +14,10 @@
 #include "kinemend/experimental/model.hpp"
 
 namespace kinemend {
+
+/// Channels of a part, which is a track of a body or its place: the axes of a vector. By
+/// definition.
+inline constexpr std::size_t channels_of_part = 3;
 
 /// Parts whose result comes from `auto` instead of the filter.
 struct PartFallBack {

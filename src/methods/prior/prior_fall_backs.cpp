@@ -77,8 +77,7 @@ std::vector<FallBack> fall_backs_of(const PriorWork& work,
 namespace {
 
 // The rows `hold` of docs/details/wiener.md state what other values do.
-constexpr std::size_t channels_of_part = 3;  // a rotation vector
-constexpr double mostly_own = 0.5;           // need
+constexpr double mostly_own = 0.5;     // need
 constexpr double most_deviations = 1;  // deviations of the noise, from `auto`'s value of a sample
 // A measurement is far from another result if it exceeds both this multiple of its channel's median
 // distance and this distance. The same rows state what half and double of them do.
@@ -244,10 +243,9 @@ constexpr double known_motion = 1.5, unknown_motion = 5;  // strangeness
 // do; with 15, a fifth of outliers are seldom half. Chosen by hand, not swept.
 constexpr double window_s = 0.2;
 // Minimum of that window's frames on either side; the bias at which `auto` begins to take over and
-// at which it has taken over; channels of a joint. Chosen by hand, not swept.
+// at which it has taken over. Chosen by hand, not swept.
 constexpr double least_half_window = 7;
 constexpr double believable_bias = 1, unbelievable_bias = 2;
-constexpr std::size_t part_channels = 3;
 
 // Mean of the squares without the largest tenth, and its value for a Gaussian variance of 1. The
 // share is chosen by hand, not swept. By definition the value is 0.623; the figures were measured
@@ -271,7 +269,8 @@ double blend_part(const PriorWork& work, std::size_t part, const Shares& share_a
   for (std::size_t f = 0; f < cleaned.frames; ++f) {
     const double share = share_at(f);
     sum += share;
-    for (std::size_t c = part_channels * part; c < part_channels * (part + 1) && share > 0; ++c) {
+    for (std::size_t c = channels_of_part * part; c < channels_of_part * (part + 1) && share > 0;
+         ++c) {
       if (work.channels.observed[f * cleaned.channels + c] != 0)
         cleaned(f, c) += share * (work.fallback(f, c) - cleaned(f, c));
     }
@@ -339,7 +338,7 @@ void smooth_rest(const PriorWork& work, const PoseMatrix& weights, const PoseMat
   variances.reserve(noise.size());
   for (const double n : noise) variances.push_back(n * n);
   const std::vector<std::size_t> chosen =
-      signal::most_likely_models(rest, variances, grid, part_channels);
+      signal::most_likely_models(rest, variances, grid, channels_of_part);
   std::vector<signal::SmoothingModel> models;
   models.reserve(chosen.size());
   for (const std::size_t model : chosen) models.push_back(grid.models()[model]);
@@ -350,7 +349,7 @@ void smooth_rest(const PriorWork& work, const PoseMatrix& weights, const PoseMat
 void fall_back(PriorWork& work, double strangeness, PoseMatrix& cleaned) {
   const double share =
       ramp(portable::log(strangeness), portable::log(known_motion), portable::log(unknown_motion));
-  for (std::size_t part = 0; part_channels * part < cleaned.channels; ++part)
+  for (std::size_t part = 0; channels_of_part * part < cleaned.channels; ++part)
     blend_part(
         work, part, [share](std::size_t) { return share; }, cleaned);
   add_fall_back(work, "the motion is unlike what the model was learned from",
@@ -368,12 +367,12 @@ void fall_back_where_biased(PriorWork& work, const std::vector<double>& noise,
       std::max(least_half_window, std::round(0.5 * window_s * work.channels.frame_rate_hz));
   median_filter(bias, static_cast<std::size_t>(std::min(half, static_cast<double>(bias.frames))));
   std::vector<double> shares(work.needs.size(), 0);
-  for (std::size_t part = 0; part_channels * (part + 1) <= cleaned.channels; ++part) {
+  for (std::size_t part = 0; channels_of_part * (part + 1) <= cleaned.channels; ++part) {
     const auto share_at = [&](std::size_t f) {
       double squares = 0;
-      for (std::size_t c = part_channels * part; c < part_channels * (part + 1); ++c)
+      for (std::size_t c = channels_of_part * part; c < channels_of_part * (part + 1); ++c)
         squares += bias(f, c) * bias(f, c);
-      return ramp(std::sqrt(squares / part_channels), believable_bias, unbelievable_bias);
+      return ramp(std::sqrt(squares / channels_of_part), believable_bias, unbelievable_bias);
     };
     shares[part] = blend_part(work, part, share_at, cleaned);
   }

@@ -11,7 +11,6 @@
 #include "methods/auto/smoothing.hpp"
 #include "methods/prior/prior_cleaning.hpp"
 #include "methods/prior/prior_fall_backs.hpp"
-#include "methods/wiener/entries.hpp"
 #include "methods/wiener/wiener_prior.hpp"
 #include "methods/wiener/wiener_steps.hpp"
 #include "models/model_reading.hpp"

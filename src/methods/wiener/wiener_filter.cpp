@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -20,49 +21,48 @@
 
 namespace kinemend {
 
-/// Model of a take's residual outside the learned patterns: independent coefficients whose variance
-/// is estimated from the take itself and scaled for each window. The noise is scaled, too: a window
-/// with a spike has more.
-class RestModel {
- public:
-  /// `prior`: D x M, learned variances; `noise`: D, of a coefficient. Channels come in threes,
-  /// which share a scale.
-  RestModel(const Eigen::MatrixXd& prior, const Eigen::VectorXd& noise, Eigen::Index frames,
-            double window_s);
-
-  /// Adds the residual coefficients (N x D) of a window. `counts`: D, 1 for measured channels.
-  void add(const Eigen::MatrixXd& left, const Eigen::VectorXd& counts);
-  /// Adds the sums of other windows of the take.
-  void add(const RestModel& other);
-  /// Sets the variances: those of the sums, less the noise and smoothed over frequency, where the
-  /// prior has the weight of eight windows. `window_weight`: weight of a window, below 1 if windows
-  /// overlap.
-  void learn(double window_weight);
-  /// Posterior means of the coefficients of a window (N x D), averaged over scales of the variances
-  /// by their evidence, in place. The noise of a window is estimated from its highest frequencies.
-  void shrink(Eigen::MatrixXd& left) const;
-
- private:
-  struct Scale {
-    Eigen::MatrixXd gain;         ///< N x D
-    Eigen::MatrixXd precision;    ///< N x D
-    Eigen::VectorXd log_density;  ///< D
-  };
-  int noise_octave(const Eigen::MatrixXd& left, Eigen::Index channel) const;
-
-  Eigen::MatrixXd prior_;      // N x D
-  Eigen::VectorXd noise_;      // D
-  Eigen::Index motionless_;    // coefficients from here on are noise
-  Eigen::MatrixXd signal_;     // N x D: sums of squares less their noise
-  Eigen::VectorXd counts_;     // D
-  std::vector<Scale> scales_;  // of the motion x of the noise
-};
-
 namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+// Model of a take's residual outside the learned patterns: independent coefficients whose variance
+// is estimated from the take itself and scaled for each window. The noise is scaled, too: a window
+// with a spike has more.
+class RestModel {
+ public:
+  // `prior`: D x M, learned variances; `noise`: D, of a coefficient. Channels come in threes,
+  // which share a scale.
+  RestModel(const MatrixXd& prior, const VectorXd& noise, Index frames, double window_s);
+
+  // Adds the residual coefficients (N x D) of a window. `counts`: D, 1 for measured channels.
+  void add(const MatrixXd& left, const VectorXd& counts);
+  // Adds the sums of other windows of the take.
+  void add(const RestModel& other);
+  // Sets the variances: those of the sums, less the noise and smoothed over frequency, where the
+  // prior has the weight of eight windows. `window_weight`: weight of a window, below 1 if windows
+  // overlap.
+  void learn(double window_weight);
+  // Posterior means of the coefficients of a window (N x D), averaged over scales of the variances
+  // by their evidence, in place. The noise of a window is estimated from its highest frequencies.
+  void shrink(MatrixXd& left) const;
+
+ private:
+  struct Scale {
+    MatrixXd gain;         // N x D
+    MatrixXd precision;    // N x D
+    VectorXd log_density;  // D
+  };
+  int noise_octave(const MatrixXd& left, Index channel) const;
+
+  MatrixXd prior_;             // N x D
+  VectorXd noise_;             // D
+  Index motionless_;           // coefficients from here on are noise
+  MatrixXd signal_;            // N x D: sums of squares less their noise
+  VectorXd counts_;            // D
+  std::vector<Scale> scales_;  // of the motion x of the noise
+};
 
 constexpr int largest_octave = 5;        // scales are 2^-5 to 2^5
 constexpr double octave_penalty = 0.02;  // log prior of a scale: - penalty octave^2
@@ -88,8 +88,6 @@ Band band_about(Index k, Index count) {
   const Index last = std::max(k + 1, static_cast<Index>(about * 1.2));
   return {std::max<Index>(first, 0), std::min(last, count - 1)};
 }
-
-}  // namespace
 
 RestModel::RestModel(const MatrixXd& prior, const VectorXd& noise, Index frames, double window_s)
     : prior_(frames, prior.rows()),
@@ -196,12 +194,6 @@ void RestModel::shrink(MatrixXd& left) const {
   }
 }
 
-namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 // Windows overlap by three quarters, so that neighbours are dependent. By definition; chunks are
 // for speed, not swept.
 constexpr double window_weight = 0.25;
@@ -211,7 +203,7 @@ constexpr std::size_t chunk_windows = 16;  // task size
 VectorXd taper(Index frames) {
   VectorXd weights(frames);
   for (Index i = 0; i < frames; ++i) {
-    const double s = portable::sin(3.14159265358979323846 * (static_cast<double>(i) + 0.5) /
+    const double s = portable::sin(std::numbers::pi * (static_cast<double>(i) + 0.5) /
                                    static_cast<double>(frames));
     weights(i) = s * s;
   }

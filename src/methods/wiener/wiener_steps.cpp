@@ -18,15 +18,10 @@
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "methods/auto/smoothing.hpp"
+#include "methods/prior/prior_cleaning.hpp"
 #include "motion/rotation.hpp"
 
 namespace kinemend {
-
-/// Smooths channels in place as `auto` smooths tracks, each three of them one track, without a
-/// learned model. `missing` is F x D, 1 for samples without weight; `noise` D, standard deviations,
-/// degrees, all above 0. Tracks of fewer than 16 frames are not changed.
-void smooth_channels(PoseMatrix& poses, std::span<const std::uint8_t> missing,
-                     std::span<const double> noise, double frame_rate_hz);
 
 namespace {
 
@@ -35,11 +30,10 @@ namespace {
 // values are chosen by hand, not swept.
 constexpr std::array<double, 14> widths_s = {0.006, 0.008, 0.011, 0.014, 0.018, 0.024, 0.032,
                                              0.042, 0.055, 0.075, 0.1,   0.14,  0.19,  0.25};
-constexpr std::size_t track_channels = 3;  // a rotation vector
-constexpr double probe_share = 0.1;        // of the noise
-constexpr double clearly = 0.95;           // of the filter's risk
-constexpr double fewest_counted = 0.8;     // share of samples
-constexpr std::uint64_t probe_seed = 7;    // any seed works
+constexpr double probe_share = 0.1;      // of the noise
+constexpr double clearly = 0.95;         // of the filter's risk
+constexpr double fewest_counted = 0.8;   // share of samples
+constexpr std::uint64_t probe_seed = 7;  // any seed works
 
 // Chosen by hand, not swept.
 constexpr double most_of_typical = 25;         // a single difference, of the typical variance
@@ -59,6 +53,40 @@ double centre_weight(double sigma_frames) {
   for (int j = 1; j < 4 * sigma_frames + 1; ++j)
     sum += 2 * portable::exp(-0.5 * (j / sigma_frames) * (j / sigma_frames));
   return 1 / sum;
+}
+
+// Smooths channels in place as `auto` smooths tracks, each three of them one track, without a
+// learned model. `missing` is F x D, 1 for samples without weight; `noise` D, standard deviations,
+// degrees, all above 0. Tracks of fewer than 16 frames are not changed.
+void smooth_channels(PoseMatrix& poses, std::span<const std::uint8_t> missing,
+                     std::span<const double> noise, double frame_rate_hz) {
+  // Chosen by hand, not swept.
+  constexpr std::size_t fewest_smoothed_frames = 16;  // fewer do not determine a strength
+  // Channels are scaled to the same noise, which is then isotropic.
+  VectorTracks tracks(poses.frames, poses.channels / 3, [&](std::size_t f, std::size_t n) {
+    const Vec3 v = vector_at(poses, f, n);
+    return Vec3{v.x / noise[3 * n], v.y / noise[3 * n + 1], v.z / noise[3 * n + 2]};
+  });
+  const SampleMarks marks(poses.frames, tracks.tracks(), [&](std::size_t f, std::size_t n) {
+    const std::size_t i = f * poses.channels + 3 * n;
+    return missing[i] != 0 || missing[i + 1] != 0 || missing[i + 2] != 0;
+  });
+  const std::vector<double> one(tracks.tracks(), 1);
+  std::vector<double> shares(tracks.tracks(), 1);
+  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
+    std::size_t seen = 0;
+    for (std::size_t f = 0; f < tracks.frames(); ++f) seen += marks(f, n) == 0;
+    if (seen < fewest_smoothed_frames) shares[n] = 0;
+  }
+  smooth_tracks(tracks, marks, one, shares, frame_rate_hz);
+  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
+    for (std::size_t f = 0; f < poses.frames; ++f) {
+      const Vec3 v = tracks.at(f, n);
+      poses(f, 3 * n) = v.x * noise[3 * n];
+      poses(f, 3 * n + 1) = v.y * noise[3 * n + 1];
+      poses(f, 3 * n + 2) = v.z * noise[3 * n + 2];
+    }
+  }
 }
 
 class Guard {
@@ -101,7 +129,7 @@ class Guard {
       }
     }
     for (std::size_t d = 0; d < channels; ++d) {
-      const std::size_t w = best[d / track_channels];
+      const std::size_t w = best[d / channels_of_part];
       if (w == widths_s.size() || !is_mostly_counted(d)) continue;
       for (std::size_t f = 0; f < frames; ++f) result.poses(f, d) = smooth[w](f, d);
     }
@@ -196,20 +224,20 @@ class Guard {
   // Mixes each track as a x + (1 - a) other, with the a of least estimated risk, which is a
   // parabola in a.
   void mix(Estimate& x, const Estimate& other) const {
-    const std::size_t channels = samples_.channels, tracks = (channels + 2) / track_channels;
+    const std::size_t channels = samples_.channels, tracks = (channels + 2) / channels_of_part;
     std::vector<double> slope(tracks, 0), curvature(tracks, 0);
     for (std::size_t i = 0; i < counted_.size(); ++i) {
       if (counted_[i] == 0) continue;
       const std::size_t d = i % channels;
       const double step = x.poses.values[i] - other.poses.values[i];
       const double left = take_.poses.values[i] - other.poses.values[i];
-      slope[d / track_channels] +=
+      slope[d / channels_of_part] +=
           left * step - (x.divergence[d] - other.divergence[d]) * variance_[d];
-      curvature[d / track_channels] += step * step;
+      curvature[d / channels_of_part] += step * step;
     }
     std::vector<double> share(channels, 1);
     for (std::size_t d = 0; d < channels; ++d) {
-      const std::size_t track = d / track_channels;
+      const std::size_t track = d / channels_of_part;
       if (curvature[track] > 0 && is_mostly_counted(d))
         share[d] = std::clamp(slope[track] / curvature[track], 0.0, 1.0);
       x.divergence[d] = share[d] * x.divergence[d] + (1 - share[d]) * other.divergence[d];
@@ -249,8 +277,8 @@ class Guard {
   }
 
   static std::vector<double> track_sums(const std::vector<double>& channels) {
-    std::vector<double> tracks((channels.size() + 2) / track_channels, 0);
-    for (std::size_t d = 0; d < channels.size(); ++d) tracks[d / track_channels] += channels[d];
+    std::vector<double> tracks((channels.size() + 2) / channels_of_part, 0);
+    for (std::size_t d = 0; d < channels.size(); ++d) tracks[d / channels_of_part] += channels[d];
     return tracks;
   }
 
@@ -362,37 +390,6 @@ WienerOutliers dense_outliers(const WienerPrior& prior, const WienerTake& take) 
     bridge(take, result.suspect, result.guess);
   }
   return result;
-}
-
-// Channels are scaled to the same noise, which is then isotropic.
-void smooth_channels(PoseMatrix& poses, std::span<const std::uint8_t> missing,
-                     std::span<const double> noise, double frame_rate_hz) {
-  // Chosen by hand, not swept.
-  constexpr std::size_t fewest_smoothed_frames = 16;  // fewer do not determine a strength
-  VectorTracks tracks(poses.frames, poses.channels / 3, [&](std::size_t f, std::size_t n) {
-    const Vec3 v = vector_at(poses, f, n);
-    return Vec3{v.x / noise[3 * n], v.y / noise[3 * n + 1], v.z / noise[3 * n + 2]};
-  });
-  const SampleMarks marks(poses.frames, tracks.tracks(), [&](std::size_t f, std::size_t n) {
-    const std::size_t i = f * poses.channels + 3 * n;
-    return missing[i] != 0 || missing[i + 1] != 0 || missing[i + 2] != 0;
-  });
-  const std::vector<double> one(tracks.tracks(), 1);
-  std::vector<double> shares(tracks.tracks(), 1);
-  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
-    std::size_t seen = 0;
-    for (std::size_t f = 0; f < tracks.frames(); ++f) seen += marks(f, n) == 0;
-    if (seen < fewest_smoothed_frames) shares[n] = 0;
-  }
-  smooth_tracks(tracks, marks, one, shares, frame_rate_hz);
-  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
-    for (std::size_t f = 0; f < poses.frames; ++f) {
-      const Vec3 v = tracks.at(f, n);
-      poses(f, 3 * n) = v.x * noise[3 * n];
-      poses(f, 3 * n + 1) = v.y * noise[3 * n + 1];
-      poses(f, 3 * n + 2) = v.z * noise[3 * n + 2];
-    }
-  }
 }
 
 }  // namespace kinemend

@@ -41,9 +41,9 @@ struct WienerOutliers {
 WienerOutliers dense_outliers(const WienerPrior& prior, const WienerTake& take);
 
 /// Runs `wiener_filter` and limits its error on motion unlike the training. For each three channels
-/// it is mixed with the result of `smooth_channels` in the shares of least risk; then the Gaussian
-/// of the best width replaces it if its risk is clearly smaller. Tracks with many missing samples
-/// keep the filter's result.
+/// it is mixed with the take smoothed as `auto` smooths tracks, in the shares of least risk; then
+/// the Gaussian of the best width replaces it if its risk is clearly smaller. Tracks with many
+/// missing samples keep the filter's result.
 ///
 /// The risk of a filter on a channel is Stein's unbiased estimate of the squared error, summed over
 /// the samples used,

@@ -11,7 +11,6 @@
 #include "kinemend/metrics.hpp"
 #include "motion/rotation.hpp"
 #include "papers/courty2008_bilateral/bilateral_filter.hpp"
-#include "papers/courty2008_bilateral/entries.hpp"
 
 namespace kinemend {
 

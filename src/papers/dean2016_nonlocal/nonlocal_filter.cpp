@@ -17,8 +17,10 @@
 
 namespace kinemend {
 
-/// Index of the sample at i, which may be beyond the ends.
-inline std::size_t source_index(std::ptrdiff_t i, std::size_t frames, NonlocalBoundary boundary) {
+namespace {
+
+// Index of the sample at i, which may be beyond the ends.
+std::size_t source_index(std::ptrdiff_t i, std::size_t frames, NonlocalBoundary boundary) {
   const auto last = static_cast<std::ptrdiff_t>(frames) - 1;
   if (boundary != NonlocalBoundary::mirror || last == 0) {
     return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, last));
@@ -27,7 +29,7 @@ inline std::size_t source_index(std::ptrdiff_t i, std::size_t frames, NonlocalBo
   return static_cast<std::size_t>(std::min(phase, 2 * last - phase));
 }
 
-/// The least-squares line through the `count` samples at an end, relative to the end sample.
+// The least-squares line through the `count` samples at an end, relative to the end sample.
 struct EndLine {
   Vec3 value, slope;
 };
@@ -47,7 +49,7 @@ EndLine fit_end(const Track& track, bool front, std::size_t count) {
   return {(1 / n) * sum - middle * slope, slope};
 }
 
-/// The track with `pad` samples on either side.
+// The track with `pad` samples on either side.
 template <class Track>
 Track pad_ends(const Track& track, std::size_t pad, const NonlocalSettings& settings) {
   const std::size_t frames = track.frames;
@@ -68,8 +70,8 @@ Track pad_ends(const Track& track, std::size_t pad, const NonlocalSettings& sett
   return padded;
 }
 
-inline std::vector<double> pad_weights(const std::vector<double>& weights, std::size_t frames,
-                                       std::size_t pad, NonlocalBoundary boundary) {
+std::vector<double> pad_weights(const std::vector<double>& weights, std::size_t frames,
+                                std::size_t pad, NonlocalBoundary boundary) {
   if (weights.empty()) return {};
   std::vector<double> padded(frames + 2 * pad + lane_room);
   for (std::size_t i = 0; i < frames + 2 * pad; ++i) {
@@ -78,8 +80,6 @@ inline std::vector<double> pad_weights(const std::vector<double>& weights, std::
   }
   return padded;
 }
-
-namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 

@@ -16,7 +16,6 @@
 #include "methods/prior/prior_cleaning.hpp"
 #include "methods/prior/prior_fall_backs.hpp"
 #include "models/model_reading.hpp"
-#include "papers/lou2010_example/entries.hpp"
 #include "papers/lou2010_example/example_filter.hpp"
 #include "papers/lou2010_example/filter_bases.hpp"
 

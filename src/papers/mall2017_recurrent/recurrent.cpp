@@ -21,19 +21,10 @@
 #include "methods/prior/prior_cleaning.hpp"
 #include "methods/prior/prior_fall_backs.hpp"
 #include "models/model_reading.hpp"
-#include "papers/mall2017_recurrent/entries.hpp"
 #include "papers/mall2017_recurrent/filter_network.hpp"
 #include "papers/mall2017_recurrent/live_filter_network.hpp"
 
 namespace kinemend {
-
-/// A filter network of a model on takes like this one, at its own rate. Known joints are filtered;
-/// the root, positions, and unknown joints are passed through. The skeleton is matched by its rest
-/// pose. `network` and its model must outlive the filter. Errors: `ErrorKind::usage` for markers,
-/// another rate, a network without a filter, and as of `match_body`.
-std::unique_ptr<LiveFilter> make_recurrent_live(const FilterNetwork& network,
-                                                const BodyLayout& layout, const NameMap& names,
-                                                const TakeView& like);
 
 namespace {
 
@@ -120,85 +111,6 @@ std::shared_ptr<const PaperNetworks> networks_of(const std::shared_ptr<const Mod
   }
   return std::make_shared<const PaperNetworks>(std::move(networks));
 }
-
-constexpr const char* live_needs =
-    "recurrent runs live in its live form (--live), 15 frames behind; without it, auto sees the "
-    "whole take first";
-
-class LiveRecurrent final : public Cleaner {
- public:
-  LiveRecurrent(const RecurrentOptions& options, std::shared_ptr<const Model> model)
-      : options_(options),
-        model_(std::move(model)),
-        names_(name_map_at(options.map)),
-        network_(filter_network_of(*model_)) {
-    LiveFilterNetwork::check(network_);
-  }
-
-  std::string_view name() const override { return "recurrent"; }
-  OptionValues options() const override { return recurrent_table().values(options_); }
-
-  CleanTrace clean(const TakeView& take, const TrackSink& sink,
-                   const std::function<void(double)>& progress) const override {
-    return clean_as_live(*this, take, sink, progress);
-  }
-  // A stream at another rate is rejected when it begins.
-  LiveSupport live_support(double) const override { return {}; }
-  std::unique_ptr<LiveFilter> live(const TakeView& like) const override {
-    return make_recurrent_live(network_, model_->layout, names_, like);
-  }
-
- private:
-  RecurrentOptions options_;
-  std::shared_ptr<const Model> model_;
-  NameMap names_;
-  FilterNetwork network_;
-};
-
-std::unique_ptr<Cleaner> make_live(const RecurrentOptions& options,
-                                   const std::shared_ptr<const Model>& model, bool has_gap_model) {
-  if (has_gap_model)
-    throw Error(ErrorKind::usage,
-                "live, gaps are held or bridged: a gap model needs the whole take");
-  return std::make_unique<LiveRecurrent>(options, model);
-}
-
-}  // namespace
-
-std::unique_ptr<Cleaner> make_recurrent(const RecurrentOptions& options,
-                                        std::shared_ptr<const Model> model,
-                                        std::shared_ptr<const Model> gap_model) {
-  recurrent_table().validate(options);
-  model = model_of(recurrent_models, options.model, std::move(model));
-  if (!options.gap_model.empty())
-    gap_model = model_of(recurrent_models, options.gap_model, std::move(gap_model));
-  if (options.live) return make_live(options, model, gap_model != nullptr);
-  const auto networks = networks_of(model, gap_model);
-  return make_prior_cleaner(
-      model,
-      {.name = "recurrent",
-       .options = recurrent_table().values(options),
-       .map = options.map,
-       .fill = options.fill,
-       .filter = [networks, model](
-                     PriorWork& work) { filter_as_in_the_paper(work, *networks, model->layout); },
-       .why_not_live = live_needs,
-       .why_not_at = [networks](double rate_hz) { return wrong_rate(networks->filter, rate_hz); }});
-}
-
-Method recurrent_method() {
-  return {
-      "recurrent",
-      "neural network that predicts a filter for each joint and frame",
-      "Mall et al. 2017",
-      recurrent_table().specs(),
-      [](const OptionValues& values) { return make_recurrent(recurrent_table().parse(values)); },
-      true};
-}
-
-namespace {
-
-constexpr std::size_t turn_axes = 3;  // of a rotation vector
 
 Vec3 vector_at(const std::vector<float>& values, std::size_t place) {
   return {static_cast<double>(values[place]), static_cast<double>(values[place + 1]),
@@ -336,8 +248,10 @@ class RecurrentLive final : public LiveFilter {
   std::size_t pushed_ = 0, given_ = 0;
 };
 
-}  // namespace
-
+// A filter network of a model on takes like this one, at its own rate. Known joints are filtered;
+// the root, positions, and unknown joints are passed through. The skeleton is matched by its rest
+// pose. `network` and its model must outlive the filter. Errors: `ErrorKind::usage` for markers,
+// another rate, a network without a filter, and as of `match_body`.
 std::unique_ptr<LiveFilter> make_recurrent_live(const FilterNetwork& network,
                                                 const BodyLayout& layout, const NameMap& names,
                                                 const TakeView& like) {
@@ -349,6 +263,81 @@ std::unique_ptr<LiveFilter> make_recurrent_live(const FilterNetwork& network,
                             network.rate_hz, like.frame_rate_hz));
   }
   return std::make_unique<RecurrentLive>(network, layout, names, like);
+}
+
+constexpr const char* live_needs =
+    "recurrent runs live in its live form (--live), 15 frames behind; without it, auto sees the "
+    "whole take first";
+
+class LiveRecurrent final : public Cleaner {
+ public:
+  LiveRecurrent(const RecurrentOptions& options, std::shared_ptr<const Model> model)
+      : options_(options),
+        model_(std::move(model)),
+        names_(name_map_at(options.map)),
+        network_(filter_network_of(*model_)) {
+    LiveFilterNetwork::check(network_);
+  }
+
+  std::string_view name() const override { return "recurrent"; }
+  OptionValues options() const override { return recurrent_table().values(options_); }
+
+  CleanTrace clean(const TakeView& take, const TrackSink& sink,
+                   const std::function<void(double)>& progress) const override {
+    return clean_as_live(*this, take, sink, progress);
+  }
+  // A stream at another rate is rejected when it begins.
+  LiveSupport live_support(double) const override { return {}; }
+  std::unique_ptr<LiveFilter> live(const TakeView& like) const override {
+    return make_recurrent_live(network_, model_->layout, names_, like);
+  }
+
+ private:
+  RecurrentOptions options_;
+  std::shared_ptr<const Model> model_;
+  NameMap names_;
+  FilterNetwork network_;
+};
+
+std::unique_ptr<Cleaner> make_live(const RecurrentOptions& options,
+                                   const std::shared_ptr<const Model>& model, bool has_gap_model) {
+  if (has_gap_model)
+    throw Error(ErrorKind::usage,
+                "live, gaps are held or bridged: a gap model needs the whole take");
+  return std::make_unique<LiveRecurrent>(options, model);
+}
+
+}  // namespace
+
+std::unique_ptr<Cleaner> make_recurrent(const RecurrentOptions& options,
+                                        std::shared_ptr<const Model> model,
+                                        std::shared_ptr<const Model> gap_model) {
+  recurrent_table().validate(options);
+  model = model_of(recurrent_models, options.model, std::move(model));
+  if (!options.gap_model.empty())
+    gap_model = model_of(recurrent_models, options.gap_model, std::move(gap_model));
+  if (options.live) return make_live(options, model, gap_model != nullptr);
+  const auto networks = networks_of(model, gap_model);
+  return make_prior_cleaner(
+      model,
+      {.name = "recurrent",
+       .options = recurrent_table().values(options),
+       .map = options.map,
+       .fill = options.fill,
+       .filter = [networks, model](
+                     PriorWork& work) { filter_as_in_the_paper(work, *networks, model->layout); },
+       .why_not_live = live_needs,
+       .why_not_at = [networks](double rate_hz) { return wrong_rate(networks->filter, rate_hz); }});
+}
+
+Method recurrent_method() {
+  return {
+      "recurrent",
+      "neural network that predicts a filter for each joint and frame",
+      "Mall et al. 2017",
+      recurrent_table().specs(),
+      [](const OptionValues& values) { return make_recurrent(recurrent_table().parse(values)); },
+      true};
 }
 
 namespace {

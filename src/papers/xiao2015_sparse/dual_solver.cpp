@@ -17,29 +17,31 @@
 
 namespace kinemend::sparse {
 
-/// The dual augmented Lagrangian method for a batch of S signals on the atoms of a set, which can
-/// grow: multipliers are kept.
+namespace {
+
+// The dual augmented Lagrangian method for a batch of S signals on the atoms of a set, which can
+// grow: multipliers are kept.
 class DualBatch {
  public:
-  /// `signals`, `weights`: S x n; they must outlive the batch.
+  // `signals`, `weights`: S x n; they must outlive the batch.
   DualBatch(Loss loss, std::size_t rows, std::span<const double> signals,
             std::span<const double> weights, std::span<const double> lambdas);
 
-  /// Continues with this set of atoms (A x n): the previous atoms in their order, then new ones.
-  /// `codes` (S x A) holds the codes of the new atoms; the current codes replace those of the
-  /// others.
+  // Continues with this set of atoms (A x n): the previous atoms in their order, then new ones.
+  // `codes` (S x A) holds the codes of the new atoms; the current codes replace those of the
+  // others.
   void set_atoms(std::vector<double> atoms, const std::vector<double>& codes);
-  /// Iterates until every gap is small enough for the atoms of the set, or for
-  /// `settings.iterations`.
+  // Iterates until every gap is small enough for the atoms of the set, or for
+  // `settings.iterations`.
   void iterate(const DualSettings& settings);
 
-  const std::vector<double>& codes() const noexcept { return codes_; }        ///< S x A
-  const std::vector<double>& reconstructed() const noexcept { return fit_; }  ///< S x n
-  /// S x n: t, feasible for the conjugate of the loss.
+  const std::vector<double>& codes() const noexcept { return codes_; }        // S x A
+  const std::vector<double>& reconstructed() const noexcept { return fit_; }  // S x n
+  // S x n: t, feasible for the conjugate of the loss.
   const std::vector<double>& duals() const noexcept { return doubles_; }
   double objective(std::size_t s) const { return objectives_[s]; }
-  /// The gap of signal s, with its dual scaled so that the largest correlation, `most`, becomes at
-  /// most lambda.
+  // The gap of signal s, with its dual scaled so that the largest correlation, `most`, becomes at
+  // most lambda.
   double gap(std::size_t s, double most) const;
   bool is_done(std::size_t s, double gap, double tolerance) const;
 
@@ -62,8 +64,6 @@ class DualBatch {
   std::vector<double> base_, projected_, combined_;
   std::vector<double> objectives_, empty_objectives_, primal_, dual_;  // S
 };
-
-namespace {
 
 // All atoms; every batch needs them.
 struct Atoms {
@@ -242,8 +242,6 @@ constexpr std::size_t balanced_until = 300;
 constexpr double balance_ratio = 3, balance_factor = 2;
 
 double clipped(double value, double size) { return std::clamp(value, -size, size); }
-
-}  // namespace
 
 DualBatch::DualBatch(Loss loss, std::size_t rows, std::span<const double> signals,
                      std::span<const double> weights, std::span<const double> lambdas)
@@ -429,5 +427,7 @@ void DualBatch::iterate(const DualSettings& settings) {
     if (i <= balanced_until) balance();
   }
 }
+
+}  // namespace
 
 }  // namespace kinemend::sparse

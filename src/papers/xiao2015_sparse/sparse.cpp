@@ -14,7 +14,6 @@
 #include "methods/prior/prior_cleaning.hpp"
 #include "methods/prior/prior_fall_backs.hpp"
 #include "models/model_reading.hpp"
-#include "papers/xiao2015_sparse/entries.hpp"
 #include "papers/xiao2015_sparse/sparse_filter.hpp"
 #include "papers/xiao2015_sparse/sparse_prior.hpp"
 
