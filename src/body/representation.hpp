@@ -3,8 +3,11 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <vector>
 
+#include "kinemend/experimental/pose_matrix.hpp"
 #include "kinemend/experimental/representation.hpp"
 
 namespace kinemend {
@@ -28,6 +31,17 @@ inline bool is_nearly_unit(Quat q) {
   constexpr double near = 0.1;  // chosen by hand, not swept
   return std::abs(dot(q, q) - 1) < near;
 }
+
+/// How a joint's rotation becomes channels that may be filtered.
+enum class Encoding : std::uint8_t {
+  /// 3 channels per joint: Log(r^-1 q), about the joint's own reference rotation r (its mean).
+  /// Continuous from frame to frame even if the angle passes pi; best for joints that stay within a
+  /// half turn of their mean.
+  tangent,
+  /// 4 channels per joint: the unit quaternion with its sign continued from frame to frame. It has
+  /// no singularity; decoding projects back to the sphere.
+  quaternion,
+};
 
 /// Returns the number of channels of one joint in an encoding.
 inline std::size_t channels_of(Encoding encoding) { return encoding == Encoding::tangent ? 3 : 4; }

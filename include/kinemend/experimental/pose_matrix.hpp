@@ -10,7 +10,7 @@ namespace kinemend {
 
 /// F frames x D channels, frame-major: the channels of one frame are contiguous, and a window of
 /// frames is one block of memory. The code that encodes a matrix defines the meaning of its
-/// channels (see `representation.hpp`).
+/// channels (see `body.hpp`).
 struct PoseMatrix {
   std::size_t frames = 0;
   std::size_t channels = 0;
