@@ -14,6 +14,16 @@ namespace kinemend::check {
 
 using feet::along, feet::body_points, feet::BodyPoints, feet::find_up, feet::Foot, feet::Up;
 
+/// The points of a body, in metres.
+struct NamedBody {
+  Subject subject;  ///< whose markers they are; empty for joints
+  BodyPoints points;
+};
+/// Returns the joints as one body, or the markers of each subject; none without the scale from
+/// `check_unit`.
+std::vector<NamedBody> bodies_of(const Rows& rows, const CheckSettings& settings,
+                                 const CheckReport& report);
+
 /// Returns the points of a foot, smoothed over 20 ms on either side.
 std::vector<feet::SolePoint> sole_points(const BodyPoints& body, const Foot& foot, Up up);
 

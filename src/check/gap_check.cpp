@@ -15,14 +15,13 @@
 
 namespace kinemend::check {
 
-void check_gaps(const std::vector<Gap>& gap_list, const std::vector<std::int32_t>& track_of,
-                CheckReport& report) {
+void check_gaps(const Rows& rows, CheckReport& report) {
   // The level `serious` of docs/check.md. Chosen by hand, not swept.
   constexpr double long_gap_s = 0.5;  // longer gaps need a model to be filled reliably
   std::size_t missing = 0;
-  for (const Gap& gap : gap_list) {
-    if (track_of[gap.track] < 0) continue;
-    TrackHealth& track = report.tracks[static_cast<std::size_t>(track_of[gap.track])];
+  for (const Gap& gap : find_gaps(rows.clip)) {
+    if (rows.row_of[gap.track] < 0) continue;
+    TrackHealth& track = report.tracks[static_cast<std::size_t>(rows.row_of[gap.track])];
     const double seconds = static_cast<double>(gap.length()) / report.frame_rate_hz;
     ++track.gaps;
     track.longest_gap = std::max(track.longest_gap, gap.length());
@@ -216,10 +215,6 @@ StaleSpans find_stale(const std::vector<TrackChanges>& tracks, std::size_t frame
   return spans;
 }
 
-std::size_t shortest_frames(const CheckReport& report, const CheckSettings& settings) {
-  return frames_in(settings.shortest_stale_s, report.frame_rate_hz, 2);
-}
-
 // Reports both kinds of spans of each track, by frame; they do not overlap.
 void report_stale(const StaleSpans& spans, const std::vector<std::size_t>& tracks,
                   CheckReport& report) {
@@ -299,27 +294,27 @@ TrackChanges position_changes(const Take& clip, std::size_t marker) {
 
 }  // namespace
 
-void check_stale(const Take& clip, const CheckSettings& settings, CheckReport& report) {
-  const std::vector<std::size_t> joints = moving_joints(clip);
-  std::vector<TrackChanges> changes(joints.size());
-  for_each_parallel(joints.size(), clip.rotations.size(),
-                    [&](std::size_t i) { changes[i] = rotation_changes(clip, joints[i]); });
-  StaleSpans spans = find_stale(changes, clip.frame_count(), shortest_frames(report, settings));
-  for_each_parallel(joints.size(), clip.rotations.size(),
-                    [&](std::size_t i) { leave_out_hinge_ends(clip, joints[i], spans.frozen[i]); });
-  report_stale(spans, joints, report);
-}
-
-void check_stale(const Take& clip, const std::vector<std::size_t>& markers,
-                 const CheckSettings& settings, CheckReport& report) {
-  std::vector<TrackChanges> changes(markers.size());
-  std::vector<std::size_t> tracks(markers.size());
-  for_each_parallel(markers.size(), clip.positions.size(), [&](std::size_t i) {
-    changes[i] = position_changes(clip, markers[i]);
-    tracks[i] = i;
+void check_stale(const Rows& rows, const CheckSettings& settings, CheckReport& report) {
+  const Take& clip = rows.clip;
+  const bool joints = clip.has_joints();
+  std::vector<std::size_t> kept;  // rows; joints that never move are left out
+  for (std::size_t n = 0; n < rows.tracks.size(); ++n) {
+    if (!joints || joint_moves(clip, rows.tracks[n])) kept.push_back(n);
+  }
+  const std::size_t samples = joints ? clip.rotations.size() : clip.positions.size();
+  std::vector<TrackChanges> changes(kept.size());
+  for_each_parallel(kept.size(), samples, [&](std::size_t i) {
+    const std::size_t track = rows.tracks[kept[i]];
+    changes[i] = joints ? rotation_changes(clip, track) : position_changes(clip, track);
   });
-  report_stale(find_stale(changes, clip.frame_count(), shortest_frames(report, settings)), tracks,
-               report);
+  const std::size_t shortest = frames_in(settings.shortest_stale_s, report.frame_rate_hz, 2);
+  StaleSpans spans = find_stale(changes, clip.frame_count(), shortest);
+  if (joints) {
+    for_each_parallel(kept.size(), samples, [&](std::size_t i) {
+      leave_out_hinge_ends(clip, rows.tracks[kept[i]], spans.frozen[i]);
+    });
+  }
+  report_stale(spans, kept, report);
 }
 
 }  // namespace kinemend::check

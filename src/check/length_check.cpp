@@ -88,9 +88,7 @@ std::vector<double> departures(const Take& clip, std::size_t marker,
   return result;
 }
 
-}  // namespace
-
-void check_lengths(const Take& clip, const CheckSettings& settings, CheckReport& report) {
+void check_bones(const Take& clip, const CheckSettings& settings, CheckReport& report) {
   const std::size_t width = clip.translated_joints.size(), frames = clip.frame_count();
   const double least_length = 0.01 * body_height(clip.skeleton);
   for (std::size_t i = 0; i < width; ++i) {
@@ -107,16 +105,21 @@ void check_lengths(const Take& clip, const CheckSettings& settings, CheckReport&
   }
 }
 
-void check_lengths(const Take& clip, const std::vector<std::size_t>& markers,
-                   const CheckSettings& settings, CheckReport& report) {
+}  // namespace
+
+void check_lengths(const Rows& rows, const CheckSettings& settings, CheckReport& report) {
+  const Take& clip = rows.clip;
+  if (clip.has_joints()) check_bones(clip, settings, report);
   const std::vector<std::size_t> frames = frames_looked_at(clip.frame_count());
-  for (const std::size_t m : markers) {
-    const std::vector<Neighbour> neighbours = rigid_neighbours(clip, markers, m, frames);
-    if (neighbours.size() < 2) continue;
-    report_length(departures(clip, m, neighbours), clip.names[m], settings,
-                  fmt::format("moves away from its place between {} and {}",
-                              clip.names[neighbours[0].marker], clip.names[neighbours[1].marker]),
-                  report);
+  for (const Subject& subject : rows.subjects) {
+    for (const std::size_t m : subject.markers) {
+      const std::vector<Neighbour> neighbours = rigid_neighbours(clip, subject.markers, m, frames);
+      if (neighbours.size() < 2) continue;
+      report_length(departures(clip, m, neighbours), clip.names[m], settings,
+                    fmt::format("moves away from its place between {} and {}",
+                                clip.names[neighbours[0].marker], clip.names[neighbours[1].marker]),
+                    report);
+    }
   }
 }
 

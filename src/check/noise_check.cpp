@@ -137,39 +137,27 @@ Verdict verdict_of(const TakeView& take) {
 
 }  // namespace
 
-void check_noise_and_spikes(const Take& clip, const CheckSettings& settings, CheckReport& report) {
-  const std::size_t frames = clip.frame_count(), joints = clip.joint_count();
-  if (frames == 0) return;
-  const Verdict verdict = verdict_of(view_for(clip, report));
+void check_noise_and_spikes(const Rows& rows, const CheckSettings& settings, CheckReport& report) {
+  const std::size_t frames = rows.clip.frame_count();
+  if (frames == 0 || rows.tracks.empty()) return;
+  const Verdict verdict = verdict_of(view_for(rows.clip, report));
   const std::vector<double>& noise = verdict.trace.noise;
   report.noise = verdict.trace.characters;
-  for (std::size_t j = 0; j < joints && !noise.empty(); ++j)
-    add_noise(report.tracks[j], noise[j], settings.noise_deg, frames, report);
-  for (std::size_t j = 0; j < joints; ++j)
-    add_spikes(report.tracks[j], report.tracks[j].name, verdict.spike_sizes[j], "deg", report);
-  if (joints > 0) {
-    add_spikes(report.tracks[0], report.tracks[0].name + " position", verdict.spike_sizes[joints],
-               "", report);
-  }
-  report_expected(verdict, frames, report);
-}
-
-void check_noise_and_spikes(const Take& clip, const std::vector<std::size_t>& markers,
-                            const CheckSettings& settings, CheckReport& report) {
-  const std::size_t frames = clip.frame_count();
-  if (frames == 0 || markers.empty()) return;
-  const Verdict verdict = verdict_of(view_for(clip, report));
-  const std::vector<double>& noise = verdict.trace.noise;
-  report.noise = verdict.trace.characters;
-  // Without a unit no limit applies.
-  const double limit = report.metres_per_unit > 0
+  const bool joints = rows.clip.has_joints();
+  // Without a unit no limit applies to markers.
+  const double limit = joints ? settings.noise_deg
+                       : report.metres_per_unit > 0
                            ? 0.01 * settings.noise_cm / report.metres_per_unit
                            : std::numeric_limits<double>::infinity();
-  for (std::size_t n = 0; n < markers.size(); ++n) {
-    const std::size_t m = markers[n];
-    if (!noise.empty()) add_noise(report.tracks[n], noise[m], limit, frames, report);
-    add_spikes(report.tracks[n], report.tracks[n].name, verdict.spike_sizes[m], report.noise_unit,
-               report);
+  for (std::size_t n = 0; n < rows.tracks.size(); ++n) {
+    TrackHealth& track = report.tracks[n];
+    const std::size_t owner = rows.tracks[n];
+    if (!noise.empty()) add_noise(track, noise[owner], limit, frames, report);
+    add_spikes(track, track.name, verdict.spike_sizes[owner], report.noise_unit, report);
+  }
+  if (joints) {
+    add_spikes(report.tracks[0], report.tracks[0].name + " position",
+               verdict.spike_sizes[rows.tracks.size()], "", report);
   }
   report_expected(verdict, frames, report);
 }

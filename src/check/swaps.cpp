@@ -325,23 +325,20 @@ void undo_swaps(Take& clip, const std::vector<MarkerSwap>& swaps) {
 
 namespace check {
 
-void check_swaps(const Take& clip, const std::vector<std::int32_t>& track_of, CheckReport& report) {
-  report.swaps = find_swaps(clip);
+void check_swaps(const Rows& rows, CheckReport& report) {
+  const std::vector<std::string>& names = rows.clip.names;
+  report.swaps = find_swaps(rows.clip);
   report.figures.swaps = report.swaps.size();
   for (const MarkerSwap& swap : report.swaps) {
     for (const std::size_t marker : {swap.first_marker, swap.second_marker}) {
-      if (const std::int32_t track = track_of[marker]; track >= 0)
-        ++report.tracks[static_cast<std::size_t>(track)].swaps;
+      if (const std::int32_t row = rows.row_of[marker]; row >= 0)
+        ++report.tracks[static_cast<std::size_t>(row)].swaps;
     }
-    Finding finding{FindingKind::swap,
-                    Severity::serious,
-                    clip.names[swap.first_marker] + ", " + clip.names[swap.second_marker],
-                    swap.first_frame,
-                    swap.last_frame,
-                    static_cast<double>(swap.last_frame - swap.first_frame + 1),
-                    "frames",
-                    "the two labels are exchanged"};
-    report.findings.push_back(std::move(finding));
+    report.findings.push_back({FindingKind::swap, Severity::serious,
+                               names[swap.first_marker] + ", " + names[swap.second_marker],
+                               swap.first_frame, swap.last_frame,
+                               static_cast<double>(swap.last_frame - swap.first_frame + 1),
+                               "frames", "the two labels are exchanged"});
   }
 }
 
