@@ -10,11 +10,11 @@
 #include <limits>
 #include <vector>
 
+#include "base/quantiles.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "kinemend/metrics.hpp"
-#include "metrics/compare.hpp"
 #include "motion/rotation.hpp"
 
 namespace kinemend::metrics {
@@ -220,7 +220,7 @@ double percentile_99(const Errors& errors) {
       if (errors.seen[f * errors.markers() + m] != 0) distances.push_back(norm(vector_at(e, f, m)));
     }
   }
-  return metrics::percentile_of(std::move(distances), 99);
+  return percentile_of(std::move(distances), 99);
 }
 
 // Returns the mean square difference of steps from frame to frame, with gains and offsets removed.
