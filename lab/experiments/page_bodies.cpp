@@ -7,7 +7,7 @@
 #include <set>
 
 #include "body/body_takes.hpp"
-#include "body/body_trend.hpp"
+#include "body/body_frame.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "page.hpp"
 

@@ -8,7 +8,7 @@
 #include "body/body_anchors.hpp"
 #include "body/body_correspondence.hpp"
 #include "body/body_frame.hpp"
-#include "body/body_rotations.hpp"
+#include "body/body_rest.hpp"
 #include "kinemend/experimental/body.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/experimental/representation.hpp"

@@ -10,7 +10,6 @@
 #include "body/body_correspondence.hpp"
 #include "body/body_names.hpp"
 #include "body/body_rest.hpp"
-#include "body/body_rotations.hpp"
 
 namespace kinemend::representation {
 
