@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "body/representation.hpp"
 #include "cleaner/pieces.hpp"
-#include "kinemend/experimental/representation.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "kinemend/rotation.hpp"
 #include "kinemend/take.hpp"

@@ -13,7 +13,6 @@
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/experimental/representation.hpp"
 #include "motion/rotation.hpp"
 
 namespace kinemend::representation {

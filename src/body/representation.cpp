@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/portable.hpp"
-#include "kinemend/experimental/representation.hpp"
 
 namespace kinemend {
 

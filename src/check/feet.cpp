@@ -1,6 +1,5 @@
 // Finds contacts and flights, and checks the body by them: feet that slide or sink, and a frame
 // rate at which it would fall too fast or too slowly.
-#include "check/feet.hpp"
 
 #include <fmt/format.h>
 

@@ -11,7 +11,6 @@
 
 #include "base/quantiles.hpp"
 #include "check/checks.hpp"
-#include "check/feet.hpp"
 #include "feet/floor.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/experimental/wildcards.hpp"

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "body/representation.hpp"
 #include "classic/filter_channels.hpp"
 #include "cleaner/live.hpp"
-#include "kinemend/experimental/representation.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "kinemend/methods.hpp"
 

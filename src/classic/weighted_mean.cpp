@@ -1,7 +1,7 @@
 // The method `weighted-mean`: repeated means of neighbouring samples.
+#include "body/representation.hpp"
 #include "classic/filter_channels.hpp"
 #include "cleaner/live.hpp"
-#include "kinemend/experimental/representation.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "kinemend/methods.hpp"
 

@@ -17,7 +17,9 @@
 #include "kinemend/error.hpp"
 #include "motion/take.hpp"
 
-namespace kinemend::feet {
+namespace kinemend {
+
+namespace feet {
 
 namespace {
 
@@ -124,12 +126,6 @@ Soles find_soles(const LegMotion& motion, Up up, const ContactSettings& settings
   return soles;
 }
 
-}  // namespace kinemend::feet
-
-namespace kinemend {
-
-namespace feet {
-
 namespace {
 
 std::vector<FrameSpan> spans_of(const std::vector<std::uint8_t>& flags) {
@@ -179,10 +175,8 @@ class ContactFinder {
       std::fill(levels.begin() + static_cast<std::ptrdiff_t>(first),
                 levels.begin() + static_cast<std::ptrdiff_t>(last + 1), level);
     }
-    const ContactThresholds thresholds{settings_.begin_height, settings_.keep_height,
-                                       settings_.begin_speed, settings_.keep_speed};
     std::vector<FrameSpan> spans =
-        without_short(spans_of(touches(sole, levels, speeds, height, thresholds)));
+        without_short(spans_of(touches(sole, levels, speeds, height, thresholds_of(settings_))));
     for (FrameSpan& span : spans) span = trimmed(sole, span);
     return without_short(spans);
   }

@@ -13,11 +13,11 @@
 
 #include "base/parallel.hpp"
 #include "base/quantiles.hpp"
+#include "body/representation.hpp"
 #include "cleaner/live.hpp"
 #include "cleaner/pieces.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/model.hpp"
-#include "kinemend/experimental/representation.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/methods.hpp"

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "body/representation.hpp"
 #include "kinemend/cleaner.hpp"
-#include "kinemend/experimental/representation.hpp"
 #include "methods/learned/live_motion_steps.hpp"
 #include "methods/learned/motion_filter.hpp"
 #include "methods/learned/motion_network.hpp"

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "body/representation.hpp"
 #include "kinemend/cleaner.hpp"
 #include "kinemend/experimental/body.hpp"
 #include "kinemend/experimental/pose_matrix.hpp"
-#include "kinemend/experimental/representation.hpp"
 #include "kinemend/take.hpp"
 #include "methods/learned/motion_network.hpp"
 #include "methods/learned/motion_steps.hpp"

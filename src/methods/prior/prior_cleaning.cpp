@@ -12,8 +12,8 @@
 
 #include "base/files.hpp"
 #include "base/quantiles.hpp"
+#include "body/representation.hpp"
 #include "cleaner/pieces.hpp"
-#include "kinemend/experimental/representation.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "kinemend/methods.hpp"
 #include "methods/auto/track_vectors.hpp"

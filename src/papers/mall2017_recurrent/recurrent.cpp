@@ -15,7 +15,6 @@
 #include "kinemend/cleaner.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/model.hpp"
-#include "kinemend/experimental/representation.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/methods.hpp"
 #include "methods/prior/prior_cleaning.hpp"

@@ -12,8 +12,8 @@
 #include <optional>
 
 #include "base/parallel.hpp"
+#include "body/representation.hpp"
 #include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/experimental/representation.hpp"
 #include "motion/rotation.hpp"
 
 namespace kinemend {

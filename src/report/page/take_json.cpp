@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "base/quantiles.hpp"
-#include "check/feet.hpp"
+#include "check/checks.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/kinematics.hpp"
