@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/frame_span.hpp"
 #include "base/portable.hpp"
 #include "body/body_anchors.hpp"
 #include "body/body_frame.hpp"
@@ -161,10 +162,8 @@ class MarkerLearning : public BodyLearning {
   void sum_distances(const Take& clip, const BodyMatch& match) {
     // Frames are evenly spread, for speed; not swept.
     constexpr std::size_t most_frames = 256;
-    const std::size_t count = tracks_.size(), frames = clip.frame_count();
-    const std::size_t sampled = std::min(frames, most_frames);
-    for (std::size_t s = 0; s < sampled; ++s) {
-      const std::size_t f = s * frames / sampled;
+    const std::size_t count = tracks_.size();
+    for (const std::size_t f : evenly_spread(clip.frame_count(), most_frames)) {
       for (std::size_t i = 0; i < count; ++i) {
         const auto a = static_cast<std::size_t>(match.tracks[i]);
         if (match.tracks[i] < 0 || !clip.is_observed(f, a)) continue;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/frame_span.hpp"
 #include "base/portable.hpp"
 #include "body/representation.hpp"
 #include "kinemend/experimental/convert.hpp"
@@ -121,11 +122,9 @@ double straightness(const std::vector<Vec3>& positions, const std::vector<BoneNa
 std::size_t straightest_frame(const Take& clip, const std::vector<BoneName>& bones) {
   // Frames are evenly spread, for speed; not swept.
   constexpr std::size_t most_frames = 200;
-  const std::size_t frames = clip.frame_count(), sampled = std::min(frames, most_frames);
   std::size_t best = 0;
   double most = -1;
-  for (std::size_t i = 0; i < sampled; ++i) {
-    const std::size_t f = i * frames / sampled;
+  for (const std::size_t f : evenly_spread(clip.frame_count(), most_frames)) {
     const double straight = straightness(forward_kinematics(clip, f).positions, bones);
     if (straight <= most) continue;
     most = straight;
@@ -228,9 +227,8 @@ Quat upright_world(const Take& clip, const std::vector<BoneName>& bones, const R
   constexpr double agreement = 0.5;
   const auto rest_up = standing_direction(rest.positions, bones);
   Agreement standing;
-  const std::size_t frames = clip.frame_count(), sampled = std::min(frames, most_frames);
-  for (std::size_t i = 0; i < sampled; ++i) {
-    const Pose pose = forward_kinematics(clip, i * frames / sampled);
+  for (const std::size_t f : evenly_spread(clip.frame_count(), most_frames)) {
+    const Pose pose = forward_kinematics(clip, f);
     if (const auto up = standing_direction(pose.positions, bones)) standing.add(*up);
   }
   Vec3 up = rest_up.value_or(unit_vector(Axis::y));

@@ -76,10 +76,7 @@ void sort_worst_first(std::vector<Finding>& findings) {
 
 std::vector<std::size_t> frames_looked_at(std::size_t frames) {
   constexpr std::size_t most_looked_at = 200;  // for speed, not swept
-  const std::size_t count = std::min(frames, most_looked_at);
-  std::vector<std::size_t> some;
-  for (std::size_t i = 0; i < count; ++i) some.push_back(i * frames / count);
-  return some;
+  return evenly_spread(frames, most_looked_at);
 }
 
 std::vector<Neighbour> neighbours_of(const Take& clip, const std::vector<std::size_t>& markers,

@@ -71,7 +71,7 @@ void check_zero_frames(const Take& clip, CheckReport& report);
 void check_frames(const Rows& rows, CheckReport& report);
 
 /// Chooses the scale, writes it into the report and checks whether the declared one fits a person.
-/// Of markers, those of the largest subject are looked at.
+/// In a take of markers only the largest subject is looked at.
 void check_unit(const Take& clip, const CheckSettings& settings, CheckReport& report);
 
 /// Finds feet that slide or sink, and a rate at which the body would fall too fast or too slowly.

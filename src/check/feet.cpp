@@ -50,8 +50,7 @@ Contact measure(const std::vector<SolePoint>& points,
 std::vector<SolePoint> sole_points(const BodyPoints& body, const Foot& foot, Up up) {
   std::vector<SolePoint> points;
   points.reserve(foot.points.size());
-  for (const std::size_t index : foot.points)
-    points.push_back(sole_point(body, index, up, ContactThresholds{}, feet::usual_reach_s));
+  for (const std::size_t index : foot.points) points.push_back(sole_point(body, index, up));
   return points;
 }
 

@@ -71,16 +71,9 @@ JointRates rates_of(const Take& clip, std::size_t joint, std::size_t step) {
 std::vector<FrameSpan> spans_above(const std::vector<double>& values, double limit,
                                    double frame_rate_hz) {
   constexpr double bridged_s = 0.1;
-  const std::size_t bridged = frames_in(bridged_s, frame_rate_hz, 1);
-  std::vector<FrameSpan> spans;
-  for (const FrameSpan& run :
-       runs_where(values.size(), [&](std::size_t f) { return values[f] > limit; })) {
-    if (!spans.empty() && run.first <= spans.back().last + bridged)
-      spans.back().last = run.last;
-    else
-      spans.push_back(run);
-  }
-  return spans;
+  return runs_where(
+      values.size(), [&](std::size_t f) { return values[f] > limit; },
+      frames_in(bridged_s, frame_rate_hz, 1) - 1);
 }
 
 double largest_in(const std::vector<double>& values, const FrameSpan& span) {
