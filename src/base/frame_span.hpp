@@ -34,6 +34,26 @@ std::vector<FrameSpan> runs_where(std::size_t frames, const Holds& holds,
   return runs;
 }
 
+/// Puts samples that are not known on the straight line between their known neighbours, and holds
+/// the ends; without a known sample nothing changes. `at(frame)` returns a reference to a sample.
+template <class Known, class At>
+void bridge(std::size_t frames, const Known& is_known, const At& at) {
+  std::size_t before = frames;  // the last known frame; `frames`: none yet
+  for (std::size_t f = 0; f < frames; ++f) {
+    if (!is_known(f)) continue;
+    for (std::size_t g = before == frames ? 0 : before + 1; g < f; ++g) {
+      if (before == frames) {
+        at(g) = at(f);
+        continue;
+      }
+      const double u = static_cast<double>(g - before) / static_cast<double>(f - before);
+      at(g) = at(before) + u * (at(f) - at(before));
+    }
+    before = f;
+  }
+  for (std::size_t g = before == frames ? frames : before + 1; g < frames; ++g) at(g) = at(before);
+}
+
 /// Returns up to `most` of so many frames, evenly spread, ascending.
 inline std::vector<std::size_t> evenly_spread(std::size_t frames, std::size_t most) {
   std::vector<std::size_t> some(std::min(frames, most));

@@ -21,27 +21,6 @@ namespace kinemend::representation {
 
 namespace {
 
-// Puts samples of weight 0 on the straight line between their neighbours, and holds the ends.
-template <class Value>
-void bridge(std::vector<Value>& track, std::span<const double> weights) {
-  const std::size_t frames = track.size();
-  std::size_t before = frames;  // the last known frame; `frames`: none yet
-  for (std::size_t f = 0; f < frames; ++f) {
-    if (!(weights[f] > 0)) continue;
-    for (std::size_t g = before == frames ? 0 : before + 1; g < f; ++g) {
-      if (before == frames) {
-        track[g] = track[f];
-        continue;
-      }
-      const double u = static_cast<double>(g - before) / static_cast<double>(f - before);
-      track[g] = track[before] + u * (track[f] - track[before]);
-    }
-    before = f;
-  }
-  const Value last = before == frames ? Value{} : track[before];
-  for (std::size_t g = before == frames ? 0 : before + 1; g < frames; ++g) track[g] = last;
-}
-
 double middle_of(std::vector<double>& values) { return upper_median_of(values); }
 
 Vec3 middle_of(std::vector<Vec3>& values) {
@@ -86,7 +65,10 @@ std::vector<Value> despiked(std::vector<Value> track, std::span<const double> we
                             double frame_rate_hz) {
   // The window of the median: see docs/details/bodies.md, "Trend". Chosen by hand, not swept.
   constexpr double median_s = 0.1;
-  bridge(track, weights);
+  const auto is_known = [&](std::size_t f) { return weights[f] > 0; };
+  bridge(track.size(), is_known, [&](std::size_t f) -> Value& { return track[f]; });
+  if (std::none_of(weights.begin(), weights.end(), [](double w) { return w > 0; }))
+    std::fill(track.begin(), track.end(), Value{});
   const double half_window =
       std::max(2.0, std::round(0.5 * median_s * window_rate_hz(frame_rate_hz)));
   return running_median(track, static_cast<std::size_t>(half_window));

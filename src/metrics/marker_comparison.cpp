@@ -10,6 +10,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/frame_span.hpp"
 #include "base/quantiles.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
@@ -208,28 +209,6 @@ struct Errors {
   std::size_t markers() const { return values.channels / 3; }
 };
 
-void bridge(Errors& errors, std::size_t marker) {
-  const std::size_t frames = errors.values.frames, markers = errors.markers();
-  std::size_t last = frames;
-  for (std::size_t f = 0; f < frames; ++f) {
-    if (errors.seen[f * markers + marker] == 0) continue;
-    const std::size_t begin = last == frames ? 0 : last + 1;
-    for (std::size_t c = 3 * marker; c < 3 * marker + 3; ++c) {
-      const double to = errors.values(f, c), from = last == frames ? to : errors.values(last, c);
-      for (std::size_t g = begin; g < f; ++g) {
-        const double u =
-            last == frames ? 0 : static_cast<double>(g - last) / static_cast<double>(f - last);
-        errors.values(g, c) = from + u * (to - from);
-      }
-    }
-    last = f;
-  }
-  for (std::size_t f = last == frames ? frames : last + 1; f < frames; ++f) {
-    for (std::size_t c = 3 * marker; c < 3 * marker + 3; ++c)
-      errors.values(f, c) = errors.values(last, c);
-  }
-}
-
 // Whether the standard deviation of the reference exceeds `least`, so that the channel is compared.
 bool moves(const std::vector<double>& values, double least) {
   if (least <= 0) return true;
@@ -258,9 +237,12 @@ Errors errors_of(const MarkerPair& pair, const std::vector<FittedMarker>& fitted
         paths[axis].push_back(component(pair.reference_at(f, m), axis));
       }
     }
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      errors.counts[3 * m + axis] = !paths[axis].empty() && moves(paths[axis], least) ? 1 : 0;
-    bridge(errors, m);
+    const auto is_seen = [&](std::size_t f) { return errors.seen[f * markers + m] != 0; };
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t c = 3 * m + axis;
+      errors.counts[c] = !paths[axis].empty() && moves(paths[axis], least) ? 1 : 0;
+      bridge(pair.frames, is_seen, [&](std::size_t f) -> double& { return errors.values(f, c); });
+    }
   }
   return errors;
 }

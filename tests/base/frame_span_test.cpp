@@ -43,6 +43,18 @@ TEST(RunsOfFrames, GoOnAcrossShortBreaks) {
   EXPECT_EQ(runs[1].last, 10u);
 }
 
+TEST(Bridges, AreStraightBetweenKnownSamplesAndLevelAtTheEnds) {
+  const auto bridged = [](std::vector<double> values, const std::vector<std::uint8_t>& known) {
+    bridge(
+        values.size(), [&](std::size_t f) { return known[f] != 0; },
+        [&](std::size_t f) -> double& { return values[f]; });
+    return values;
+  };
+  EXPECT_EQ(bridged({9, 9, 1, 9, 9, 9, 3, 9}, {0, 0, 1, 0, 0, 0, 1, 0}),
+            (std::vector<double>{1, 1, 1, 1.5, 2, 2.5, 3, 3}));
+  EXPECT_EQ(bridged({1, 2}, {0, 0}), (std::vector<double>{1, 2}));
+}
+
 TEST(SomeFrames, AreSpreadEvenly) {
   EXPECT_EQ(evenly_spread(3, 5), (std::vector<std::size_t>{0, 1, 2}));
   EXPECT_EQ(evenly_spread(10, 4), (std::vector<std::size_t>{0, 2, 5, 7}));
