@@ -8,10 +8,10 @@
 #include <string>
 
 #include "kinemend/clean.hpp"
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/experimental/threads.hpp"
+#include "kinemend/extend/random.hpp"
+#include "kinemend/extend/system.hpp"
+#include "kinemend/live.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/stream.hpp"
 
 namespace {
 

@@ -10,8 +10,8 @@
 
 #include "body/representation.hpp"
 #include "cleaner/pieces.hpp"
-#include "kinemend/experimental/signal.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
+#include "kinemend/extend/signal.hpp"
 #include "kinemend/take.hpp"
 #include "lab/samples/motion_samples.hpp"
 #include "methods/learned/motion_channels.hpp"

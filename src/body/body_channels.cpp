@@ -10,8 +10,8 @@
 #include "body/body_frame.hpp"
 #include "body/body_rest.hpp"
 #include "body/representation.hpp"
-#include "kinemend/experimental/body.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/frames.hpp"
 
 namespace kinemend {
 

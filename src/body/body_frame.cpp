@@ -14,7 +14,7 @@
 #include "base/quantiles.hpp"
 #include "body/representation.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/extend/frames.hpp"
 #include "motion/take.hpp"
 
 namespace kinemend::representation {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/experimental/body.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend::representation {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/experimental/body.hpp"
+#include "kinemend/extend/body.hpp"
 
 namespace kinemend::representation {
 

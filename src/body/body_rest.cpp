@@ -11,9 +11,8 @@
 #include "base/frame_span.hpp"
 #include "base/portable.hpp"
 #include "body/representation.hpp"
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "motion/rotation.hpp"
 
 namespace kinemend::representation {

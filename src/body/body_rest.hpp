@@ -8,7 +8,7 @@
 
 #include "body/body_frame.hpp"
 #include "body/body_names.hpp"
-#include "kinemend/experimental/body.hpp"
+#include "kinemend/extend/body.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend::representation {

@@ -14,7 +14,7 @@
 #include "feet/body_points.hpp"
 #include "feet/floor.hpp"
 #include "kinemend/check.hpp"
-#include "kinemend/experimental/subjects.hpp"
+#include "kinemend/extend/motion.hpp"
 
 namespace kinemend::check {
 

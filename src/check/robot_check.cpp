@@ -12,8 +12,7 @@
 #include "base/quantiles.hpp"
 #include "check/checks.hpp"
 #include "feet/floor.hpp"
-#include "kinemend/experimental/text.hpp"
-#include "kinemend/experimental/wildcards.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/feet.hpp"
 #include "motion/take.hpp"
 

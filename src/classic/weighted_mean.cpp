@@ -2,8 +2,8 @@
 #include "body/representation.hpp"
 #include "classic/filter_channels.hpp"
 #include "cleaner/live.hpp"
-#include "kinemend/experimental/signal.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/signal.hpp"
 
 namespace kinemend {
 

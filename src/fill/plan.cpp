@@ -14,8 +14,8 @@
 #include "fill/driver.hpp"
 #include "fill/methods.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/experimental/gap_plan.hpp"
+#include "kinemend/extend/gap_plan.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "motion/names.hpp"
 #include "motion/take.hpp"
 

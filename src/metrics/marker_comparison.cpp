@@ -13,8 +13,8 @@
 #include "base/frame_span.hpp"
 #include "base/quantiles.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
-#include "kinemend/experimental/signal.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/signal.hpp"
 #include "kinemend/metrics.hpp"
 #include "motion/rotation.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "body/representation.hpp"
-#include "kinemend/cleaner.hpp"
+#include "kinemend/extend/cleaner.hpp"
 #include "methods/learned/live_motion_steps.hpp"
 #include "methods/learned/motion_filter.hpp"
 #include "methods/learned/motion_network.hpp"

@@ -13,7 +13,7 @@
 
 #include "base/parallel.hpp"
 #include "body/representation.hpp"
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "motion/rotation.hpp"
 
 namespace kinemend {

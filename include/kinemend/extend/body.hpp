@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/experimental/pose_matrix.hpp"
+#include "kinemend/extend/frames.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {
