@@ -8,7 +8,6 @@
 #include <string>
 
 #include "kinemend/clean.hpp"
-#include "kinemend/extend/body.hpp"
 #include "kinemend/extend/random.hpp"
 #include "kinemend/extend/system.hpp"
 #include "kinemend/live.hpp"
@@ -75,13 +74,6 @@ void cleaner_alone(benchmark::State& state, const std::string& method) {
   count_frames(state, clip.frame_count());
 }
 
-void encode_and_decode(benchmark::State& state) {
-  Take clip = long_take();
-  const auto encoding = static_cast<Encoding>(state.range(0));
-  for (auto _ : state) decode(encode(clip, encoding), clip);
-  count_frames(state, clip.frame_count());
-}
-
 void live_frame(benchmark::State& state, const std::string& method) {
   const Take clip = noisy_take(600);
   const auto cleaner = make_cleaner(method);
@@ -121,11 +113,5 @@ void live_frame(benchmark::State& state, const std::string& method) {
   }
   return 0;
 }();
-
-BENCHMARK(encode_and_decode)
-    ->Name("pipeline/encode_and_decode")
-    ->Arg(0)
-    ->Arg(1)
-    ->Unit(benchmark::kMillisecond);
 
 }  // namespace

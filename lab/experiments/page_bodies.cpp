@@ -6,8 +6,8 @@
 #include <numbers>
 #include <set>
 
+#include "body/body_frame.hpp"
 #include "body/body_takes.hpp"
-#include "body/body_trend.hpp"
 #include "kinemend/extend/motion.hpp"
 #include "page.hpp"
 

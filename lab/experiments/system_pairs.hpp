@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "body/representation.hpp"
 #include "cleaner/pieces.hpp"
-#include "kinemend/extend/body.hpp"
 #include "kinemend/extend/rotation.hpp"
 #include "kinemend/extend/signal.hpp"
 #include "kinemend/take.hpp"

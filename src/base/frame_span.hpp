@@ -17,19 +17,48 @@ struct FrameSpan {
   std::size_t length() const noexcept { return last - first + 1; }
 };
 
-/// Returns the runs of frames below `frames` for which `holds(frame)` is true, in order.
+/// Returns the runs of frames below `frames` for which `holds(frame)` is true, in order. Up to
+/// `most_between` other frames do not end a run.
 template <class Holds>
-std::vector<FrameSpan> runs_where(std::size_t frames, const Holds& holds) {
+std::vector<FrameSpan> runs_where(std::size_t frames, const Holds& holds,
+                                  std::size_t most_between = 0) {
   std::vector<FrameSpan> runs;
   for (std::size_t t = 0; t < frames; ++t) {
     if (!holds(t)) continue;
-    if (!runs.empty() && runs.back().last + 1 == t) {
+    if (!runs.empty() && t <= runs.back().last + 1 + most_between) {
       runs.back().last = t;
     } else {
       runs.push_back({t, t});
     }
   }
   return runs;
+}
+
+/// Puts samples that are not known on the straight line between their known neighbours, and holds
+/// the ends; without a known sample nothing changes. `at(frame)` returns a reference to a sample.
+template <class Known, class At>
+void bridge(std::size_t frames, const Known& is_known, const At& at) {
+  std::size_t before = frames;  // the last known frame; `frames`: none yet
+  for (std::size_t f = 0; f < frames; ++f) {
+    if (!is_known(f)) continue;
+    for (std::size_t g = before == frames ? 0 : before + 1; g < f; ++g) {
+      if (before == frames) {
+        at(g) = at(f);
+        continue;
+      }
+      const double u = static_cast<double>(g - before) / static_cast<double>(f - before);
+      at(g) = at(before) + u * (at(f) - at(before));
+    }
+    before = f;
+  }
+  for (std::size_t g = before == frames ? frames : before + 1; g < frames; ++g) at(g) = at(before);
+}
+
+/// Returns up to `most` of so many frames, evenly spread, ascending.
+inline std::vector<std::size_t> evenly_spread(std::size_t frames, std::size_t most) {
+  std::vector<std::size_t> some(std::min(frames, most));
+  for (std::size_t i = 0; i < some.size(); ++i) some[i] = i * frames / some.size();
+  return some;
 }
 
 /// Frames in `seconds`, rounded, at least `least`.

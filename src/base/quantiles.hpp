@@ -36,4 +36,17 @@ inline double upper_median_of(std::vector<double>& values) {
   return values.empty() ? 0 : of_rank(values, values.size() / 2);
 }
 
+/// Returns the percentile by linear interpolation between order statistics, as NumPy does by
+/// default; `percentile` is in [0, 100]. Returns 0 for no values.
+inline double percentile_of(std::vector<double> values, double percentile) {
+  if (values.empty()) return 0;
+  const double position = percentile / 100 * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(position);
+  const double low = of_rank(values, below);
+  const auto above = values.begin() + static_cast<std::ptrdiff_t>(below) + 1;
+  if (above == values.end()) return low;
+  const double high = *std::min_element(above, values.end());
+  return low + (position - static_cast<double>(below)) * (high - low);
+}
+
 }  // namespace kinemend

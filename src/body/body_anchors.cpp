@@ -9,7 +9,6 @@
 #include "base/portable.hpp"
 #include "base/quantiles.hpp"
 #include "body/body_frame.hpp"
-#include "body/body_trend.hpp"
 #include "motion/rotation.hpp"
 
 namespace kinemend::representation {

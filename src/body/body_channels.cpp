@@ -8,76 +8,16 @@
 #include "body/body_anchors.hpp"
 #include "body/body_correspondence.hpp"
 #include "body/body_frame.hpp"
-#include "body/body_rotations.hpp"
+#include "body/body_rest.hpp"
+#include "body/representation.hpp"
 #include "kinemend/extend/body.hpp"
 #include "kinemend/extend/frames.hpp"
 
-namespace kinemend::representation {
-
-/// Fills the measured samples of `channels` in the frame of `guide`, which `channels` has copied;
-/// with nullptr it finds the frame first.
-void encode_joints(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
-                   const BodyChannels* guide, BodyChannels& channels);
-void encode_markers(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
-                    const BodyChannels* guide, BodyChannels& channels);
-/// Implements `decode_body` for one kind.
-void decode_joints(const BodyChannels& channels, const BodyLayout& layout, const BodyMatch& match,
-                   Take& clip, std::span<const std::uint8_t> chosen);
-void decode_markers(const BodyChannels& channels, const BodyLayout& layout, const BodyMatch& match,
-                    Take& clip, std::span<const std::uint8_t> chosen);
-
-}  // namespace kinemend::representation
-
 namespace kinemend {
 
-namespace {
-
-BodyChannels encode_take(const Take& take, const BodyLayout& layout, const BodyMatch& match,
-                         const BodyChannels* guide) {
-  const std::size_t frames = take.frame_count();
-  BodyChannels channels;
-  channels.frame_rate_hz = window_rate_hz(take.frame_rate_hz);
-  channels.degrees_per_unit = representation::degrees_per_unit(match);
-  channels.poses = PoseMatrix(frames, layout.channel_count());
-  channels.observed.assign(frames * layout.channel_count(), 0);
-  if (guide != nullptr) representation::take_frame(*guide, layout, frames, channels);
-  if (take.has_joints()) {
-    representation::encode_joints(take, layout, match, guide, channels);
-  } else {
-    representation::encode_markers(take, layout, match, guide, channels);
-  }
-  representation::hold_last_seen(channels.poses, channels.observed);
-  return channels;
-}
-
-}  // namespace
-
-BodyMatch match_body(const BodyLayout& layout, const Take& take, const NameMap& names) {
-  return take.has_joints() ? representation::match_body_of_joints(layout, take, names)
-                           : representation::match_body_of_markers(layout, take, names);
-}
-
-BodyChannels encode_body(const Take& take, const BodyLayout& layout, const BodyMatch& match) {
-  return encode_take(take, layout, match, nullptr);
-}
-
-BodyChannels encode_body(const Take& take, const BodyLayout& layout, const BodyMatch& match,
-                         const BodyChannels& guide) {
-  return encode_take(take, layout, match, &guide);
-}
-
-void decode_body(const BodyChannels& channels, const BodyLayout& layout, const BodyMatch& match,
-                 Take& take, std::span<const std::uint8_t> chosen) {
-  if (take.has_joints()) {
-    representation::decode_joints(channels, layout, match, take, chosen);
-  } else {
-    representation::decode_markers(channels, layout, match, take, chosen);
-  }
-}
+namespace representation {
 
 namespace {
-
-using representation::RootMotion;
 
 Quat heading_turn(double heading) { return exp({0, heading, 0}); }
 
@@ -92,35 +32,31 @@ void encode_track(const Take& clip, const BodyLayout& layout, const std::vector<
     if (!clip.is_observed(f, joint)) continue;
     Vec3 v = log(normalized(from_reference * rotations[f]));
     if (guide != nullptr) {
-      v = continue_rotation_vector(
-          v, radians_per_degree * representation::channels_at(*guide, f, 3 * track));
+      v = continue_rotation_vector(v, radians_per_degree * channels_at(*guide, f, 3 * track));
     }
     frames.push_back(f);
     vectors.push_back(v);
   }
-  if (guide == nullptr) representation::continue_vectors(vectors, clip.frame_rate_hz);
+  if (guide == nullptr) continue_vectors(vectors, clip.frame_rate_hz);
   for (std::size_t i = 0; i < frames.size(); ++i)
-    representation::put_channels(channels, frames[i], 3 * track, degrees_per_radian * vectors[i]);
+    put_channels(channels, frames[i], 3 * track, degrees_per_radian * vectors[i]);
 }
 
 void encode_place(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
                   const RootMotion& root, BodyChannels& channels) {
   const std::size_t channel = 3 * layout.track_count();
-  const std::size_t track = representation::root_track(clip, match);
+  const std::size_t track = root_track(clip, match);
   for (std::size_t f = 0; f < clip.frame_count(); ++f) {
     if (!clip.is_position_observed(f, track)) continue;
     const Vec3 ahead = rotate(conjugate(heading_turn(channels.headings[f])),
                               root.positions[f] - channels.places[f]);
-    representation::put_channels(
-        channels, f, channel,
-        channels.degrees_per_unit * (ahead - match.body_height * layout.place));
+    put_channels(channels, f, channel,
+                 channels.degrees_per_unit * (ahead - match.body_height * layout.place));
   }
 }
 
-}  // namespace
-
-namespace representation {
-
+// Fills the measured samples of `channels` in the frame of `guide`, which `channels` has copied;
+// with nullptr it finds the frame first.
 void encode_joints(const Take& clip, const BodyLayout& layout, const BodyMatch& match,
                    const BodyChannels* guide, BodyChannels& channels) {
   const RootMotion root = root_motion(clip, match);
@@ -192,6 +128,53 @@ void decode_markers(const BodyChannels& channels, const BodyLayout& layout, cons
   }
 }
 
+}  // namespace
+
 }  // namespace representation
+
+namespace {
+
+BodyChannels encode_take(const Take& take, const BodyLayout& layout, const BodyMatch& match,
+                         const BodyChannels* guide) {
+  const std::size_t frames = take.frame_count();
+  BodyChannels channels;
+  channels.frame_rate_hz = window_rate_hz(take.frame_rate_hz);
+  channels.degrees_per_unit = representation::degrees_per_unit(match);
+  channels.poses = PoseMatrix(frames, layout.channel_count());
+  channels.observed.assign(frames * layout.channel_count(), 0);
+  if (guide != nullptr) representation::take_frame(*guide, layout, frames, channels);
+  if (take.has_joints()) {
+    representation::encode_joints(take, layout, match, guide, channels);
+  } else {
+    representation::encode_markers(take, layout, match, guide, channels);
+  }
+  representation::hold_last_seen(channels.poses, channels.observed);
+  return channels;
+}
+
+}  // namespace
+
+BodyMatch match_body(const BodyLayout& layout, const Take& take, const NameMap& names) {
+  return take.has_joints() ? representation::match_body_of_joints(layout, take, names)
+                           : representation::match_body_of_markers(layout, take, names);
+}
+
+BodyChannels encode_body(const Take& take, const BodyLayout& layout, const BodyMatch& match) {
+  return encode_take(take, layout, match, nullptr);
+}
+
+BodyChannels encode_body(const Take& take, const BodyLayout& layout, const BodyMatch& match,
+                         const BodyChannels& guide) {
+  return encode_take(take, layout, match, &guide);
+}
+
+void decode_body(const BodyChannels& channels, const BodyLayout& layout, const BodyMatch& match,
+                 Take& take, std::span<const std::uint8_t> chosen) {
+  if (take.has_joints()) {
+    representation::decode_joints(channels, layout, match, take, chosen);
+  } else {
+    representation::decode_markers(channels, layout, match, take, chosen);
+  }
+}
 
 }  // namespace kinemend

@@ -4,8 +4,8 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <utility>
-#include <variant>
 
 #include "body/body_anchors.hpp"
 #include "body/body_learning.hpp"
@@ -106,19 +106,8 @@ void BodyLayout::validate() const {
 struct BodyLayoutBuilder::State {
   std::vector<std::string> names;
   double trend_s = 0;
-  std::variant<std::monostate, representation::JointLearning, representation::MarkerLearning>
-      learning;
-
-  // The data learned from takes of one kind; the first take decides the kind.
-  template <class Learning>
-  Learning& of_kind(BodyKind kind) {
-    if (std::holds_alternative<std::monostate>(learning))
-      learning.emplace<Learning>(names, trend_s);
-    if (auto* const known = std::get_if<Learning>(&learning)) return *known;
-    throw Error(ErrorKind::usage,
-                fmt::format("takes of different kinds: one holds {}, those before it do not",
-                            to_string(kind)));
-  }
+  BodyKind kind = BodyKind::joints;
+  std::unique_ptr<representation::BodyLearning> learning = {};  // null before the first take
 };
 
 BodyLayoutBuilder::BodyLayoutBuilder(std::vector<std::string> names, double trend_s)
@@ -133,22 +122,24 @@ BodyLayoutBuilder::~BodyLayoutBuilder() = default;
 BodyLayoutBuilder::BodyLayoutBuilder(BodyLayoutBuilder&&) noexcept = default;
 
 void BodyLayoutBuilder::add(const Take& take) {
-  if (take.has_joints()) {
-    state_->of_kind<representation::JointLearning>(BodyKind::joints).add(take);
-  } else {
-    state_->of_kind<representation::MarkerLearning>(BodyKind::markers).add(take);
+  const BodyKind kind = take.has_joints() ? BodyKind::joints : BodyKind::markers;
+  if (state_->learning == nullptr) {
+    auto* const learn =
+        kind == BodyKind::joints ? representation::learn_joints : representation::learn_markers;
+    state_->kind = kind;
+    state_->learning = learn(state_->names, state_->trend_s);
   }
+  if (state_->kind != kind) {
+    throw Error(ErrorKind::usage,
+                fmt::format("takes of different kinds: one holds {}, those before it do not",
+                            to_string(kind)));
+  }
+  state_->learning->add(take);
 }
 
 BodyLayout BodyLayoutBuilder::finish() const {
-  BodyLayout layout = std::visit(
-      [](const auto& learning) -> BodyLayout {
-        if constexpr (std::is_same_v<std::decay_t<decltype(learning)>, std::monostate>)
-          throw Error(ErrorKind::usage, "no takes to learn from");
-        else
-          return learning.finish();
-      },
-      state_->learning);
+  if (state_->learning == nullptr) throw Error(ErrorKind::usage, "no takes to learn from");
+  BodyLayout layout = state_->learning->finish();
   layout.validate();
   return layout;
 }

@@ -10,37 +10,71 @@
 #include "body/body_correspondence.hpp"
 #include "body/body_names.hpp"
 #include "body/body_rest.hpp"
-#include "body/body_rotations.hpp"
 
 namespace kinemend::representation {
 
-/// A tree of named joints, of a skeleton or of a layout.
+namespace {
+
+// A tree of named joints, of a skeleton or of a layout.
 struct NamedTree {
   const std::vector<BoneName>& bones;
-  const std::vector<std::int32_t>& parents;  ///< -1 for a root
+  const std::vector<std::int32_t>& parents;  // -1 for a root
 
-  /// Returns the nearest joint above both, or the one of them that is above the other; -1: none.
-  std::int32_t common_ancestor(std::int32_t a, std::int32_t b) const;
-  bool is_above(std::int32_t ancestor, std::int32_t joint) const;
+  // Returns the nearest joint above both, or the one of them that is above the other; -1: none.
+  std::int32_t common_ancestor(std::int32_t a, std::int32_t b) const {
+    if (b < 0) return -1;
+    while (a >= 0 && !is_above(a, b)) a = parents[static_cast<std::size_t>(a)];
+    return a;
+  }
+  bool is_above(std::int32_t ancestor, std::int32_t joint) const {
+    while (joint >= 0 && joint != ancestor) joint = parents[static_cast<std::size_t>(joint)];
+    return joint >= 0;
+  }
 };
 
-/// The joints from the hips to the joint that carries the arms (included), and those from there to
-/// the head, bottom up. They are found by the limbs attached to them, because files name them in
-/// many ways. Both are empty if pelvis, arms or head are not found.
+// The joints from the hips to the joint that carries the arms (included), and those from there to
+// the head, bottom up. They are found by the limbs attached to them, because files name them in
+// many ways. Both are empty if pelvis, arms or head are not found.
 struct BodyChains {
   std::vector<std::size_t> trunk, neck;
 };
-BodyChains chains_by_topology(const NamedTree& tree);
-/// Finds the chains by the names of their joints.
-BodyChains chains_by_name(const std::vector<BoneName>& bones);
 
-}  // namespace kinemend::representation
+// Returns the joints from just below `top` down to `bottom`, which is included if `with_bottom`.
+std::vector<std::size_t> path(const NamedTree& tree, std::int32_t top, std::int32_t bottom,
+                              bool with_bottom) {
+  std::vector<std::size_t> joints;
+  for (std::int32_t j = bottom; j >= 0 && j != top; j = tree.parents[static_cast<std::size_t>(j)]) {
+    if (j != bottom || with_bottom) joints.push_back(static_cast<std::size_t>(j));
+  }
+  std::reverse(joints.begin(), joints.end());
+  return joints;
+}
 
-namespace kinemend {
+BodyChains chains_by_topology(const NamedTree& tree) {
+  const auto find = [&](Bone bone, Side side) { return find_bone(tree.bones, bone, side); };
+  const std::int32_t chest =
+      tree.common_ancestor(find(Bone::upper_arm, Side::left), find(Bone::upper_arm, Side::right));
+  const std::int32_t head = find(Bone::head, Side::none);
+  // If the legs are attached to a joint above the pelvis, the trunk begins above that joint.
+  std::int32_t hips = find(Bone::pelvis, Side::none);
+  const std::int32_t legs =
+      tree.common_ancestor(find(Bone::thigh, Side::left), find(Bone::thigh, Side::right));
+  if (legs >= 0 && hips >= 0 && tree.is_above(hips, legs)) hips = legs;
+  if (hips < 0 || chest < 0 || head < 0 || hips == chest || !tree.is_above(hips, chest) ||
+      !tree.is_above(chest, head))
+    return {};
+  return {path(tree, hips, chest, true), path(tree, chest, head, false)};
+}
 
-namespace representation {
-
-namespace {
+// Finds the chains by the names of their joints.
+BodyChains chains_by_name(const std::vector<BoneName>& bones) {
+  BodyChains chains;
+  for (std::size_t i = 0; i < bones.size(); ++i) {
+    if (bones[i].bone == Bone::spine) chains.trunk.push_back(i);
+    if (bones[i].bone == Bone::neck) chains.neck.push_back(i);
+  }
+  return chains;
+}
 
 class JointMatcher {
  public:
@@ -263,63 +297,6 @@ BodyMatch match_body_of_joints(const BodyLayout& layout, const Take& clip, const
   match.feet = feet_of(bones);
   align_joints(layout, clip, rest, match);
   return match;
-}
-
-}  // namespace representation
-
-}  // namespace kinemend
-
-namespace kinemend::representation {
-
-namespace {
-
-// Returns the joints from just below `top` down to `bottom`, which is included if `with_bottom`.
-std::vector<std::size_t> path(const NamedTree& tree, std::int32_t top, std::int32_t bottom,
-                              bool with_bottom) {
-  std::vector<std::size_t> joints;
-  for (std::int32_t j = bottom; j >= 0 && j != top; j = tree.parents[static_cast<std::size_t>(j)]) {
-    if (j != bottom || with_bottom) joints.push_back(static_cast<std::size_t>(j));
-  }
-  std::reverse(joints.begin(), joints.end());
-  return joints;
-}
-
-}  // namespace
-
-bool NamedTree::is_above(std::int32_t ancestor, std::int32_t joint) const {
-  while (joint >= 0 && joint != ancestor) joint = parents[static_cast<std::size_t>(joint)];
-  return joint >= 0;
-}
-
-std::int32_t NamedTree::common_ancestor(std::int32_t a, std::int32_t b) const {
-  if (b < 0) return -1;
-  while (a >= 0 && !is_above(a, b)) a = parents[static_cast<std::size_t>(a)];
-  return a;
-}
-
-BodyChains chains_by_topology(const NamedTree& tree) {
-  const auto find = [&](Bone bone, Side side) { return find_bone(tree.bones, bone, side); };
-  const std::int32_t chest =
-      tree.common_ancestor(find(Bone::upper_arm, Side::left), find(Bone::upper_arm, Side::right));
-  const std::int32_t head = find(Bone::head, Side::none);
-  // If the legs are attached to a joint above the pelvis, the trunk begins above that joint.
-  std::int32_t hips = find(Bone::pelvis, Side::none);
-  const std::int32_t legs =
-      tree.common_ancestor(find(Bone::thigh, Side::left), find(Bone::thigh, Side::right));
-  if (legs >= 0 && hips >= 0 && tree.is_above(hips, legs)) hips = legs;
-  if (hips < 0 || chest < 0 || head < 0 || hips == chest || !tree.is_above(hips, chest) ||
-      !tree.is_above(chest, head))
-    return {};
-  return {path(tree, hips, chest, true), path(tree, chest, head, false)};
-}
-
-BodyChains chains_by_name(const std::vector<BoneName>& bones) {
-  BodyChains chains;
-  for (std::size_t i = 0; i < bones.size(); ++i) {
-    if (bones[i].bone == Bone::spine) chains.trunk.push_back(i);
-    if (bones[i].bone == Bone::neck) chains.neck.push_back(i);
-  }
-  return chains;
 }
 
 }  // namespace kinemend::representation

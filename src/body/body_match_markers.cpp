@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/frame_span.hpp"
 #include "base/quantiles.hpp"
 #include "body/body_anchors.hpp"
 #include "body/body_correspondence.hpp"
@@ -49,11 +50,9 @@ std::vector<std::pair<std::size_t, std::size_t>> anchors_of(const BodyLayout& la
 
 // Finds the up direction from how the person stands most of the time.
 Quat upright_by_anchors(const Take& clip, const BodyLayout& layout, const BodyMatch& match) {
-  const std::size_t frames = clip.frame_count(), sampled = std::min(frames, most_frames);
   Vec3 up;
-  for (std::size_t i = 0; i < sampled; ++i) {
-    if (const auto fit = fit_frame(clip, layout, match, i * frames / sampled))
-      up += rotate(fit->rotation, {0, 1, 0});
+  for (const std::size_t f : evenly_spread(clip.frame_count(), most_frames)) {
+    if (const auto fit = fit_frame(clip, layout, match, f)) up += rotate(fit->rotation, {0, 1, 0});
   }
   return shortest_rotation(nearest_axis(up), {0, 1, 0});
 }
@@ -63,10 +62,8 @@ double body_height_by_anchors(const Take& clip, const BodyLayout& layout, const 
   // Anchors closer together give no reliable ratio. Chosen by hand, not swept.
   constexpr double least_distance = 0.03;  // body heights
   const auto anchors = anchors_of(layout, match);
-  const std::size_t frames = clip.frame_count(), sampled = std::min(frames, most_frames);
   std::vector<double> ratios;
-  for (std::size_t i = 0; i < sampled; ++i) {
-    const std::size_t f = i * frames / sampled;
+  for (const std::size_t f : evenly_spread(clip.frame_count(), most_frames)) {
     for (std::size_t a = 0; a < anchors.size(); ++a) {
       for (std::size_t b = a + 1; b < anchors.size(); ++b) {
         const double expected =

@@ -1,11 +1,15 @@
-// Turns one track of rotations into channels and back.
+// Turns one track of rotations into channels and back, and continues rotation vectors and the signs
+// of quaternions from frame to frame.
 #pragma once
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <vector>
 
-#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend {
 
@@ -13,6 +17,26 @@ namespace kinemend {
 /// it stays farther away for longer than this, the steady value follows. Chosen by hand, not swept.
 inline constexpr double steady_rad = pi / 3;
 inline constexpr int patience_frames = 12;
+
+/// Channels in the tangent space are too distorted to be filtered beyond this angle from a joint's
+/// mean (150 degrees).
+inline constexpr double tangent_limit_rad = 150 * radians_per_degree;
+
+/// Returns the rotation vector v (1 + 2 pi k / |v|) that is nearest to `previous`; all of them are
+/// the same rotation.
+Vec3 continue_rotation_vector(Vec3 v, Vec3 previous);
+
+/// Continues the sign of a quaternion from frame to frame, unaffected by noise and jumps: a few
+/// outlier frames (more than 60 degrees) do not flip the sign of the motion after them.
+class SignContinuation {
+ public:
+  /// Returns `q` or `-q`. The first quaternion keeps its sign.
+  Quat next(Quat q);
+
+ private:
+  Quat previous_, steady_;
+  int frames_away_ = -1;  // -1: no frame yet
+};
 
 /// A rotation vector continues beyond half a turn, but no joint that models know makes a full turn.
 /// Radians; chosen by hand, not swept.
@@ -28,6 +52,17 @@ inline bool is_nearly_unit(Quat q) {
   constexpr double near = 0.1;  // chosen by hand, not swept
   return std::abs(dot(q, q) - 1) < near;
 }
+
+/// How a joint's rotation becomes channels that may be filtered.
+enum class Encoding : std::uint8_t {
+  /// 3 channels per joint: Log(r^-1 q), about the joint's own reference rotation r (its mean).
+  /// Continuous from frame to frame even if the angle passes pi; best for joints that stay within a
+  /// half turn of their mean.
+  tangent,
+  /// 4 channels per joint: the unit quaternion with its sign continued from frame to frame. It has
+  /// no singularity; decoding projects back to the sphere.
+  quaternion,
+};
 
 /// Returns the number of channels of one joint in an encoding.
 inline std::size_t channels_of(Encoding encoding) { return encoding == Encoding::tangent ? 3 : 4; }

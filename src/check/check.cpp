@@ -4,13 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "check/checks.hpp"
 #include "kinemend/error.hpp"
-#include "motion/names.hpp"
 #include "motion/take.hpp"
 
 namespace kinemend {
@@ -81,9 +79,8 @@ void report_calibration(CheckReport& report) {
                                         : "are a calibration pose, not part of the motion"});
 }
 
-void report_left_out(const Take& clip, const std::vector<std::size_t>& markers,
-                     CheckReport& report) {
-  const std::size_t count = clip.marker_count() - markers.size();
+void report_left_out(const check::Rows& rows, CheckReport& report) {
+  const std::size_t count = rows.clip.marker_count() - rows.tracks.size();
   if (count == 0) return;
   const std::size_t last = std::max<std::size_t>(report.frames, 1) - 1;
   report.findings.push_back({FindingKind::left_out, Severity::note, "", 0, last,
@@ -91,146 +88,95 @@ void report_left_out(const Take& clip, const std::vector<std::size_t>& markers,
                              "angles, forces and the like among the points are ignored"});
 }
 
-// Returns a report with a row for each joint.
-CheckReport report_on_joints(const Take& clip) {
-  clip.validate();
+// Returns a report with a row for each joint, or for each marker that is a position.
+CheckReport report_on(const Take& take) {
+  take.validate();
   CheckReport report;
-  report.frames = clip.frame_count();
-  report.frame_rate_hz = clip.frame_rate_hz;
-  report.noise_unit = "deg";
-  for (const std::string& name : clip.skeleton.names) report.tracks.push_back({name});
-  report.calibration_frames = leading_calibration_frames(clip);
-  return report;
-}
-
-void check_gaps_of(const Take& motion, CheckReport& report) {
-  std::vector<std::int32_t> track_of(motion.joint_count());
-  std::iota(track_of.begin(), track_of.end(), 0);
-  check::check_gaps(find_gaps(motion), track_of, report);
-}
-
-// The marker of each row of a report, and the row of each marker, -1 for none.
-struct MarkerRows {
-  std::vector<std::size_t> markers;
-  std::vector<std::int32_t> track_of;
-};
-
-// Returns a report with a row for each marker that is a position.
-CheckReport report_on_markers(const Take& clip, MarkerRows& rows) {
-  clip.validate();
-  CheckReport report;
-  report.is_markers = true;
-  report.frames = clip.frame_count();
-  report.frame_rate_hz = clip.frame_rate_hz;
-  report.noise_unit = clip.unit;
-  rows.track_of.assign(clip.marker_count(), -1);
-  for (std::size_t m = 0; m < clip.marker_count(); ++m) {
-    if (!clip.holds_positions(m)) continue;
-    rows.track_of[m] = static_cast<std::int32_t>(rows.markers.size());
-    rows.markers.push_back(m);
-    report.tracks.push_back({clip.names[m]});
+  report.is_markers = !take.has_joints();
+  report.frames = take.frame_count();
+  report.frame_rate_hz = take.frame_rate_hz;
+  report.noise_unit = take.has_joints() ? "deg" : take.unit;
+  if (take.has_joints()) report.calibration_frames = leading_calibration_frames(take);
+  for (std::size_t n = 0; n < take.owner_names().size(); ++n) {
+    if (take.has_joints() || take.holds_positions(n))
+      report.tracks.push_back({take.owner_names()[n]});
   }
   return report;
 }
 
-std::vector<Finding> beyond_cleaning(std::vector<Finding> findings) {
-  const auto is_less = [](const Finding& finding) {
-    const bool is_stale =
-        finding.kind == FindingKind::frozen || finding.kind == FindingKind::bridged;
-    return !is_stale && finding.severity != Severity::serious;
-  };
-  findings.erase(std::remove_if(findings.begin(), findings.end(), is_less), findings.end());
-  check::sort_worst_first(findings);
-  return findings;
-}
-
-CheckReport check_joints(const Take& clip, const CheckSettings& settings) {
-  CheckReport report = report_on_joints(clip);
-  report.source = source_of(clip, settings.source);
-  std::optional<Take> sliced;
-  const Take& motion = frames_from(clip, report.calibration_frames, sliced);
-  check_gaps_of(motion, report);
-  check::check_noise_and_spikes(motion, settings, report);
-  check::check_stale(motion, settings, report);
-  check::check_lengths(motion, settings, report);
-  check::check_frames(motion, report);
-  check::check_unit(clip, settings, report);
-  check::check_body(motion, settings, report);
-  if (settings.robot) {
-    check::check_joint_limits(motion, *settings.robot, report);
-    check::check_jumps(motion, *settings.robot, report);
-    check::check_robot_feet(motion, settings, report);
+// Returns the rows of `report_on`. `motion`: the take without its calibration frames.
+check::Rows rows_of(const Take& motion) {
+  check::Rows rows{motion, {}, std::vector<std::int32_t>(motion.owner_names().size(), -1)};
+  for (std::size_t n = 0; n < rows.row_of.size(); ++n) {
+    if (!motion.has_joints() && !motion.holds_positions(n)) continue;
+    rows.row_of[n] = static_cast<std::int32_t>(rows.tracks.size());
+    rows.tracks.push_back(n);
   }
-  shift_frames(report, report.calibration_frames);
-  check::check_zero_frames(clip, report);
-  check::check_euler_flips(clip, report);
-  report_calibration(report);
-  check::sort_worst_first(report.findings);
-  return report;
+  if (!motion.has_joints()) rows.subjects = subjects_of(motion);
+  return rows;
 }
 
-CheckReport check_markers(const Take& clip, const CheckSettings& settings) {
-  MarkerRows rows;
-  CheckReport report = report_on_markers(clip, rows);
-  report.source = source_of(clip, settings.source);
-  const auto& [markers, track_of] = rows;
-  const std::vector<Subject> subjects = subjects_of(clip);
-  check::check_unit(clip, largest_subject(clip).markers, settings, report);
-  check::check_gaps(find_gaps(clip), track_of, report);
-  check::check_swaps(clip, track_of, report);
-  // Without this, other checks would report an exchange of labels twice for both tracks.
-  Take labelled = clip;
-  undo_swaps(labelled, report.swaps);
-  check::check_noise_and_spikes(labelled, markers, settings, report);
-  check::check_stale(labelled, markers, settings, report);
-  for (const Subject& subject : subjects)
-    check::check_lengths(labelled, subject.markers, settings, report);
-  check::check_frames(labelled, markers, report);
-  check::check_body(labelled, subjects, settings, report);
-  if (settings.robot) {
-    check::check_jumps(labelled, markers, *settings.robot, report);
-    check::check_robot_feet(labelled, subjects, settings, report);
-  }
-  report_left_out(clip, markers, report);
-  check::sort_worst_first(report.findings);
-  return report;
-}
-
-std::vector<Finding> beyond_cleaning_of_joints(const Take& clip) {
-  const CheckSettings settings;
-  CheckReport report = report_on_joints(clip);
-  std::optional<Take> sliced;
-  const Take& motion = frames_from(clip, report.calibration_frames, sliced);
-  check_gaps_of(motion, report);
-  check::check_stale(motion, settings, report);
-  check::check_frames(motion, report);
-  check::check_unit(clip, settings, report);
-  shift_frames(report, report.calibration_frames);
-  check::check_zero_frames(clip, report);
-  return beyond_cleaning(std::move(report.findings));
-}
-
-std::vector<Finding> beyond_cleaning_of_markers(const Take& clip) {
-  const CheckSettings settings;
-  MarkerRows rows;
-  CheckReport report = report_on_markers(clip, rows);
-  check::check_unit(clip, largest_subject(clip).markers, settings, report);
-  check::check_gaps(find_gaps(clip), rows.track_of, report);
-  check::check_swaps(clip, rows.track_of, report);
-  check::check_stale(clip, rows.markers, settings, report);
-  check::check_frames(clip, rows.markers, report);
-  return beyond_cleaning(std::move(report.findings));
+// Runs the checks of the whole take, on its rows without calibration frames. `labelled`: the same
+// rows with exchanges of labels undone.
+void check_rows(const check::Rows& labelled, const CheckSettings& settings, CheckReport& report) {
+  check::check_noise_and_spikes(labelled, settings, report);
+  check::check_stale(labelled, settings, report);
+  check::check_lengths(labelled, settings, report);
+  check::check_frames(labelled, report);
+  check::check_body(labelled, settings, report);
+  if (!settings.robot) return;
+  if (labelled.clip.has_joints()) check::check_joint_limits(labelled.clip, *settings.robot, report);
+  check::check_jumps(labelled, *settings.robot, report);
+  check::check_robot_feet(labelled, settings, report);
 }
 
 }  // namespace
 
 CheckReport check_take(const Take& take, const CheckSettings& settings) {
   validate(settings);
-  return take.has_joints() ? check_joints(take, settings) : check_markers(take, settings);
+  CheckReport report = report_on(take);
+  report.source = source_of(take, settings.source);
+  std::optional<Take> sliced;
+  const check::Rows rows = rows_of(frames_from(take, report.calibration_frames, sliced));
+  check::check_unit(take, settings, report);
+  check::check_gaps(rows, report);
+  if (take.has_joints()) {
+    check_rows(rows, settings, report);
+    shift_frames(report, report.calibration_frames);
+    check::check_zero_frames(take, report);
+    check::check_euler_flips(take, report);
+    report_calibration(report);
+  } else {
+    check::check_swaps(rows, report);
+    // Without this, other checks would report an exchange of labels twice for both tracks.
+    Take labelled = take;
+    undo_swaps(labelled, report.swaps);
+    check_rows(rows.of(labelled), settings, report);
+    report_left_out(rows, report);
+  }
+  check::sort_worst_first(report.findings);
+  return report;
 }
 
 std::vector<Finding> find_beyond_cleaning(const Take& take) {
-  return take.has_joints() ? beyond_cleaning_of_joints(take) : beyond_cleaning_of_markers(take);
+  const CheckSettings settings;
+  CheckReport report = report_on(take);
+  std::optional<Take> sliced;
+  const check::Rows rows = rows_of(frames_from(take, report.calibration_frames, sliced));
+  check::check_unit(take, settings, report);
+  check::check_gaps(rows, report);
+  if (!take.has_joints()) check::check_swaps(rows, report);
+  check::check_stale(rows, settings, report);
+  check::check_frames(rows, report);
+  shift_frames(report, report.calibration_frames);
+  if (take.has_joints()) check::check_zero_frames(take, report);
+  std::erase_if(report.findings, [](const Finding& finding) {
+    const bool is_stale =
+        finding.kind == FindingKind::frozen || finding.kind == FindingKind::bridged;
+    return !is_stale && finding.severity != Severity::serious;
+  });
+  check::sort_worst_first(report.findings);
+  return std::move(report.findings);
 }
 
 }  // namespace kinemend

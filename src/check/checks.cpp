@@ -12,34 +12,51 @@
 
 namespace kinemend {
 
-std::string_view to_string(FindingKind kind) {
-  static constexpr std::array<std::string_view, 25> names{"gap",
-                                                          "spike",
-                                                          "frozen",
-                                                          "bridged",
-                                                          "noise",
-                                                          "swap",
-                                                          "rate",
-                                                          "unit",
-                                                          "length",
-                                                          "slide",
-                                                          "sink",
-                                                          "euler_flip",
-                                                          "repeated_frames",
-                                                          "zero_frames",
-                                                          "calibration",
-                                                          "left_out",
-                                                          "no_contact",
-                                                          "expected_noise",
-                                                          "joint_speed",
-                                                          "joint_acceleration",
-                                                          "penetration",
-                                                          "floating",
-                                                          "flight",
-                                                          "jump",
-                                                          "floor"};
-  return names[static_cast<std::size_t>(kind)];
+namespace {
+
+struct KindName {
+  FindingKind kind;
+  std::string_view name;
+};
+
+// Findings that affect most uses of a take come first.
+constexpr std::array kinds = std::to_array<KindName>({
+    {FindingKind::swap, "swap"},
+    {FindingKind::zero_frames, "zero_frames"},
+    {FindingKind::jump, "jump"},
+    {FindingKind::rate, "rate"},
+    {FindingKind::unit, "unit"},
+    {FindingKind::spike, "spike"},
+    {FindingKind::gap, "gap"},
+    {FindingKind::frozen, "frozen"},
+    {FindingKind::bridged, "bridged"},
+    {FindingKind::joint_speed, "joint_speed"},
+    {FindingKind::joint_acceleration, "joint_acceleration"},
+    {FindingKind::repeated_frames, "repeated_frames"},
+    {FindingKind::length, "length"},
+    {FindingKind::slide, "slide"},
+    {FindingKind::sink, "sink"},
+    {FindingKind::no_contact, "no_contact"},
+    {FindingKind::penetration, "penetration"},
+    {FindingKind::floating, "floating"},
+    {FindingKind::noise, "noise"},
+    {FindingKind::expected_noise, "expected_noise"},
+    {FindingKind::euler_flip, "euler_flip"},
+    {FindingKind::flight, "flight"},
+    {FindingKind::floor, "floor"},
+    {FindingKind::calibration, "calibration"},
+    {FindingKind::left_out, "left_out"},
+});
+
+std::size_t rank_of(FindingKind kind) {
+  const auto* const found = std::find_if(kinds.begin(), kinds.end(),
+                                         [&](const KindName& row) { return row.kind == kind; });
+  return static_cast<std::size_t>(found - kinds.begin());
 }
+
+}  // namespace
+
+std::string_view to_string(FindingKind kind) { return kinds[rank_of(kind)].name; }
 
 std::string_view to_string(Severity severity) {
   static constexpr std::array<std::string_view, 3> names{"note", "warning", "serious"};
@@ -47,40 +64,6 @@ std::string_view to_string(Severity severity) {
 }
 
 namespace check {
-
-namespace {
-
-// Findings that affect most uses of a take come first.
-std::size_t rank_of(FindingKind kind) {
-  static constexpr std::array<FindingKind, 25> order{FindingKind::swap,
-                                                     FindingKind::zero_frames,
-                                                     FindingKind::jump,
-                                                     FindingKind::rate,
-                                                     FindingKind::unit,
-                                                     FindingKind::spike,
-                                                     FindingKind::gap,
-                                                     FindingKind::frozen,
-                                                     FindingKind::bridged,
-                                                     FindingKind::joint_speed,
-                                                     FindingKind::joint_acceleration,
-                                                     FindingKind::repeated_frames,
-                                                     FindingKind::length,
-                                                     FindingKind::slide,
-                                                     FindingKind::sink,
-                                                     FindingKind::no_contact,
-                                                     FindingKind::penetration,
-                                                     FindingKind::floating,
-                                                     FindingKind::noise,
-                                                     FindingKind::expected_noise,
-                                                     FindingKind::euler_flip,
-                                                     FindingKind::flight,
-                                                     FindingKind::floor,
-                                                     FindingKind::calibration,
-                                                     FindingKind::left_out};
-  return static_cast<std::size_t>(std::find(order.begin(), order.end(), kind) - order.begin());
-}
-
-}  // namespace
 
 void sort_worst_first(std::vector<Finding>& findings) {
   const auto key = [](const Finding& f) {
@@ -93,10 +76,7 @@ void sort_worst_first(std::vector<Finding>& findings) {
 
 std::vector<std::size_t> frames_looked_at(std::size_t frames) {
   constexpr std::size_t most_looked_at = 200;  // for speed, not swept
-  const std::size_t count = std::min(frames, most_looked_at);
-  std::vector<std::size_t> some;
-  for (std::size_t i = 0; i < count; ++i) some.push_back(i * frames / count);
-  return some;
+  return evenly_spread(frames, most_looked_at);
 }
 
 std::vector<Neighbour> neighbours_of(const Take& clip, const std::vector<std::size_t>& markers,

@@ -1,5 +1,6 @@
 // One function for each check, and helpers that they share. Each adds to a report whose `tracks`
-// are already named; frames count from the first frame of the given take.
+// are already named; frames count from the first frame of the given take. Joints and markers are
+// rows of one view.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +11,8 @@
 
 #include "base/frame_span.hpp"
 #include "base/quantiles.hpp"
+#include "feet/body_points.hpp"
+#include "feet/floor.hpp"
 #include "kinemend/check.hpp"
 #include "kinemend/extend/motion.hpp"
 
@@ -39,25 +42,23 @@ void put_largest(double value, std::optional<double>& largest);
 /// Sorts findings: serious ones first, then by kind, figure, frame and track.
 void sort_worst_first(std::vector<Finding>& findings);
 
-/// `gap_list`: of all tracks. `track_of[n]`: the row of joint or marker n in the report, -1 for
-/// none.
-void check_gaps(const std::vector<Gap>& gap_list, const std::vector<std::int32_t>& track_of,
-                CheckReport& report);
+/// The joints or markers of a take as the rows of a report.
+struct Rows {
+  const Take& clip;                    ///< without calibration frames, if not said otherwise
+  std::vector<std::size_t> tracks;     ///< the joint or marker of each row
+  std::vector<std::int32_t> row_of;    ///< the row of each joint or marker, -1: none
+  std::vector<Subject> subjects = {};  ///< of markers
 
-void check_noise_and_spikes(const Take& clip, const CheckSettings& settings, CheckReport& report);
-/// `markers`: the marker of each track of the report.
-void check_noise_and_spikes(const Take& clip, const std::vector<std::size_t>& markers,
-                            const CheckSettings& settings, CheckReport& report);
+  /// The same rows of another version of the take.
+  Rows of(const Take& other) const { return {other, tracks, row_of, subjects}; }
+};
 
-void check_stale(const Take& clip, const CheckSettings& settings, CheckReport& report);
-void check_stale(const Take& clip, const std::vector<std::size_t>& markers,
-                 const CheckSettings& settings, CheckReport& report);
-
-void check_swaps(const Take& clip, const std::vector<std::int32_t>& track_of, CheckReport& report);
-
-void check_lengths(const Take& clip, const CheckSettings& settings, CheckReport& report);
-void check_lengths(const Take& clip, const std::vector<std::size_t>& markers,
-                   const CheckSettings& settings, CheckReport& report);
+void check_gaps(const Rows& rows, CheckReport& report);
+void check_noise_and_spikes(const Rows& rows, const CheckSettings& settings, CheckReport& report);
+void check_stale(const Rows& rows, const CheckSettings& settings, CheckReport& report);
+/// Only for markers.
+void check_swaps(const Rows& rows, CheckReport& report);
+void check_lengths(const Rows& rows, const CheckSettings& settings, CheckReport& report);
 
 /// Checks the clip with its calibration frames, as its file has them.
 void check_euler_flips(const Take& clip, CheckReport& report);
@@ -67,35 +68,26 @@ void check_euler_flips(const Take& clip, CheckReport& report);
 void check_zero_frames(const Take& clip, CheckReport& report);
 
 /// Finds whole frames that repeat, and the rate that such repeats indicate.
-void check_frames(const Take& clip, CheckReport& report);
-void check_frames(const Take& clip, const std::vector<std::size_t>& markers, CheckReport& report);
+void check_frames(const Rows& rows, CheckReport& report);
 
 /// Chooses the scale, writes it into the report and checks whether the declared one fits a person.
+/// In a take of markers only the largest subject is looked at.
 void check_unit(const Take& clip, const CheckSettings& settings, CheckReport& report);
-void check_unit(const Take& clip, const std::vector<std::size_t>& markers,
-                const CheckSettings& settings, CheckReport& report);
 
 /// Finds feet that slide or sink, and a rate at which the body would fall too fast or too slowly.
-/// Requires the scale from `check_unit`.
-void check_body(const Take& clip, const CheckSettings& settings, CheckReport& report);
-/// Checks each subject separately.
-void check_body(const Take& clip, const std::vector<Subject>& subjects,
-                const CheckSettings& settings, CheckReport& report);
+/// Requires the scale from `check_unit`. Checks each subject separately.
+void check_body(const Rows& rows, const CheckSettings& settings, CheckReport& report);
 
 /// Checks joints against their limits of speed and acceleration. The root and the joints that carry
 /// the whole body have no limits.
 void check_joint_limits(const Take& clip, const RobotSettings& settings, CheckReport& report);
 /// Finds rotations and positions that change within one frame and stay changed. Positions require
 /// the scale from `check_unit`.
-void check_jumps(const Take& clip, const RobotSettings& settings, CheckReport& report);
-void check_jumps(const Take& clip, const std::vector<std::size_t>& markers,
-                 const RobotSettings& settings, CheckReport& report);
+void check_jumps(const Rows& rows, const RobotSettings& settings, CheckReport& report);
 /// Finds feet in or above the floor and times in the air, for a take with `CheckSettings::robot`;
 /// for joints also contacts of heels and toes, and the height of the floor. Requires the scale from
 /// `check_unit`.
-void check_robot_feet(const Take& clip, const CheckSettings& settings, CheckReport& report);
-void check_robot_feet(const Take& clip, const std::vector<Subject>& subjects,
-                      const CheckSettings& settings, CheckReport& report);
+void check_robot_feet(const Rows& rows, const CheckSettings& settings, CheckReport& report);
 
 /// One flag for each step of each of N tracks, from the track's samples.
 enum class Flag : std::uint8_t {
@@ -120,5 +112,43 @@ struct FlagTable {
 /// among the other tracks during the run if that is more. Runs that other tracks share (p of a half
 /// or more) are not specific to one track. One list for each track.
 std::vector<std::vector<FrameSpan>> improbable_runs(const FlagTable& table, std::size_t shortest);
+
+using feet::along, feet::body_points, feet::BodyPoints, feet::find_up, feet::Foot, feet::Up;
+
+/// The points of a body, in metres.
+struct NamedBody {
+  Subject subject;  ///< whose markers they are; empty for joints
+  BodyPoints points;
+};
+/// Returns the joints as one body, or the markers of each subject; none without the scale from
+/// `check_unit`.
+std::vector<NamedBody> bodies_of(const Rows& rows, const CheckSettings& settings,
+                                 const CheckReport& report);
+
+/// Returns the points of a foot, smoothed over 20 ms on either side.
+std::vector<feet::SolePoint> sole_points(const BodyPoints& body, const Foot& foot, Up up);
+
+/// A span in which a foot has ground contact.
+struct Contact {
+  std::size_t foot = 0;
+  FrameSpan span;
+  double slide_m = 0;  ///< displacement of the point that moves least
+  Vec3 place;          ///< median of the foot's lowest points in each frame
+};
+
+/// Finds contacts, by foot, then frame. A point touches the floor if it is slow and near its usual
+/// standing height; the thresholds to begin are tighter than those to continue (hysteresis).
+std::vector<Contact> find_contacts(const BodyPoints& body, Up up);
+
+/// Returns the direction that is up: that of the settings, or else that of the body above its feet.
+/// None if that is ambiguous, if the body has no feet, or if it has less than 10 frames.
+std::optional<Up> up_of_body(const BodyPoints& body, const CheckSettings& settings);
+
+/// Returns the spans in which every point of every foot is clear of the floor.
+std::vector<FrameSpan> find_flights(const BodyPoints& body, Up up);
+
+/// Returns the downward acceleration of the body in a flight, m/s^2: that of the least-squares
+/// parabola through the heights of its centre.
+double fall(const BodyPoints& body, Up up, const FrameSpan& span);
 
 }  // namespace kinemend::check

@@ -1,6 +1,5 @@
 // Finds contacts and flights, and checks the body by them: feet that slide or sink, and a frame
 // rate at which it would fall too fast or too slowly.
-#include "check/feet.hpp"
 
 #include <fmt/format.h>
 
@@ -51,8 +50,7 @@ Contact measure(const std::vector<SolePoint>& points,
 std::vector<SolePoint> sole_points(const BodyPoints& body, const Foot& foot, Up up) {
   std::vector<SolePoint> points;
   points.reserve(foot.points.size());
-  for (const std::size_t index : foot.points)
-    points.push_back(sole_point(body, index, up, ContactThresholds{}, feet::usual_reach_s));
+  for (const std::size_t index : foot.points) points.push_back(sole_point(body, index, up));
   return points;
 }
 
@@ -247,29 +245,30 @@ void report_rate_of_fall(const BodyPoints& body, Up up, CheckReport& report) {
                    found, rate)});
 }
 
-void check_points(const BodyPoints& body, const CheckSettings& settings, CheckReport& report) {
-  const std::optional<Up> up = up_of_body(body, settings);
-  if (!up) return;
-  report_feet(body, *up, settings, report);
-  report_rate_of_fall(body, *up, report);
-}
-
 }  // namespace
 
-void check_body(const Take& clip, const CheckSettings& settings, CheckReport& report) {
-  if (report.metres_per_unit > 0)
-    check_points(body_points(clip, report.metres_per_unit, settings.names), settings, report);
+std::vector<NamedBody> bodies_of(const Rows& rows, const CheckSettings& settings,
+                                 const CheckReport& report) {
+  std::vector<NamedBody> bodies;
+  if (!(report.metres_per_unit > 0)) return bodies;
+  if (rows.clip.has_joints())
+    bodies.push_back({{}, body_points(rows.clip, report.metres_per_unit, settings.names)});
+  for (const Subject& subject : rows.subjects) {
+    bodies.push_back(
+        {subject, body_points(rows.clip, subject.markers, report.metres_per_unit, settings.names)});
+  }
+  return bodies;
 }
 
-void check_body(const Take& clip, const std::vector<Subject>& subjects,
-                const CheckSettings& settings, CheckReport& report) {
-  if (!(report.metres_per_unit > 0)) return;
+void check_body(const Rows& rows, const CheckSettings& settings, CheckReport& report) {
   bool has_rate = false;
-  for (const Subject& subject : subjects) {
+  for (const auto& [subject, body] : bodies_of(rows, settings, report)) {
     CheckReport own;
     own.frame_rate_hz = report.frame_rate_hz;
-    check_points(body_points(clip, subject.markers, report.metres_per_unit, settings.names),
-                 settings, own);
+    if (const std::optional<Up> up = up_of_body(body, settings)) {
+      report_feet(body, *up, settings, own);
+      report_rate_of_fall(body, *up, own);
+    }
     for (Finding& finding : own.findings) {
       // The rate is the same for all people: one finding suffices.
       const bool is_rate = finding.kind == FindingKind::rate;
@@ -279,7 +278,7 @@ void check_body(const Take& clip, const std::vector<Subject>& subjects,
     }
     if (own.figures.slide_cm) put_largest(*own.figures.slide_cm, report.figures.slide_cm);
     if (own.figures.sink_cm) put_largest(*own.figures.sink_cm, report.figures.sink_cm);
-    if (subjects.size() > 1) {
+    if (rows.subjects.size() > 1) {
       report.subjects.push_back(
           {subject.name, subject.markers.size(), own.figures.slide_cm, own.figures.sink_cm});
     }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "check/checks.hpp"
+#include "motion/names.hpp"
 
 namespace kinemend::check {
 
@@ -55,9 +56,7 @@ Finding finding_of(Severity severity, double size_m, const CheckReport& report, 
   return {FindingKind::unit, severity, "", 0, last, size_m, "m", std::move(words)};
 }
 
-}  // namespace
-
-void check_unit(const Take& clip, const CheckSettings& settings, CheckReport& report) {
+void check_unit_of_joints(const Take& clip, const CheckSettings& settings, CheckReport& report) {
   const auto guess = guess_length_unit(clip.skeleton);
   const double height = body_height(clip.skeleton);
   const double declared = settings.metres_per_unit.value_or(clip.metres_per_unit);
@@ -79,8 +78,8 @@ void check_unit(const Take& clip, const CheckSettings& settings, CheckReport& re
   }
 }
 
-void check_unit(const Take& clip, const std::vector<std::size_t>& markers,
-                const CheckSettings& settings, CheckReport& report) {
+void check_unit_of_markers(const Take& clip, const CheckSettings& settings, CheckReport& report) {
+  const std::vector<std::size_t> markers = largest_subject(clip).markers;
   const double extent = usual_extent(clip, markers);
   const LengthUnit* guess = unit_of_extent(extent);
   const double declared = settings.metres_per_unit.value_or(metres_per_unit(clip.unit));
@@ -100,8 +99,6 @@ void check_unit(const Take& clip, const std::vector<std::size_t>& markers,
                          : std::string("the file states no known unit")));
   }
 }
-
-namespace {
 
 // Whether a frame equals the previous one to the precision of text.
 bool repeats(const Take& clip, std::size_t frame) {
@@ -187,12 +184,23 @@ bool is_zero(const Take& clip, std::size_t frame) {
 
 }  // namespace
 
-void check_frames(const Take& clip, CheckReport& report) {
+void check_unit(const Take& clip, const CheckSettings& settings, CheckReport& report) {
+  if (clip.has_joints())
+    check_unit_of_joints(clip, settings, report);
+  else
+    check_unit_of_markers(clip, settings, report);
+}
+
+void check_frames(const Rows& rows, CheckReport& report) {
+  const Take& clip = rows.clip;
   const std::size_t frames = clip.frame_count();
   if (frames < 2) return;
   std::vector<std::uint8_t> repeated(frames);
-  for (std::size_t t = 1; t < frames; ++t)
-    repeated[t] = repeats(clip, t) && !(is_zero(clip, t) && is_zero(clip, t - 1));
+  for (std::size_t t = 1; t < frames; ++t) {
+    repeated[t] = clip.has_joints()
+                      ? repeats(clip, t) && !(is_zero(clip, t) && is_zero(clip, t - 1))
+                      : repeats(clip, rows.tracks, t);
+  }
   report_repeats(repeated, report);
 }
 
@@ -208,14 +216,6 @@ void check_zero_frames(const Take& clip, CheckReport& report) {
                                static_cast<double>(run.length()), "frames",
                                "every channel is zero"});
   }
-}
-
-void check_frames(const Take& clip, const std::vector<std::size_t>& markers, CheckReport& report) {
-  const std::size_t frames = clip.frame_count();
-  if (frames < 2) return;
-  std::vector<std::uint8_t> repeated(frames);
-  for (std::size_t t = 1; t < frames; ++t) repeated[t] = repeats(clip, markers, t);
-  report_repeats(repeated, report);
 }
 
 namespace {

@@ -15,14 +15,13 @@
 
 namespace kinemend::check {
 
-void check_gaps(const std::vector<Gap>& gap_list, const std::vector<std::int32_t>& track_of,
-                CheckReport& report) {
+void check_gaps(const Rows& rows, CheckReport& report) {
   // The level `serious` of docs/check.md. Chosen by hand, not swept.
   constexpr double long_gap_s = 0.5;  // longer gaps need a model to be filled reliably
   std::size_t missing = 0;
-  for (const Gap& gap : gap_list) {
-    if (track_of[gap.track] < 0) continue;
-    TrackHealth& track = report.tracks[static_cast<std::size_t>(track_of[gap.track])];
+  for (const Gap& gap : find_gaps(rows.clip)) {
+    if (rows.row_of[gap.track] < 0) continue;
+    TrackHealth& track = report.tracks[static_cast<std::size_t>(rows.row_of[gap.track])];
     const double seconds = static_cast<double>(gap.length()) / report.frame_rate_hz;
     ++track.gaps;
     track.longest_gap = std::max(track.longest_gap, gap.length());
@@ -164,25 +163,27 @@ bool is_at_an_end(const HingeRange& range, Quat rotation) {
   return from_end <= slack_rad || from_end >= range.rad - slack_rad;
 }
 
+// A frozen or bridged span.
+struct Stale {
+  FrameSpan span;
+  FindingKind kind;
+};
+
 // A stretched knee is as still as a frozen one, so spans at the end of a hinge are removed.
-void leave_out_hinge_ends(const Take& clip, std::size_t joint, std::vector<FrameSpan>& frozen) {
-  if (frozen.empty()) return;
+void leave_out_hinge_ends(const Take& clip, std::size_t joint, std::vector<Stale>& spans) {
+  const auto is_frozen = [](const Stale& stale) { return stale.kind == FindingKind::frozen; };
+  if (std::none_of(spans.begin(), spans.end(), is_frozen)) return;
   const std::optional<HingeRange> range = hinge_range(clip, joint);
   if (!range) return;
-  std::erase_if(frozen, [&](const FrameSpan& span) {
-    return is_at_an_end(*range, clip.rotation(span.first, joint));
+  std::erase_if(spans, [&](const Stale& stale) {
+    return is_frozen(stale) && is_at_an_end(*range, clip.rotation(stale.span.first, joint));
   });
 }
 
-// The frozen and bridged spans.
-struct StaleSpans {
-  std::vector<std::vector<FrameSpan>> frozen, bridged;  // one list per track
-};
-
-StaleSpans find_stale(const std::vector<TrackChanges>& tracks, std::size_t frames,
-                      std::size_t shortest_frames) {
-  StaleSpans spans{std::vector<std::vector<FrameSpan>>(tracks.size()),
-                   std::vector<std::vector<FrameSpan>>(tracks.size())};
+// Returns one list for each track, by frame; the spans of a track do not overlap.
+std::vector<std::vector<Stale>> find_stale(const std::vector<TrackChanges>& tracks,
+                                           std::size_t frames, std::size_t shortest_frames) {
+  std::vector<std::vector<Stale>> spans(tracks.size());
   if (frames < 4) return spans;
   FlagTable repeats(frames - 1, tracks.size()), straight(frames - 2, tracks.size());
   std::vector<ChangeScale> step_scales(tracks.size()), bend_scales(tracks.size());
@@ -205,47 +206,30 @@ StaleSpans find_stale(const std::vector<TrackChanges>& tracks, std::size_t frame
     for (const FrameSpan& run : frozen_runs[n]) {
       // The first of the equal samples was measured.
       if (has_sharp_end(tracks[n].steps, run, step_scales[n]))
-        spans.frozen[n].push_back({run.first + 1, run.last + 1});
+        spans[n].push_back({{run.first + 1, run.last + 1}, FindingKind::frozen});
     }
     for (const FrameSpan& run : straight_runs[n]) {
       if (has_sharp_end(tracks[n].bends, run, bend_scales[n]) &&
           moves_along(tracks[n].steps, run, step_scales[n]))
-        spans.bridged[n].push_back({run.first + 1, run.last + 1});
+        spans[n].push_back({{run.first + 1, run.last + 1}, FindingKind::bridged});
     }
+    std::sort(spans[n].begin(), spans[n].end(),
+              [](const Stale& a, const Stale& b) { return a.span.first < b.span.first; });
   }
   return spans;
 }
 
-std::size_t shortest_frames(const CheckReport& report, const CheckSettings& settings) {
-  return frames_in(settings.shortest_stale_s, report.frame_rate_hz, 2);
-}
-
-// Reports both kinds of spans of each track, by frame; they do not overlap.
-void report_stale(const StaleSpans& spans, const std::vector<std::size_t>& tracks,
-                  CheckReport& report) {
-  struct Stale {
-    FrameSpan span;
-    FindingKind kind;
-  };
-  for (std::size_t i = 0; i < tracks.size(); ++i) {
-    TrackHealth& track = report.tracks[tracks[i]];
-    std::vector<Stale> list;
-    for (const FrameSpan& span : spans.frozen[i]) list.push_back({span, FindingKind::frozen});
-    for (const FrameSpan& span : spans.bridged[i]) list.push_back({span, FindingKind::bridged});
-    std::sort(list.begin(), list.end(),
-              [](const Stale& a, const Stale& b) { return a.span.first < b.span.first; });
-    track.frozen = spans.frozen[i].size();
-    track.bridged = spans.bridged[i].size();
-    report.figures.frozen += list.size();
-    for (const Stale& stale : list) {
-      const double seconds = static_cast<double>(stale.span.length()) / report.frame_rate_hz;
-      report.stale.push_back({track.name, stale.span.first, stale.span.last});
-      report.findings.push_back({stale.kind, seconds >= 0.5 ? Severity::serious : Severity::warning,
-                                 track.name, stale.span.first, stale.span.last, seconds, "s",
-                                 stale.kind == FindingKind::frozen
-                                     ? "repeats its last value exactly while others move"
-                                     : "moves in a straight line, as a bridged gap does"});
-    }
+void report_stale(const std::vector<Stale>& spans, TrackHealth& track, CheckReport& report) {
+  report.figures.frozen += spans.size();
+  for (const auto& [span, kind] : spans) {
+    const bool is_frozen = kind == FindingKind::frozen;
+    ++(is_frozen ? track.frozen : track.bridged);
+    const double seconds = static_cast<double>(span.length()) / report.frame_rate_hz;
+    report.stale.push_back({track.name, span.first, span.last});
+    report.findings.push_back({kind, seconds >= 0.5 ? Severity::serious : Severity::warning,
+                               track.name, span.first, span.last, seconds, "s",
+                               is_frozen ? "repeats its last value exactly while others move"
+                                         : "moves in a straight line, as a bridged gap does"});
   }
 }
 
@@ -299,27 +283,28 @@ TrackChanges position_changes(const Take& clip, std::size_t marker) {
 
 }  // namespace
 
-void check_stale(const Take& clip, const CheckSettings& settings, CheckReport& report) {
-  const std::vector<std::size_t> joints = moving_joints(clip);
-  std::vector<TrackChanges> changes(joints.size());
-  for_each_parallel(joints.size(), clip.rotations.size(),
-                    [&](std::size_t i) { changes[i] = rotation_changes(clip, joints[i]); });
-  StaleSpans spans = find_stale(changes, clip.frame_count(), shortest_frames(report, settings));
-  for_each_parallel(joints.size(), clip.rotations.size(),
-                    [&](std::size_t i) { leave_out_hinge_ends(clip, joints[i], spans.frozen[i]); });
-  report_stale(spans, joints, report);
-}
-
-void check_stale(const Take& clip, const std::vector<std::size_t>& markers,
-                 const CheckSettings& settings, CheckReport& report) {
-  std::vector<TrackChanges> changes(markers.size());
-  std::vector<std::size_t> tracks(markers.size());
-  for_each_parallel(markers.size(), clip.positions.size(), [&](std::size_t i) {
-    changes[i] = position_changes(clip, markers[i]);
-    tracks[i] = i;
+void check_stale(const Rows& rows, const CheckSettings& settings, CheckReport& report) {
+  const Take& clip = rows.clip;
+  const bool joints = clip.has_joints();
+  std::vector<std::size_t> kept;  // rows; joints that never move are left out
+  for (std::size_t n = 0; n < rows.tracks.size(); ++n) {
+    if (!joints || joint_moves(clip, rows.tracks[n])) kept.push_back(n);
+  }
+  const std::size_t samples = joints ? clip.rotations.size() : clip.positions.size();
+  std::vector<TrackChanges> changes(kept.size());
+  for_each_parallel(kept.size(), samples, [&](std::size_t i) {
+    const std::size_t track = rows.tracks[kept[i]];
+    changes[i] = joints ? rotation_changes(clip, track) : position_changes(clip, track);
   });
-  report_stale(find_stale(changes, clip.frame_count(), shortest_frames(report, settings)), tracks,
-               report);
+  const std::size_t shortest = frames_in(settings.shortest_stale_s, report.frame_rate_hz, 2);
+  std::vector<std::vector<Stale>> spans = find_stale(changes, clip.frame_count(), shortest);
+  if (joints) {
+    for_each_parallel(kept.size(), samples, [&](std::size_t i) {
+      leave_out_hinge_ends(clip, rows.tracks[kept[i]], spans[i]);
+    });
+  }
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    report_stale(spans[i], report.tracks[kept[i]], report);
 }
 
 }  // namespace kinemend::check

@@ -11,7 +11,6 @@
 
 #include "base/quantiles.hpp"
 #include "check/checks.hpp"
-#include "check/feet.hpp"
 #include "feet/floor.hpp"
 #include "kinemend/extend/text.hpp"
 #include "kinemend/feet.hpp"
@@ -71,16 +70,9 @@ JointRates rates_of(const Take& clip, std::size_t joint, std::size_t step) {
 std::vector<FrameSpan> spans_above(const std::vector<double>& values, double limit,
                                    double frame_rate_hz) {
   constexpr double bridged_s = 0.1;
-  const std::size_t bridged = frames_in(bridged_s, frame_rate_hz, 1);
-  std::vector<FrameSpan> spans;
-  for (const FrameSpan& run :
-       runs_where(values.size(), [&](std::size_t f) { return values[f] > limit; })) {
-    if (!spans.empty() && run.first <= spans.back().last + bridged)
-      spans.back().last = run.last;
-    else
-      spans.push_back(run);
-  }
-  return spans;
+  return runs_where(
+      values.size(), [&](std::size_t f) { return values[f] > limit; },
+      frames_in(bridged_s, frame_rate_hz, 1) - 1);
 }
 
 double largest_in(const std::vector<double>& values, const FrameSpan& span) {
@@ -174,10 +166,12 @@ void check_joint_limits(const Take& clip, const RobotSettings& settings, CheckRe
   report.figures.joint_acceleration_deg_s2 = acceleration;
 }
 
-void check_jumps(const Take& clip, const RobotSettings& settings, CheckReport& report) {
+void check_jumps(const Rows& rows, const RobotSettings& settings, CheckReport& report) {
+  const Take& clip = rows.clip;
+  const bool joints = clip.has_joints();
   const std::size_t frames = clip.frame_count();
   const double limit_deg = at_rate(settings.jump_deg, clip.frame_rate_hz);
-  for (std::size_t j = 0; j < clip.joint_count(); ++j) {
+  for (std::size_t j = 0; joints && j < clip.joint_count(); ++j) {
     const auto jumps = jumps_of(
         frames, limit_deg, [&](std::size_t f) { return clip.rotation(f, j); },
         [&](std::size_t f) { return clip.is_observed(f, j); });
@@ -186,24 +180,16 @@ void check_jumps(const Take& clip, const RobotSettings& settings, CheckReport& r
   }
   if (!(report.metres_per_unit > 0)) return;
   const double cm = 100 * report.metres_per_unit;
-  const auto jumps = jumps_of(
-      frames, at_rate(settings.jump_cm, clip.frame_rate_hz),
-      [&](std::size_t f) { return cm * clip.root_position(f); },
-      [&](std::size_t f) { return clip.is_position_observed(f, 0); });
-  report_jumps(clip.skeleton.names[0], "cm", "moves within one frame and stays there", jumps,
-               report);
-}
-
-void check_jumps(const Take& clip, const std::vector<std::size_t>& markers,
-                 const RobotSettings& settings, CheckReport& report) {
-  if (!(report.metres_per_unit > 0)) return;
-  const double cm = 100 * report.metres_per_unit;
-  for (std::size_t i = 0; i < markers.size(); ++i) {
+  // In a take of joints only the root is checked.
+  for (std::size_t n = 0; n < (joints ? 1 : rows.tracks.size()); ++n) {
+    const std::size_t point = joints ? 0 : rows.tracks[n];
     const auto jumps = jumps_of(
-        clip.frame_count(), at_rate(settings.jump_cm, clip.frame_rate_hz),
-        [&](std::size_t f) { return cm * clip.position(f, markers[i]); },
-        [&](std::size_t f) { return clip.is_observed(f, markers[i]); });
-    report_jumps(report.tracks[i].name, "cm", "moves within one frame and stays there", jumps,
+        frames, at_rate(settings.jump_cm, clip.frame_rate_hz),
+        [&](std::size_t f) { return cm * clip.position(f, point); },
+        [&](std::size_t f) {
+          return joints ? clip.is_position_observed(f, point) : clip.is_observed(f, point);
+        });
+    report_jumps(report.tracks[n].name, "cm", "moves within one frame and stays there", jumps,
                  report);
   }
 }
@@ -358,35 +344,23 @@ void report_floor(const BodyPoints& body, Up up, const RobotSettings& settings,
 
 }  // namespace
 
-void check_robot_feet(const Take& clip, const CheckSettings& settings, CheckReport& report) {
+void check_robot_feet(const Rows& rows, const CheckSettings& settings, CheckReport& report) {
   RobotFindings& robot = report.robot.emplace();
-  if (!(report.metres_per_unit > 0)) return;
-  const BodyPoints body = body_points(clip, report.metres_per_unit, settings.names);
-  const std::optional<Up> up = up_of_body(body, settings);
-  if (!up) return;
-  FeetByFrame all = feet_by_frame(body, *up);
-  mark_contacts(clip, settings, body, all, robot);
-  report_penetration(body, all, *settings.robot, report);
-  report_floating_feet(body, all, *settings.robot, report);
-  report_flights(body, *up, all, report);
-  report_floor(body, *up, *settings.robot, report);
-}
-
-void check_robot_feet(const Take& clip, const std::vector<Subject>& subjects,
-                      const CheckSettings& settings, CheckReport& report) {
-  report.robot.emplace();
-  if (!(report.metres_per_unit > 0)) return;
-  for (const Subject& subject : subjects) {
-    const BodyPoints body =
-        body_points(clip, subject.markers, report.metres_per_unit, settings.names);
+  for (const auto& [subject, body] : bodies_of(rows, settings, report)) {
     const std::optional<Up> up = up_of_body(body, settings);
     if (!up) continue;
     const std::size_t known = report.findings.size();
     FeetByFrame all = feet_by_frame(body, *up);
-    for (const Contact& contact : find_contacts(body, *up))
-      mark(all.stands[contact.foot], contact.span.first, contact.span.last);
+    if (rows.clip.has_joints()) {
+      mark_contacts(rows.clip, settings, body, all, robot);
+    } else {
+      for (const Contact& contact : find_contacts(body, *up))
+        mark(all.stands[contact.foot], contact.span.first, contact.span.last);
+    }
     report_penetration(body, all, *settings.robot, report);
+    if (rows.clip.has_joints()) report_floating_feet(body, all, *settings.robot, report);
     report_flights(body, *up, all, report);
+    if (rows.clip.has_joints()) report_floor(body, *up, *settings.robot, report);
     for (std::size_t i = known; i < report.findings.size() && !subject.name.empty(); ++i) {
       Finding& finding = report.findings[i];
       finding.track = finding.track.empty() ? subject.name : subject.name + " " + finding.track;

@@ -17,7 +17,9 @@
 #include "kinemend/take.hpp"
 #include "motion/names.hpp"
 
-namespace kinemend::check {
+namespace kinemend {
+
+namespace check {
 
 namespace {
 
@@ -224,16 +226,6 @@ NeighbourVerdict ask_neighbours(const Take& clip, const std::vector<std::size_t>
   return verdict;
 }
 
-}  // namespace
-
-}  // namespace kinemend::check
-
-namespace kinemend {
-
-namespace {
-
-using check::Exchange;
-
 // An unlabelled point has no label to exchange, and changes from one marker to another anyway.
 std::vector<std::size_t> labelled_markers(const Take& clip) {
   std::vector<std::size_t> markers;
@@ -269,8 +261,7 @@ bool neighbours_agree(const Take& clip, const std::vector<std::size_t>& markers,
   // Other swapped spans of the pair do not contribute to the usual distances.
   for (const FrameSpan& s : all_spans) std::fill_n(swapped.begin() + s.first, s.length(), 2);
   std::fill_n(swapped.begin() + span.first, span.length(), 1);
-  const check::NeighbourVerdict verdict =
-      check::ask_neighbours(clip, markers, pair.first, pair.second, swapped);
+  const NeighbourVerdict verdict = ask_neighbours(clip, markers, pair.first, pair.second, swapped);
   const bool sure = static_cast<double>(longest_gap) <= short_gap_s * clip.frame_rate_hz;
   if (!verdict.known) return sure;
   return verdict.exchanged < (sure ? 1.0 : 0.6) * verdict.as_labelled;
@@ -278,21 +269,23 @@ bool neighbours_agree(const Take& clip, const std::vector<std::size_t>& markers,
 
 }  // namespace
 
+}  // namespace check
+
 std::vector<MarkerSwap> find_swaps(const Take& clip) {
-  const std::vector<std::size_t> markers = labelled_markers(clip);
-  std::map<std::pair<std::size_t, std::size_t>, std::vector<Exchange>> by_pair;
-  for (const Exchange& e : check::find_exchanges(clip, check::find_breaks(clip, markers)))
+  const std::vector<std::size_t> markers = check::labelled_markers(clip);
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<check::Exchange>> by_pair;
+  for (const check::Exchange& e : check::find_exchanges(clip, check::find_breaks(clip, markers)))
     by_pair[{e.first_marker, e.second_marker}].push_back(e);
   std::vector<MarkerSwap> swaps;
   for (const auto& [pair, exchanges] : by_pair) {
-    const std::vector<FrameSpan> spans = swapped_spans(exchanges, clip.frame_count());
+    const std::vector<FrameSpan> spans = check::swapped_spans(exchanges, clip.frame_count());
     for (const FrameSpan& span : spans) {
       std::size_t longest_gap = 0;
-      for (const Exchange& e : exchanges) {
+      for (const check::Exchange& e : exchanges) {
         if (e.first_after == span.first || e.last_before == span.last)
           longest_gap = std::max(longest_gap, e.longest_gap);
       }
-      if (neighbours_agree(clip, markers, pair, span, spans, longest_gap))
+      if (check::neighbours_agree(clip, markers, pair, span, spans, longest_gap))
         swaps.push_back({pair.first, pair.second, span.first, span.last});
     }
   }
@@ -325,23 +318,20 @@ void undo_swaps(Take& clip, const std::vector<MarkerSwap>& swaps) {
 
 namespace check {
 
-void check_swaps(const Take& clip, const std::vector<std::int32_t>& track_of, CheckReport& report) {
-  report.swaps = find_swaps(clip);
+void check_swaps(const Rows& rows, CheckReport& report) {
+  const std::vector<std::string>& names = rows.clip.names;
+  report.swaps = find_swaps(rows.clip);
   report.figures.swaps = report.swaps.size();
   for (const MarkerSwap& swap : report.swaps) {
     for (const std::size_t marker : {swap.first_marker, swap.second_marker}) {
-      if (const std::int32_t track = track_of[marker]; track >= 0)
-        ++report.tracks[static_cast<std::size_t>(track)].swaps;
+      if (const std::int32_t row = rows.row_of[marker]; row >= 0)
+        ++report.tracks[static_cast<std::size_t>(row)].swaps;
     }
-    Finding finding{FindingKind::swap,
-                    Severity::serious,
-                    clip.names[swap.first_marker] + ", " + clip.names[swap.second_marker],
-                    swap.first_frame,
-                    swap.last_frame,
-                    static_cast<double>(swap.last_frame - swap.first_frame + 1),
-                    "frames",
-                    "the two labels are exchanged"};
-    report.findings.push_back(std::move(finding));
+    report.findings.push_back({FindingKind::swap, Severity::serious,
+                               names[swap.first_marker] + ", " + names[swap.second_marker],
+                               swap.first_frame, swap.last_frame,
+                               static_cast<double>(swap.last_frame - swap.first_frame + 1),
+                               "frames", "the two labels are exchanged"});
   }
 }
 

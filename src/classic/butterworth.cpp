@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "body/representation.hpp"
 #include "classic/filter_channels.hpp"
 #include "cleaner/live.hpp"
-#include "kinemend/extend/body.hpp"
 #include "kinemend/extend/method_options.hpp"
 #include "kinemend/extend/signal.hpp"
 

@@ -1,7 +1,7 @@
 // The method `weighted-mean`: repeated means of neighbouring samples.
+#include "body/representation.hpp"
 #include "classic/filter_channels.hpp"
 #include "cleaner/live.hpp"
-#include "kinemend/extend/body.hpp"
 #include "kinemend/extend/method_options.hpp"
 #include "kinemend/extend/signal.hpp"
 

@@ -1,8 +1,10 @@
 // Solves least-squares problems in which each square holds only neighbouring unknowns.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace kinemend::feet {
@@ -18,7 +20,8 @@ class BandedLeastSquares {
   };
 
   /// The unknowns of one square are at most `band` apart.
-  BandedLeastSquares(std::size_t size, std::size_t band);
+  BandedLeastSquares(std::size_t size, std::size_t band)
+      : size_(size), band_(band), normal_(size * (band + 1)), right_(size) {}
 
   /// `terms`: unknowns in ascending order; those of factor 0 are ignored.
   template <std::size_t count>
@@ -37,7 +40,27 @@ class BandedLeastSquares {
 
   /// Returns the solution; must be called only once. The result is not finite unless the squares
   /// determine every unknown.
-  std::vector<double> solve();
+  std::vector<double> solve() {
+    // Factorises as L D L^T without pivots, because the normal matrix is positive definite.
+    for (std::size_t p = 0; p < size_; ++p) {
+      double* const pivot = column(p);
+      const std::size_t below = std::min(band_, size_ - 1 - p);
+      for (std::size_t j = 1; j <= below; ++j) {
+        const double factor = pivot[j] / pivot[0];
+        if (factor == 0) continue;
+        right_[p + j] -= factor * right_[p];
+        double* const other = column(p + j);
+        for (std::size_t i = j; i <= below; ++i) other[i - j] -= factor * pivot[i];
+      }
+    }
+    for (std::size_t p = size_; p-- > 0;) {
+      const double* const pivot = column(p);
+      const std::size_t below = std::min(band_, size_ - 1 - p);
+      for (std::size_t j = 1; j <= below; ++j) right_[p] -= pivot[j] * right_[p + j];
+      right_[p] /= pivot[0];
+    }
+    return std::move(right_);
+  }
 
  private:
   double* column(std::size_t unknown) { return normal_.data() + unknown * (band_ + 1); }

@@ -11,7 +11,6 @@
 
 #include "feet/leg_motion.hpp"
 #include "feet/leg_solver.hpp"
-#include "feet/placement.hpp"
 #include "kinemend/error.hpp"
 #include "motion/take.hpp"
 

@@ -10,7 +10,6 @@
 #include "feet/contacts.hpp"
 #include "feet/leg_motion.hpp"
 #include "feet/leg_solver.hpp"
-#include "feet/placement.hpp"
 #include "kinemend/feet.hpp"
 
 namespace kinemend::feet {

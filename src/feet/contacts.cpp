@@ -17,7 +17,9 @@
 #include "kinemend/error.hpp"
 #include "motion/take.hpp"
 
-namespace kinemend::feet {
+namespace kinemend {
+
+namespace feet {
 
 namespace {
 
@@ -124,16 +126,11 @@ Soles find_soles(const LegMotion& motion, Up up, const ContactSettings& settings
   return soles;
 }
 
-}  // namespace kinemend::feet
-
-namespace kinemend {
-
-namespace feet {
-
 namespace {
 
-std::vector<FrameSpan> spans_of(const std::vector<std::uint8_t>& flags) {
-  return runs_where(flags.size(), [&](std::size_t f) { return flags[f] != 0; });
+std::vector<FrameSpan> spans_of(const std::vector<std::uint8_t>& flags, std::size_t most_between) {
+  return runs_where(
+      flags.size(), [&](std::size_t f) { return flags[f] != 0; }, most_between);
 }
 
 // Returns the height of a foot's lower part.
@@ -174,17 +171,21 @@ class ContactFinder {
     const double above = sole.level - floors_[leg];
     const double offset = above < settings_.begin_height * height ? above : 0;
     std::vector<double> levels(slow.size(), sole.level);
-    for (const auto& [first, last] : spans_of(slow)) {
+    for (const auto& [first, last] : spans_of(slow, 0)) {
       const double level = level_of(leg, first, last) + offset;
       std::fill(levels.begin() + static_cast<std::ptrdiff_t>(first),
                 levels.begin() + static_cast<std::ptrdiff_t>(last + 1), level);
     }
-    const ContactThresholds thresholds{settings_.begin_height, settings_.keep_height,
-                                       settings_.begin_speed, settings_.keep_speed};
-    std::vector<FrameSpan> spans =
-        without_short(spans_of(touches(sole, levels, speeds, height, thresholds)));
+    const std::vector<std::uint8_t> down =
+        touches(sole, levels, speeds, height, thresholds_of(settings_));
+    // Neither a shorter break nor a shorter contact counts.
+    const std::size_t least = frames_in(settings_.least_s);
+    const auto is_short = [&](const FrameSpan& span) { return span.length() < least; };
+    std::vector<FrameSpan> spans = spans_of(down, least - 1);
+    std::erase_if(spans, is_short);
     for (FrameSpan& span : spans) span = trimmed(sole, span);
-    return without_short(spans);
+    std::erase_if(spans, is_short);
+    return spans;
   }
 
  private:
@@ -252,19 +253,6 @@ class ContactFinder {
     while (first < last && moves(first)) ++first;
     while (last > first && moves(last)) --last;
     return {first, last};
-  }
-
-  std::vector<FrameSpan> without_short(const std::vector<FrameSpan>& spans) const {
-    const std::size_t least = frames_in(settings_.least_s);
-    std::vector<FrameSpan> bridged;
-    for (const FrameSpan& span : spans) {
-      if (!bridged.empty() && span.first - bridged.back().last - 1 < least)
-        bridged.back().last = span.last;
-      else
-        bridged.push_back(span);
-    }
-    std::erase_if(bridged, [&](const FrameSpan& span) { return span.length() < least; });
-    return bridged;
   }
 
   const Soles& soles_;

@@ -163,8 +163,7 @@ double floor_height(const BodyPoints& body, Up up) {
   double lowest = std::numeric_limits<double>::infinity();
   for (const Foot& foot : body.feet) {
     for (const std::size_t point : foot.points)
-      lowest =
-          std::min(lowest, sole_point(body, point, up, ContactThresholds{}, usual_reach_s).level);
+      lowest = std::min(lowest, sole_point(body, point, up).level);
   }
   return lowest;
 }

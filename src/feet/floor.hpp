@@ -34,7 +34,7 @@ inline constexpr double usual_reach_s = 0.02;
 
 /// Smooths the point by means over `reach_s` on either side.
 SolePoint sole_point(const BodyPoints& body, std::size_t index, Up up,
-                     const ContactThresholds& thresholds, double reach_s);
+                     const ContactThresholds& thresholds = {}, double reach_s = usual_reach_s);
 
 /// Returns F values, 1 where the point is slow and low above `levels` (F; a single entry is used
 /// for all frames).

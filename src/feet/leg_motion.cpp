@@ -148,7 +148,7 @@ std::optional<Vec3> heel_of_flat_foot(const LegMotion& motion, std::size_t leg, 
   const ContactThresholds thresholds;
   std::array<std::vector<std::uint8_t>, 2> down;
   for (std::size_t p = 0; p < 2; ++p) {
-    const SolePoint point = sole_point(body, p, up, thresholds, usual_reach_s);
+    const SolePoint point = sole_point(body, p, up, thresholds);
     down[p] = touches(point, {point.level}, body.height, thresholds);
   }
   Vec3 sum;

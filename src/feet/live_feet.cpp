@@ -7,7 +7,6 @@
 #include "base/frame_span.hpp"
 #include "base/portable.hpp"
 #include "feet/leg_solver.hpp"
-#include "feet/placement.hpp"
 
 namespace kinemend::feet {
 

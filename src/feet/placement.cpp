@@ -1,5 +1,4 @@
 // Gives each contact a place, fades the corrections beside it, and computes targets of the feet.
-#include "feet/placement.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -13,7 +13,9 @@
 #include "feet/floor.hpp"
 #include "motion/take.hpp"
 
-namespace kinemend::feet {
+namespace kinemend {
+
+namespace feet {
 
 namespace {
 
@@ -189,12 +191,6 @@ Verdicts judge(const Soles& soles, const LegMotion& motion,
   }
   return verdicts;
 }
-
-}  // namespace kinemend::feet
-
-namespace kinemend {
-
-namespace feet {
 
 namespace {
 

@@ -1,8 +1,10 @@
-// Curves through a track's own samples, and guesses moved to meet the ends of a gap.
+// Curves through a track's own samples, cycles of its motion, and guesses moved to meet the ends of
+// a gap.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "fill/track.hpp"
@@ -61,5 +63,28 @@ EndState state_behind(const Track& track, FrameSpan span, const CurveSettings& s
 
 /// Returns the number of frames that give an end velocity.
 std::size_t velocity_window(const CurveSettings& settings);
+
+/// Another time of the take at which a track moves as it does around a span.
+struct Cycle {
+  std::ptrdiff_t lag = 0;  ///< frame f of the span resembles frame f + lag
+  /// Difference of the surroundings: 0 identical, 1 no better than a straight line.
+  double mismatch = 0;
+};
+
+/// The lags at which the samples around the span (half its length on either side, 0.15 to 0.5 s)
+/// repeat best: local minima of
+///
+///     m(s)^2 = sum_f |x(f + s) - x(f) - (a + b f)|^2 / sum_f |x(f) - (a' + b' f)|^2
+///
+/// over these samples f, each with its best straight line: the local autocorrelation of the motion
+/// about its drift. A lag is used only if span and surroundings are observed throughout. Best
+/// first, none worse than 1.5 times the best.
+std::vector<Cycle> find_cycles(const Track& track, FrameSpan span, const CurveSettings& settings);
+
+/// Finds cycles and fills the span with their mean, weighted by similarity and moved so that it
+/// meets the samples at its ends in value and velocity (`place_guess`). Returns false and writes
+/// nothing if fewer than `least_cycles` (at least 1) are found.
+bool fill_by_cycles(Track& track, FrameSpan span, const CurveSettings& settings,
+                    std::size_t least_cycles);
 
 }  // namespace kinemend::fill

@@ -1,5 +1,5 @@
 // Compares the surroundings of a gap with every lag and averages the best cycles.
-#include "fill/cycles.hpp"
+#include "fill/curves.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +17,9 @@ constexpr std::size_t least_reach = 4, least_compared = 6;
 // this multiple of the largest squared mismatch; for speed, not swept.
 constexpr std::size_t compared_at_first = 24;
 constexpr double lags_hz = 40, accepted_at_first = 2;
+// The largest lag in either direction bounds the run time; the other two are not swept.
+constexpr double farthest_s = 15, largest_mismatch = 0.35;
+constexpr std::size_t most_cycles = 3;
 // A cycle is used if its mismatch is at most this multiple of the best one's. Not swept.
 constexpr double worst_of_best = 1.5;
 constexpr double least_square = 1e-6;  // floor of the squared mismatch in a cycle's weight
@@ -121,47 +124,7 @@ Cycle refined(const Matcher& matcher, std::ptrdiff_t lag, std::ptrdiff_t step,
   return best;
 }
 
-}  // namespace
-
-std::vector<Cycle> find_cycles(const Track& track, FrameSpan span, const CurveSettings& settings,
-                               const CycleSettings& rules) {
-  const Scene scene = scene_of(track, span, settings);
-  if (scene.compared.size() < least_compared) return {};
-  const Matcher matcher(track, scene);
-  const std::vector<std::size_t> few = thinned(scene.compared, compared_at_first);
-  const double own = matcher.own_squares(scene.compared);
-  if (!(own > 0)) return {};
-
-  const auto step = std::max<std::ptrdiff_t>(1, std::lround(settings.frame_rate_hz / lags_hz));
-  const auto farthest =
-      std::min(static_cast<std::ptrdiff_t>(track.frames()),
-               static_cast<std::ptrdiff_t>(rules.farthest_s * settings.frame_rate_hz));
-  std::vector<std::ptrdiff_t> lags;
-  std::vector<double> squares;
-  for (std::ptrdiff_t lag = -(farthest / step) * step; lag < farthest; lag += step) {
-    lags.push_back(lag);
-    squares.push_back(matcher.squares_at(lag, few));
-  }
-  std::vector<Cycle> cycles;
-  const double limit = accepted_at_first * rules.largest_mismatch * rules.largest_mismatch *
-                       matcher.own_squares(few);
-  for (std::size_t i = 0; i < lags.size(); ++i) {
-    const bool is_minimum = (i == 0 || squares[i] <= squares[i - 1]) &&
-                            (i + 1 == lags.size() || squares[i] < squares[i + 1]);
-    if (!is_minimum || !(squares[i] <= limit)) continue;
-    Cycle cycle = refined(matcher, lags[i], step, scene.compared);
-    cycle.mismatch = std::sqrt(cycle.mismatch / own);
-    if (cycle.mismatch <= rules.largest_mismatch) cycles.push_back(cycle);
-  }
-  std::stable_sort(cycles.begin(), cycles.end(),
-                   [](const Cycle& a, const Cycle& b) { return a.mismatch < b.mismatch; });
-  if (cycles.size() > rules.most_cycles) cycles.resize(rules.most_cycles);
-  std::erase_if(cycles, [&](const Cycle& cycle) {
-    return cycle.mismatch > worst_of_best * cycles[0].mismatch;
-  });
-  return cycles;
-}
-
+// Fills the span with the mean of these cycles (one at least).
 void fill_with_cycles(Track& track, FrameSpan span, std::span<const Cycle> cycles,
                       const CurveSettings& settings) {
   const Scene scene = scene_of(track, span, settings);
@@ -179,6 +142,45 @@ void fill_with_cycles(Track& track, FrameSpan span, std::span<const Cycle> cycle
       guess.values[i] += weight * track.values[from + i];
   }
   place_guess(track, span, guess, settings);
+}
+
+}  // namespace
+
+std::vector<Cycle> find_cycles(const Track& track, FrameSpan span, const CurveSettings& settings) {
+  const Scene scene = scene_of(track, span, settings);
+  if (scene.compared.size() < least_compared) return {};
+  const Matcher matcher(track, scene);
+  const std::vector<std::size_t> few = thinned(scene.compared, compared_at_first);
+  const double own = matcher.own_squares(scene.compared);
+  if (!(own > 0)) return {};
+
+  const auto step = std::max<std::ptrdiff_t>(1, std::lround(settings.frame_rate_hz / lags_hz));
+  const auto farthest = std::min(static_cast<std::ptrdiff_t>(track.frames()),
+                                 static_cast<std::ptrdiff_t>(farthest_s * settings.frame_rate_hz));
+  std::vector<std::ptrdiff_t> lags;
+  std::vector<double> squares;
+  for (std::ptrdiff_t lag = -(farthest / step) * step; lag < farthest; lag += step) {
+    lags.push_back(lag);
+    squares.push_back(matcher.squares_at(lag, few));
+  }
+  std::vector<Cycle> cycles;
+  const double limit =
+      accepted_at_first * largest_mismatch * largest_mismatch * matcher.own_squares(few);
+  for (std::size_t i = 0; i < lags.size(); ++i) {
+    const bool is_minimum = (i == 0 || squares[i] <= squares[i - 1]) &&
+                            (i + 1 == lags.size() || squares[i] < squares[i + 1]);
+    if (!is_minimum || !(squares[i] <= limit)) continue;
+    Cycle cycle = refined(matcher, lags[i], step, scene.compared);
+    cycle.mismatch = std::sqrt(cycle.mismatch / own);
+    if (cycle.mismatch <= largest_mismatch) cycles.push_back(cycle);
+  }
+  std::stable_sort(cycles.begin(), cycles.end(),
+                   [](const Cycle& a, const Cycle& b) { return a.mismatch < b.mismatch; });
+  if (cycles.size() > most_cycles) cycles.resize(most_cycles);
+  std::erase_if(cycles, [&](const Cycle& cycle) {
+    return cycle.mismatch > worst_of_best * cycles[0].mismatch;
+  });
+  return cycles;
 }
 
 bool fill_by_cycles(Track& track, FrameSpan span, const CurveSettings& settings,

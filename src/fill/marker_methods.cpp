@@ -1,6 +1,6 @@
 // The methods that fill a marker's gap from other markers: their movement, a rigid body, a local
 // regression, and principal components.
-#include "fill/marker_methods.hpp"
+#include "fill/methods.hpp"
 
 #include <fmt/format.h>
 #include <Eigen/Core>
@@ -24,8 +24,7 @@ constexpr std::size_t least_beside = 16;  // frames
 
 }  // namespace
 
-Filling fill_by_pattern(const Samples& samples, const MarkerGap& gap,
-                        const MarkerRequest& request) {
+Filling fill_by_pattern(const Samples& samples, const MarkerGap& gap, const GapRequest& request) {
   constexpr std::string_view name = "pattern";
   const std::size_t donor = request.donor;
   if (donor == gap.marker) return Filling::refused(name, "the marker is its own donor");
@@ -50,7 +49,7 @@ Filling fill_by_pattern(const Samples& samples, const MarkerGap& gap,
   };
   const bool before = meets(gap.span.first == 0, gap.span.first - 1);
   const bool behind = meets(gap.span.last + 1 == samples.frames, gap.span.last + 1);
-  if (!(before && behind) && !(request.lenient && (before || behind))) {
+  if (!(before && behind) && !(request.fill_all && (before || behind))) {
     return Filling::refused(name, "the donor and the marker are not both seen at the gap's ends");
   }
   Track track = track_around(samples, gap);
@@ -182,8 +181,7 @@ Filling filling_of(const LocalRegression& body, std::vector<Vec3> values, std::s
 
 }  // namespace
 
-Filling fill_by_local_regression(const Samples& samples, const MarkerGap& gap,
-                                 const MarkerRequest&) {
+Filling fill_by_local_regression(const Samples& samples, const MarkerGap& gap, const GapRequest&) {
   constexpr std::string_view name = "local-regression";
   const std::vector<Companion> companions = companions_of(samples, gap, helpers_of(samples, gap));
   const LocalRegression body(samples, gap, companions, most_companions);
@@ -202,7 +200,7 @@ Filling fill_by_local_regression(const Samples& samples, const MarkerGap& gap,
 }
 
 Filling fill_by_rigid_body(const Samples& samples, const MarkerGap& gap,
-                           const MarkerRequest& request) {
+                           const GapRequest& request) {
   constexpr std::string_view name = "rigid-body";
   constexpr double rigid = std::numeric_limits<double>::infinity();
   const double limit = segment_spread * samples.radius;
@@ -211,7 +209,7 @@ Filling fill_by_rigid_body(const Samples& samples, const MarkerGap& gap,
                                       [&](const Companion& c) { return c.spread > limit; });
   const std::size_t count = static_cast<std::size_t>(strangers - segment.begin());
   segment.resize(
-      std::min(segment.size(), request.lenient ? std::max(count, least_companions) : count));
+      std::min(segment.size(), request.fill_all ? std::max(count, least_companions) : count));
   const LocalRegression body(samples, gap, segment, most_companions);
   if (segment.size() < least_companions || !body.usable() || !body.group().turns()) {
     return Filling::refused(
@@ -309,7 +307,7 @@ class ComponentRegression {
 
 }  // namespace
 
-Filling fill_by_pca(const Samples& samples, const MarkerGap& gap, const MarkerRequest&) {
+Filling fill_by_pca(const Samples& samples, const MarkerGap& gap, const GapRequest&) {
   constexpr std::string_view name = "pca";
   const std::vector<std::size_t> helpers = helpers_of(samples, gap);
   const std::vector<std::size_t> frames =

@@ -9,7 +9,6 @@
 #include "base/text.hpp"
 #include "fill/driver.hpp"
 #include "fill/judgement.hpp"
-#include "fill/marker_methods.hpp"
 #include "fill/methods.hpp"
 #include "fill/regression.hpp"
 #include "fill/samples.hpp"
@@ -66,19 +65,19 @@ class MarkerTake : public GappedTake {
 
   double spike_size(const OpenGap&) const override { return spike_share * samples_.radius; }
 
-  // Fills by the method; a lenient request falls back to the best guess if the method cannot.
+  // Fills by the method; a request to fill all falls back to the best guess if the method cannot.
   Filling fill(const OpenGap& gap, FrameSpan span) const override {
     const Method& method = *gap.request->method;
-    const MarkerRequest request = gap.request->of_marker();
+    const GapRequest& request = *gap.request;
     const double length_s = static_cast<double>(gap.gap.length()) / frame_rate_hz;
-    if (!request.lenient && request.longest_gap_s > 0 && length_s > request.longest_gap_s) {
+    if (!request.fill_all && request.longest_gap_s > 0 && length_s > request.longest_gap_s) {
       return Filling::refused(method.about.name,
                               fmt::format("the gap of {:.2f} s is longer than {:.2f} s", length_s,
                                           request.longest_gap_s));
     }
     const MarkerGap asked{gap.track, span};
     Filling filling = fill_marker(method, samples_, asked, request);
-    if (filling.made() || !request.lenient) return filling;
+    if (filling.made() || !request.fill_all) return filling;
     return fill_by_auto(samples_, asked, request);
   }
 
@@ -130,7 +129,7 @@ class MarkerTake : public GappedTake {
 }  // namespace
 
 std::size_t donor_of(const Take& clip, const std::string& name) {
-  if (name.empty()) return MarkerRequest::no_marker;
+  if (name.empty()) return GapRequest::no_marker;
   std::int32_t donor = clip.find(name);
   if (donor < 0) {
     const std::vector<std::uint8_t> meant = names_meant(clip.names, name);
@@ -296,11 +295,10 @@ Filling average(const Samples& samples, const MarkerGap& gap, const Candidates& 
   return filling;
 }
 
-Filling without_support(const Samples& samples, const MarkerGap& gap,
-                        const MarkerRequest& request) {
+Filling without_support(const Samples& samples, const MarkerGap& gap, const GapRequest& request) {
   Filling filling = fill_marker_by_cycles(samples, gap, request);
   if (filling.made()) return filling;
-  if (request.lenient) {
+  if (request.fill_all) {
     const bool is_long = gap.span.length() > samples.frames_in(longest_spline_s, 1);
     return is_long ? fill_by_curve(samples, gap, request, Curve::hermite, "hermite")
                    : fill_by_curve(samples, gap, request, Curve::cubic, "spline");
@@ -313,13 +311,13 @@ Filling without_support(const Samples& samples, const MarkerGap& gap,
 
 }  // namespace
 
-Filling fill_by_auto(const Samples& samples, const MarkerGap& gap, const MarkerRequest& request) {
+Filling fill_by_auto(const Samples& samples, const MarkerGap& gap, const GapRequest& request) {
   const Candidates candidates(samples, gap);
   if (!candidates.any()) return without_support(samples, gap, request);
   const Proposals proposals = candidates.proposals(gap, frames_of(gap.span));
   const Trials trials = try_candidates(samples, gap, candidates);
   if (trials.products.empty()) {
-    if (!request.lenient && !candidates.is_short() && !candidates.on_a_segment()) {
+    if (!request.fill_all && !candidates.is_short() && !candidates.on_a_segment()) {
       return Filling::refused(name, "the marker is seen too little to try a method on it");
     }
     const std::size_t chosen =
@@ -332,7 +330,7 @@ Filling fill_by_auto(const Samples& samples, const MarkerGap& gap, const MarkerR
   Filling filling = average(samples, gap, candidates, proposals, trials);
   // Without other markers there is no size to judge the error by; a curve fills short gaps only.
   const double radius = samples.radius;
-  if (request.lenient || radius == 0 || filling.expected_error <= largest_error * radius) {
+  if (request.fill_all || radius == 0 || filling.expected_error <= largest_error * radius) {
     return filling;
   }
   Filling refused = Filling::refused(

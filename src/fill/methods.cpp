@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "fill/cycles.hpp"
+#include "fill/curves.hpp"
 #include "fill/samples.hpp"
 #include "kinemend/error.hpp"
 
@@ -204,7 +204,7 @@ bool fill_joint(const Method& method, Track& track, FrameSpan span, const JointC
 }
 
 Filling fill_marker(const Method& method, const Samples& samples, const MarkerGap& gap,
-                    const MarkerRequest& request) {
+                    const GapRequest& request) {
   return method.curve ? fill_by_curve(samples, gap, request, *method.curve, method.about.name)
                       : method.fill_marker(samples, gap, request);
 }
@@ -277,11 +277,11 @@ std::vector<Vec3> curve_positions(const Samples& samples, const MarkerGap& gap, 
   return values_in(track, span);
 }
 
-Filling fill_by_curve(const Samples& samples, const MarkerGap& gap, const MarkerRequest& request,
+Filling fill_by_curve(const Samples& samples, const MarkerGap& gap, const GapRequest& request,
                       Curve curve, std::string_view name) {
   const double length_s = static_cast<double>(gap.span.length()) / samples.frame_rate_hz;
   const double longest_s = request.longest_gap_s > 0 ? request.longest_gap_s : longest_curve_s;
-  if (!request.lenient) {
+  if (!request.fill_all) {
     if (gap.span.first == 0 || gap.span.last + 1 == samples.frames) {
       return Filling::refused(name, "the gap is at an end of the take");
     }
@@ -302,7 +302,7 @@ bool fill_joint_by_cycles(Track& track, FrameSpan span, const JointContext& cont
 // The marker's track is expressed in the frame of reference of the rest of the body, so that a
 // cycle may happen elsewhere and in another direction. The whole body is used: its shape is placed
 // alike in every cycle, however the gap's marker moves.
-Filling fill_marker_by_cycles(const Samples& samples, const MarkerGap& gap, const MarkerRequest&) {
+Filling fill_marker_by_cycles(const Samples& samples, const MarkerGap& gap, const GapRequest&) {
   constexpr std::string_view name = "cyclic";
   std::vector<std::size_t> markers;
   for (const Companion& companion : companions_of(samples, gap, helpers_of(samples, gap))) {

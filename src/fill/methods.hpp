@@ -1,8 +1,10 @@
-// The table of all ways to fill a gap, and the rules by which methods for joints are judged.
+// The table of all ways to fill a gap, the rules by which methods for joints are judged, and the
+// functions that fill a gap of one marker.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -10,11 +12,54 @@
 
 #include "fill/curves.hpp"
 #include "fill/judgement.hpp"
-#include "fill/marker_methods.hpp"
 #include "fill/regression.hpp"
+#include "fill/samples.hpp"
+#include "fill/track.hpp"
 #include "kinemend/fill.hpp"
 
 namespace kinemend::fill {
+
+struct Method;
+
+/// The request for one gap, from the settings of a run or a row of a plan.
+struct GapRequest {
+  const Method* method = nullptr;
+  std::size_t donor = no_marker;            ///< used by `pattern`
+  double longest_gap_s = 0;                 ///< 0: the limit of the method's rules
+  bool fill_all = false;                    ///< also fills gaps that the rules refuse
+  double max_error = 0, max_error_deg = 0;  ///< as `FillSettings`; 0: no limit
+  bool unlabelled = false;                  ///< unlabelled markers are evidence
+  std::optional<Filling> refusal = {};      ///< set if the gap must stay open, whatever the method
+  const LearnedFill* learned = nullptr;     ///< for a learned method
+
+  static constexpr std::size_t no_marker = std::numeric_limits<std::size_t>::max();
+};
+
+using FillMarkerGap = Filling (*)(const Samples& samples, const MarkerGap& gap,
+                                  const GapRequest& request);
+
+Filling fill_by_pattern(const Samples& samples, const MarkerGap& gap, const GapRequest& request);
+Filling fill_by_rigid_body(const Samples& samples, const MarkerGap& gap, const GapRequest& request);
+Filling fill_by_pca(const Samples& samples, const MarkerGap& gap, const GapRequest& request);
+Filling fill_by_local_regression(const Samples& samples, const MarkerGap& gap,
+                                 const GapRequest& request);
+Filling fill_marker_by_cycles(const Samples& samples, const MarkerGap& gap,
+                              const GapRequest& request);
+Filling fill_by_auto(const Samples& samples, const MarkerGap& gap, const GapRequest& request);
+/// The longest gap that a curve fills by its own rule, and in which `auto` tries one. Not swept.
+inline constexpr double longest_curve_s = 0.25;
+/// Fills by a curve through the marker's own samples; `name` is the method's.
+Filling fill_by_curve(const Samples& samples, const MarkerGap& gap, const GapRequest& request,
+                      Curve curve, std::string_view name);
+
+/// Returns the curve through the marker's own samples at the span's frames; empty if it has none.
+std::vector<Vec3> curve_positions(const Samples& samples, const MarkerGap& gap, Curve curve);
+
+/// Markers of one segment keep their distance to within this share of the body's radius (standard
+/// deviation). Chosen on the takes that docs/measured/fill.md names.
+inline constexpr double segment_spread = 0.02;
+/// The number of other markers that a regression needs to know the body's rotation.
+inline constexpr std::size_t least_companions = 3;
 
 /// The data of the take that the methods for joints use.
 struct JointContext {
@@ -63,7 +108,7 @@ const LearnedFill* model_of(const Method& method, const FillModels& models);
 
 bool fill_joint(const Method& method, Track& track, FrameSpan span, const JointContext& context);
 Filling fill_marker(const Method& method, const Samples& samples, const MarkerGap& gap,
-                    const MarkerRequest& request);
+                    const GapRequest& request);
 
 bool fill_by_squad(Track& track, FrameSpan span, const JointContext& context);
 bool fill_joint_by_cycles(Track& track, FrameSpan span, const JointContext& context);

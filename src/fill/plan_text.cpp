@@ -1,6 +1,7 @@
 // Reads and writes the gap plan as a file.
 #include <fast_float/fast_float.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -254,9 +255,7 @@ PlannedGap planned(const Row& row, const fill::PlanRows& rows, const Take& clip)
 }  // namespace
 
 std::string plan_csv(const Take& clip, std::span<const PlannedGap> plan) {
-  std::string text =
-      "name,quantity,first_frame,last_frame,length_frames,length_s,verdict,method,donor,"
-      "longest_gap_s,filled_by,evidence,expected_error,unit,reason";
+  std::string text = fmt::format("{}", fmt::join(columns, ","));
   if (!plan.empty()) {
     for (const GapPreview& preview : plan.front().previews)
       text += fmt::format(",{}{}", preview_prefix, preview.method);

@@ -10,55 +10,187 @@
 #include <limits>
 #include <vector>
 
+#include "base/frame_span.hpp"
+#include "base/quantiles.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/extend/frames.hpp"
 #include "kinemend/extend/signal.hpp"
 #include "kinemend/metrics.hpp"
-#include "metrics/compare.hpp"
 #include "motion/rotation.hpp"
-
-namespace kinemend::metrics {
-
-/// Markers that two takes share, with a lag in time.
-struct MarkerPair {
-  const Take& reference;
-  const Take& other;
-  std::vector<std::size_t> reference_markers, other_markers;  ///< the same length
-  std::size_t first_frame = 0;  ///< first compared frame of the reference
-  std::size_t frames = 0;
-  std::ptrdiff_t lag = 0;  ///< frame f of the reference is f + lag of the other
-  double scale = 1;        ///< factor of the other's lengths
-
-  std::size_t markers() const { return reference_markers.size(); }
-  bool is_seen(std::size_t frame, std::size_t marker) const;
-  Vec3 reference_at(std::size_t frame, std::size_t marker) const;  ///< frames count from 0
-  Vec3 other_at(std::size_t frame, std::size_t marker) const;
-};
-
-/// Throws as `compare_markers` does.
-MarkerPair pair_markers(const Take& reference, const Take& other, std::ptrdiff_t lag_frames);
-
-/// The fit of one marker from the reference to the other system: p' = turn p + shift, or gain p +
-/// shift along each axis.
-struct FittedMarker {
-  Quat turn{1, 0, 0, 0};
-  Vec3 gain{1, 1, 1};
-  Vec3 shift;
-
-  Vec3 operator()(Vec3 p) const;
-};
-/// Fits by least squares over the samples that both takes have. A marker that is never seen in both
-/// is not moved; a constant channel gets an offset only.
-std::vector<FittedMarker> fit_markers(const MarkerPair& pair, MarkerFit fit);
-
-}  // namespace kinemend::metrics
 
 namespace kinemend {
 
 namespace {
 
-using metrics::FittedMarker;
-using metrics::MarkerPair;
+// Markers that two takes share, with a lag in time.
+struct MarkerPair {
+  const Take& reference;
+  const Take& other;
+  std::vector<std::size_t> reference_markers, other_markers;  // the same length
+  std::size_t first_frame = 0;  // first compared frame of the reference
+  std::size_t frames = 0;
+  std::ptrdiff_t lag = 0;  // frame f of the reference is f + lag of the other
+  double scale = 1;        // factor of the other's lengths
+
+  std::size_t markers() const { return reference_markers.size(); }
+  bool is_seen(std::size_t frame, std::size_t marker) const {
+    const std::size_t f = first_frame + frame;
+    return reference.is_observed(f, reference_markers[marker]) &&
+           other.is_observed(f + static_cast<std::size_t>(lag), other_markers[marker]);
+  }
+  // Frames count from 0.
+  Vec3 reference_at(std::size_t frame, std::size_t marker) const {
+    return reference.position(first_frame + frame, reference_markers[marker]);
+  }
+  Vec3 other_at(std::size_t frame, std::size_t marker) const {
+    return scale * other.position(first_frame + frame + static_cast<std::size_t>(lag),
+                                  other_markers[marker]);
+  }
+};
+
+// The fit of one marker from the reference to the other system: p' = turn p + shift, or gain p +
+// shift along each axis.
+struct FittedMarker {
+  Quat turn{1, 0, 0, 0};
+  Vec3 gain{1, 1, 1};
+  Vec3 shift;
+
+  Vec3 operator()(Vec3 p) const {
+    const Vec3 q = rotate(turn, p);
+    return Vec3{gain.x * q.x, gain.y * q.y, gain.z * q.z} + shift;
+  }
+};
+
+// Chosen by hand, not swept.
+constexpr double rate_tolerance = 1e-3;  // relative: 29.97 and 30 are not the same
+
+double scale_between(const Take& reference, const Take& other) {
+  const double of_reference = metres_per_unit(reference.unit);
+  const double of_other = metres_per_unit(other.unit);
+  return of_reference > 0 && of_other > 0 ? of_other / of_reference : 1;
+}
+
+// Sums over the samples of one channel that both takes have.
+struct ChannelSums {
+  double count = 0, x = 0, y = 0, xx = 0, xy = 0;
+
+  void add(double reference, double other) {
+    count += 1;
+    x += reference;
+    y += other;
+    xx += reference * reference;
+    xy += reference * other;
+  }
+  double variance() const { return xx - x * x / count; }
+  double gain() const {
+    // Rounding errors, as a share of the squared size. Not swept.
+    constexpr double standing_still = 1e-12;
+    return variance() > standing_still * xx ? (xy - x * y / count) / variance() : 1;
+  }
+};
+
+FittedMarker gains_and_offsets(const MarkerPair& pair, std::size_t marker) {
+  ChannelSums x, y, z;
+  // Coordinates relative to a point of the path lose no digits in sums of squares.
+  Vec3 origin;
+  for (std::size_t f = 0; f < pair.frames; ++f) {
+    if (!pair.is_seen(f, marker)) continue;
+    if (x.count == 0) origin = pair.reference_at(f, marker);
+    const Vec3 p = pair.reference_at(f, marker) - origin, q = pair.other_at(f, marker) - origin;
+    x.add(p.x, q.x);
+    y.add(p.y, q.y);
+    z.add(p.z, q.z);
+  }
+  FittedMarker fitted;
+  if (x.count == 0) return fitted;
+  fitted.gain = {x.gain(), y.gain(), z.gain()};
+  const auto offset = [](const ChannelSums& sums, double gain, double start) {
+    return (sums.y - gain * sums.x) / sums.count + start - gain * start;
+  };
+  fitted.shift = {offset(x, fitted.gain.x, origin.x), offset(y, fitted.gain.y, origin.y),
+                  offset(z, fitted.gain.z, origin.z)};
+  return fitted;
+}
+
+Eigen::Vector3d vector_of(Vec3 v) { return {v.x, v.y, v.z}; }
+
+FittedMarker rigid(const MarkerPair& pair) {
+  Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = from;
+  double count = 0;
+  const auto for_each_sample = [&](const auto& work) {
+    for (std::size_t f = 0; f < pair.frames; ++f) {
+      for (std::size_t m = 0; m < pair.markers(); ++m) {
+        if (pair.is_seen(f, m))
+          work(vector_of(pair.reference_at(f, m)), vector_of(pair.other_at(f, m)));
+      }
+    }
+  };
+  for_each_sample([&](const auto& p, const auto& q) {
+    from += p;
+    to += q;
+    count += 1;
+  });
+  if (count == 0) return {};
+  from /= count;
+  to /= count;
+  Eigen::Matrix3d product = Eigen::Matrix3d::Zero();
+  for_each_sample(
+      [&](const auto& p, const auto& q) { product += (q - to) * (p - from).transpose(); });
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(product, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Matrix3d turn = svd.matrixU() * svd.matrixV().transpose();
+  if (turn.determinant() < 0) {
+    Eigen::Matrix3d u = svd.matrixU();
+    u.col(2) = -u.col(2);
+    turn = u * svd.matrixV().transpose();
+  }
+  const Eigen::Quaterniond q(turn);
+  const Eigen::Vector3d shift = to - turn * from;
+  return {{q.w(), q.x(), q.y(), q.z()}, {1, 1, 1}, {shift.x(), shift.y(), shift.z()}};
+}
+
+// Throws as `compare_markers` does.
+MarkerPair pair_markers(const Take& reference, const Take& other, std::ptrdiff_t lag_frames) {
+  const std::size_t frames = reference.frame_count();
+  if (frames != other.frame_count())
+    throw Error(ErrorKind::usage, fmt::format("the reference has {} frames, the other take {}",
+                                              frames, other.frame_count()));
+  const double rate_hz = reference.frame_rate_hz;
+  if (!(std::fabs(other.frame_rate_hz - rate_hz) <= rate_tolerance * rate_hz))
+    throw Error(ErrorKind::usage,
+                fmt::format("the reference has {:g} frames a second, the other take {:g}; kinemend "
+                            "convert --fps brings one to the rate of the other",
+                            rate_hz, other.frame_rate_hz));
+  MarkerPair pair{reference, other, {}, {}};
+  for (std::size_t m = 0; m < reference.marker_count(); ++m) {
+    const std::int32_t found = other.find(reference.names[m]);
+    if (found < 0 || !reference.holds_positions(m) ||
+        !other.holds_positions(static_cast<std::size_t>(found)))
+      continue;
+    pair.reference_markers.push_back(m);
+    pair.other_markers.push_back(static_cast<std::size_t>(found));
+  }
+  if (pair.markers() == 0)
+    throw Error(ErrorKind::usage, "the two takes have no marker of the same name");
+  const auto shift = static_cast<std::size_t>(std::abs(lag_frames));
+  if (shift >= frames)
+    throw Error(ErrorKind::usage,
+                fmt::format("a lag of {} frames leaves nothing of {}", lag_frames, frames));
+  pair.lag = lag_frames;
+  pair.first_frame = lag_frames < 0 ? shift : 0;
+  pair.frames = frames - shift;
+  pair.scale = scale_between(reference, other);
+  return pair;
+}
+
+// Fits by least squares over the samples that both takes have. A marker that is never seen in both
+// is not moved; a constant channel gets an offset only.
+std::vector<FittedMarker> fit_markers(const MarkerPair& pair, MarkerFit fit) {
+  std::vector<FittedMarker> fitted(pair.markers());
+  if (fit == MarkerFit::rigid) std::fill(fitted.begin(), fitted.end(), rigid(pair));
+  for (std::size_t m = 0; m < fitted.size() && fit == MarkerFit::gain_offset; ++m)
+    fitted[m] = gains_and_offsets(pair, m);
+  return fitted;
+}
 
 // The bands of docs/measured/noise.md and their filter, by definition; the fewest frames and the
 // longest lag are chosen by hand, not swept.
@@ -76,28 +208,6 @@ struct Errors {
 
   std::size_t markers() const { return values.channels / 3; }
 };
-
-void bridge(Errors& errors, std::size_t marker) {
-  const std::size_t frames = errors.values.frames, markers = errors.markers();
-  std::size_t last = frames;
-  for (std::size_t f = 0; f < frames; ++f) {
-    if (errors.seen[f * markers + marker] == 0) continue;
-    const std::size_t begin = last == frames ? 0 : last + 1;
-    for (std::size_t c = 3 * marker; c < 3 * marker + 3; ++c) {
-      const double to = errors.values(f, c), from = last == frames ? to : errors.values(last, c);
-      for (std::size_t g = begin; g < f; ++g) {
-        const double u =
-            last == frames ? 0 : static_cast<double>(g - last) / static_cast<double>(f - last);
-        errors.values(g, c) = from + u * (to - from);
-      }
-    }
-    last = f;
-  }
-  for (std::size_t f = last == frames ? frames : last + 1; f < frames; ++f) {
-    for (std::size_t c = 3 * marker; c < 3 * marker + 3; ++c)
-      errors.values(f, c) = errors.values(last, c);
-  }
-}
 
 // Whether the standard deviation of the reference exceeds `least`, so that the channel is compared.
 bool moves(const std::vector<double>& values, double least) {
@@ -127,9 +237,12 @@ Errors errors_of(const MarkerPair& pair, const std::vector<FittedMarker>& fitted
         paths[axis].push_back(component(pair.reference_at(f, m), axis));
       }
     }
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      errors.counts[3 * m + axis] = !paths[axis].empty() && moves(paths[axis], least) ? 1 : 0;
-    bridge(errors, m);
+    const auto is_seen = [&](std::size_t f) { return errors.seen[f * markers + m] != 0; };
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t c = 3 * m + axis;
+      errors.counts[c] = !paths[axis].empty() && moves(paths[axis], least) ? 1 : 0;
+      bridge(pair.frames, is_seen, [&](std::size_t f) -> double& { return errors.values(f, c); });
+    }
   }
   return errors;
 }
@@ -220,13 +333,13 @@ double percentile_99(const Errors& errors) {
       if (errors.seen[f * errors.markers() + m] != 0) distances.push_back(norm(vector_at(e, f, m)));
     }
   }
-  return metrics::percentile_of(std::move(distances), 99);
+  return percentile_of(std::move(distances), 99);
 }
 
 // Returns the mean square difference of steps from frame to frame, with gains and offsets removed.
 double disagreement(const Take& reference, const Take& other, std::ptrdiff_t lag, MarkerFit fit) {
-  const MarkerPair pair = metrics::pair_markers(reference, other, lag);
-  const std::vector<FittedMarker> fitted = metrics::fit_markers(pair, fit);
+  const MarkerPair pair = pair_markers(reference, other, lag);
+  const std::vector<FittedMarker> fitted = fit_markers(pair, fit);
   Squares squares;
   for (std::size_t m = 0; m < pair.markers(); ++m) {
     for (std::size_t f = 1; f < pair.frames; ++f) {
@@ -274,13 +387,13 @@ double lag_of(const Take& reference, const Take& other, MarkerFit fit) {
 
 MarkerComparison compare_markers(const Take& reference, const Take& other,
                                  const MarkerComparisonSettings& settings) {
-  const MarkerPair pair = metrics::pair_markers(reference, other, settings.lag_frames);
+  const MarkerPair pair = pair_markers(reference, other, settings.lag_frames);
   const Take& shown = settings.fit_to != nullptr ? *settings.fit_to : other;
-  const MarkerPair fitting = metrics::pair_markers(reference, shown, settings.lag_frames);
+  const MarkerPair fitting = pair_markers(reference, shown, settings.lag_frames);
   if (fitting.reference_markers != pair.reference_markers)
     throw Error(ErrorKind::usage,
                 "the take that is fitted to has other markers than the one that is compared");
-  const std::vector<FittedMarker> fitted = metrics::fit_markers(fitting, settings.fit);
+  const std::vector<FittedMarker> fitted = fit_markers(fitting, settings.fit);
   const Errors errors = errors_of(pair, fitted, settings.least_motion);
   const double rate_hz = reference.frame_rate_hz;
   const auto low = lowpasses(errors, rate_hz);
@@ -302,159 +415,3 @@ MarkerComparison compare_markers(const Take& reference, const Take& other,
 }
 
 }  // namespace kinemend
-
-namespace kinemend::metrics {
-
-namespace {
-
-// Chosen by hand, not swept.
-constexpr double rate_tolerance = 1e-3;  // relative: 29.97 and 30 are not the same
-
-double scale_between(const Take& reference, const Take& other) {
-  const double of_reference = metres_per_unit(reference.unit);
-  const double of_other = metres_per_unit(other.unit);
-  return of_reference > 0 && of_other > 0 ? of_other / of_reference : 1;
-}
-
-// Sums over the samples of one channel that both takes have.
-struct ChannelSums {
-  double count = 0, x = 0, y = 0, xx = 0, xy = 0;
-
-  void add(double reference, double other) {
-    count += 1;
-    x += reference;
-    y += other;
-    xx += reference * reference;
-    xy += reference * other;
-  }
-  double variance() const { return xx - x * x / count; }
-  double gain() const {
-    // Rounding errors, as a share of the squared size. Not swept.
-    constexpr double standing_still = 1e-12;
-    return variance() > standing_still * xx ? (xy - x * y / count) / variance() : 1;
-  }
-};
-
-FittedMarker gains_and_offsets(const MarkerPair& pair, std::size_t marker) {
-  ChannelSums x, y, z;
-  // Coordinates relative to a point of the path lose no digits in sums of squares.
-  Vec3 origin;
-  for (std::size_t f = 0; f < pair.frames; ++f) {
-    if (!pair.is_seen(f, marker)) continue;
-    if (x.count == 0) origin = pair.reference_at(f, marker);
-    const Vec3 p = pair.reference_at(f, marker) - origin, q = pair.other_at(f, marker) - origin;
-    x.add(p.x, q.x);
-    y.add(p.y, q.y);
-    z.add(p.z, q.z);
-  }
-  FittedMarker fitted;
-  if (x.count == 0) return fitted;
-  fitted.gain = {x.gain(), y.gain(), z.gain()};
-  const auto offset = [](const ChannelSums& sums, double gain, double start) {
-    return (sums.y - gain * sums.x) / sums.count + start - gain * start;
-  };
-  fitted.shift = {offset(x, fitted.gain.x, origin.x), offset(y, fitted.gain.y, origin.y),
-                  offset(z, fitted.gain.z, origin.z)};
-  return fitted;
-}
-
-Eigen::Vector3d vector_of(Vec3 v) { return {v.x, v.y, v.z}; }
-
-FittedMarker rigid(const MarkerPair& pair) {
-  Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = from;
-  double count = 0;
-  const auto for_each_sample = [&](const auto& work) {
-    for (std::size_t f = 0; f < pair.frames; ++f) {
-      for (std::size_t m = 0; m < pair.markers(); ++m) {
-        if (pair.is_seen(f, m))
-          work(vector_of(pair.reference_at(f, m)), vector_of(pair.other_at(f, m)));
-      }
-    }
-  };
-  for_each_sample([&](const auto& p, const auto& q) {
-    from += p;
-    to += q;
-    count += 1;
-  });
-  if (count == 0) return {};
-  from /= count;
-  to /= count;
-  Eigen::Matrix3d product = Eigen::Matrix3d::Zero();
-  for_each_sample(
-      [&](const auto& p, const auto& q) { product += (q - to) * (p - from).transpose(); });
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(product, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d turn = svd.matrixU() * svd.matrixV().transpose();
-  if (turn.determinant() < 0) {
-    Eigen::Matrix3d u = svd.matrixU();
-    u.col(2) = -u.col(2);
-    turn = u * svd.matrixV().transpose();
-  }
-  const Eigen::Quaterniond q(turn);
-  const Eigen::Vector3d shift = to - turn * from;
-  return {{q.w(), q.x(), q.y(), q.z()}, {1, 1, 1}, {shift.x(), shift.y(), shift.z()}};
-}
-
-}  // namespace
-
-bool MarkerPair::is_seen(std::size_t frame, std::size_t marker) const {
-  const std::size_t f = first_frame + frame;
-  return reference.is_observed(f, reference_markers[marker]) &&
-         other.is_observed(f + static_cast<std::size_t>(lag), other_markers[marker]);
-}
-
-Vec3 MarkerPair::reference_at(std::size_t frame, std::size_t marker) const {
-  return reference.position(first_frame + frame, reference_markers[marker]);
-}
-
-Vec3 MarkerPair::other_at(std::size_t frame, std::size_t marker) const {
-  return scale *
-         other.position(first_frame + frame + static_cast<std::size_t>(lag), other_markers[marker]);
-}
-
-MarkerPair pair_markers(const Take& reference, const Take& other, std::ptrdiff_t lag_frames) {
-  const std::size_t frames = reference.frame_count();
-  if (frames != other.frame_count())
-    throw Error(ErrorKind::usage, fmt::format("the reference has {} frames, the other take {}",
-                                              frames, other.frame_count()));
-  const double rate_hz = reference.frame_rate_hz;
-  if (!(std::fabs(other.frame_rate_hz - rate_hz) <= rate_tolerance * rate_hz))
-    throw Error(ErrorKind::usage,
-                fmt::format("the reference has {:g} frames a second, the other take {:g}; kinemend "
-                            "convert --fps brings one to the rate of the other",
-                            rate_hz, other.frame_rate_hz));
-  MarkerPair pair{reference, other, {}, {}};
-  for (std::size_t m = 0; m < reference.marker_count(); ++m) {
-    const std::int32_t found = other.find(reference.names[m]);
-    if (found < 0 || !reference.holds_positions(m) ||
-        !other.holds_positions(static_cast<std::size_t>(found)))
-      continue;
-    pair.reference_markers.push_back(m);
-    pair.other_markers.push_back(static_cast<std::size_t>(found));
-  }
-  if (pair.markers() == 0)
-    throw Error(ErrorKind::usage, "the two takes have no marker of the same name");
-  const auto shift = static_cast<std::size_t>(std::abs(lag_frames));
-  if (shift >= frames)
-    throw Error(ErrorKind::usage,
-                fmt::format("a lag of {} frames leaves nothing of {}", lag_frames, frames));
-  pair.lag = lag_frames;
-  pair.first_frame = lag_frames < 0 ? shift : 0;
-  pair.frames = frames - shift;
-  pair.scale = scale_between(reference, other);
-  return pair;
-}
-
-Vec3 FittedMarker::operator()(Vec3 p) const {
-  const Vec3 q = rotate(turn, p);
-  return Vec3{gain.x * q.x, gain.y * q.y, gain.z * q.z} + shift;
-}
-
-std::vector<FittedMarker> fit_markers(const MarkerPair& pair, MarkerFit fit) {
-  std::vector<FittedMarker> fitted(pair.markers());
-  if (fit == MarkerFit::rigid) std::fill(fitted.begin(), fitted.end(), rigid(pair));
-  for (std::size_t m = 0; m < fitted.size() && fit == MarkerFit::gain_offset; ++m)
-    fitted[m] = gains_and_offsets(pair, m);
-  return fitted;
-}
-
-}  // namespace kinemend::metrics

@@ -366,14 +366,6 @@ bool joint_moves(const Take& clip, std::size_t joint) {
   return false;
 }
 
-std::vector<std::size_t> moving_joints(const Take& clip) {
-  std::vector<std::size_t> joints;
-  for (std::size_t j = 0; j < clip.joint_count(); ++j) {
-    if (joint_moves(clip, j)) joints.push_back(j);
-  }
-  return joints;
-}
-
 std::optional<std::size_t> point_of_joint(const Take& take, std::size_t joint) {
   if (joint == 0) return 0;
   const auto& translated = take.translated_joints;

@@ -32,8 +32,6 @@ const Take& frames_from(const Take& clip, std::size_t first, std::optional<Take>
 
 /// Whether a joint has two rotations that differ at all, observed or not.
 bool joint_moves(const Take& clip, std::size_t joint);
-/// Returns all joints that move, in the skeleton's order.
-std::vector<std::size_t> moving_joints(const Take& clip);
 
 /// Returns the point that holds the positions of a joint, numbered as in `Take::position`: 0 for
 /// joint 0, k + 1 for translated joint k; none for a joint that keeps its offset.

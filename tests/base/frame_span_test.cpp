@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace kinemend {
 namespace {
@@ -29,6 +30,35 @@ TEST(RunsOfFrames, MayBeNoneOrOne) {
   EXPECT_TRUE(runs_of({0, 0, 0}).empty());
   ASSERT_EQ(runs_of({1, 1, 1}).size(), 1u);
   EXPECT_EQ(runs_of({1, 1, 1})[0].length(), 3u);
+}
+
+TEST(RunsOfFrames, GoOnAcrossShortBreaks) {
+  const std::vector<std::uint8_t> flags{0, 1, 0, 1, 0, 0, 1, 0, 0, 0, 1};
+  const auto runs = runs_where(
+      flags.size(), [&](std::size_t f) { return flags[f] != 0; }, 2);
+  ASSERT_EQ(runs.size(), 2u);
+  EXPECT_EQ(runs[0].first, 1u);
+  EXPECT_EQ(runs[0].last, 6u);
+  EXPECT_EQ(runs[1].first, 10u);
+  EXPECT_EQ(runs[1].last, 10u);
+}
+
+TEST(Bridges, AreStraightBetweenKnownSamplesAndLevelAtTheEnds) {
+  const auto bridged = [](std::vector<double> values, const std::vector<std::uint8_t>& known) {
+    bridge(
+        values.size(), [&](std::size_t f) { return known[f] != 0; },
+        [&](std::size_t f) -> double& { return values[f]; });
+    return values;
+  };
+  EXPECT_EQ(bridged({9, 9, 1, 9, 9, 9, 3, 9}, {0, 0, 1, 0, 0, 0, 1, 0}),
+            (std::vector<double>{1, 1, 1, 1.5, 2, 2.5, 3, 3}));
+  EXPECT_EQ(bridged({1, 2}, {0, 0}), (std::vector<double>{1, 2}));
+}
+
+TEST(SomeFrames, AreSpreadEvenly) {
+  EXPECT_EQ(evenly_spread(3, 5), (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_EQ(evenly_spread(10, 4), (std::vector<std::size_t>{0, 2, 5, 7}));
+  EXPECT_TRUE(evenly_spread(0, 4).empty());
 }
 
 TEST(FramesInSeconds, AreRoundedAndNotBelowTheLeast) {

@@ -1,5 +1,5 @@
 // Tests of the slow trend of tracks: at curves, ends, spikes and gaps.
-#include "body/body_trend.hpp"
+#include "body/body_frame.hpp"
 
 #include <gtest/gtest.h>
 

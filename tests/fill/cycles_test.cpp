@@ -1,5 +1,5 @@
 // Tests of cycles, on a motion of known period.
-#include "fill/cycles.hpp"
+#include "fill/curves.hpp"
 
 #include <gmock/gmock.h>
 

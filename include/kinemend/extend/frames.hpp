@@ -33,7 +33,7 @@ constexpr double window_rate_hz(double frame_rate_hz) {
 
 /// F frames x D channels, frame-major: the channels of one frame are contiguous, and a window of
 /// frames is one block of memory. The code that encodes a matrix defines the meaning of its
-/// channels (see `representation.hpp`).
+/// channels (see `body.hpp`).
 struct PoseMatrix {
   std::size_t frames = 0;
   std::size_t channels = 0;

@@ -13,10 +13,10 @@
 
 #include "base/parallel.hpp"
 #include "base/quantiles.hpp"
+#include "body/representation.hpp"
 #include "cleaner/live.hpp"
 #include "cleaner/pieces.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/extend/body.hpp"
 #include "kinemend/extend/method_options.hpp"
 #include "kinemend/extend/model.hpp"
 #include "kinemend/extend/options.hpp"

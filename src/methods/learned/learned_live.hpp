@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/extend/body.hpp"
+#include "body/representation.hpp"
 #include "kinemend/extend/cleaner.hpp"
 #include "methods/learned/live_motion_steps.hpp"
 #include "methods/learned/motion_filter.hpp"

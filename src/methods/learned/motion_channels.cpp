@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/quantiles.hpp"
-#include "body/body_rotations.hpp"
+#include "body/body_rest.hpp"
 #include "cleaner/pieces.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/extend/rotation.hpp"

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "body/representation.hpp"
 #include "kinemend/extend/body.hpp"
 #include "kinemend/extend/cleaner.hpp"
 #include "kinemend/extend/frames.hpp"

@@ -12,8 +12,8 @@
 
 #include "base/files.hpp"
 #include "base/quantiles.hpp"
+#include "body/representation.hpp"
 #include "cleaner/pieces.hpp"
-#include "kinemend/extend/body.hpp"
 #include "kinemend/extend/method_options.hpp"
 #include "kinemend/extend/signal.hpp"
 #include "methods/auto/track_vectors.hpp"

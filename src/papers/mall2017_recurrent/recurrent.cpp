@@ -13,7 +13,6 @@
 #include "cleaner/live.hpp"
 #include "cleaner/pieces.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/extend/body.hpp"
 #include "kinemend/extend/cleaner.hpp"
 #include "kinemend/extend/method_options.hpp"
 #include "kinemend/extend/model.hpp"

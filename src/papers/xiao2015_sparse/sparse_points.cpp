@@ -12,7 +12,7 @@
 #include <optional>
 
 #include "base/parallel.hpp"
-#include "kinemend/extend/body.hpp"
+#include "body/representation.hpp"
 #include "kinemend/extend/motion.hpp"
 #include "motion/rotation.hpp"
 

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "base/quantiles.hpp"
-#include "check/feet.hpp"
+#include "check/checks.hpp"
 #include "kinemend/extend/motion.hpp"
 #include "kinemend/report.hpp"
 #include "kinemend/take.hpp"
