@@ -7,7 +7,7 @@
 
 #include "io/npz/npy_array.hpp"
 #include "io/npz/zip_archive.hpp"
-#include "kinemend/error.hpp"
+#include "kinemend/io.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {
@@ -28,17 +28,7 @@ std::optional<NpyArray> npz_array(const NpzDocument& document, const std::string
 /// Returns the names of arrays that are not part of the layout.
 std::vector<std::string> other_npz_arrays(const NpzDocument& document);
 
-/// A repair: its name, how often it was made, and in which array first.
-struct NpzRepair {
-  std::string kind;
-  std::string message;
-  std::size_t count = 0;
-};
-struct NpzTake {
-  Take take;
-  std::vector<NpzRepair> repairs;
-};
 /// Decodes the motion: the result is the same each time. Errors: `unreadable_input`.
-NpzTake take_of_npz(const NpzDocument& document);
+TakeResult take_of_npz(const NpzDocument& document);
 
 }  // namespace kinemend
