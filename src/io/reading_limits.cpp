@@ -7,11 +7,10 @@
 
 namespace kinemend {
 
-double usable_rate(const SourceText& text, Diagnostics& diagnostics, double stated_hz,
-                   std::size_t place) {
+double usable_rate(const SourceText& text, double stated_hz, std::size_t place) {
   if (is_usable_frame_rate(stated_hz)) return stated_hz;
   if (stated_hz > 0) {
-    note_repair(text, diagnostics, "frame_rate_unusable", place, unusable_rate_text(stated_hz));
+    text.note("frame_rate_unusable", place, unusable_rate_text(stated_hz));
   }
   return 0;
 }

@@ -37,35 +37,25 @@ std::size_t least_frame_bytes(const AmcLayout& layout) {
   return bytes;
 }
 
-void note_repairs(const SourceText& text, Diagnostics& diagnostics, const AmcRows& rows) {
-  const auto note = [&](const char* place, std::size_t count, std::string_view kind,
-                        std::string_view message) {
-    if (count == 0) return;
-    note_repair(text, diagnostics, kind, static_cast<std::size_t>(place - text.bytes.data()),
-                message, count);
-  };
-  note(rows.first_gap(), rows.gaps(), "value_not_finite",
-       "a value is not finite: held from a neighbouring frame");
-  note(rows.joins().empty() ? nullptr : rows.joins().front(), rows.joins().size(), "numbers_joined",
-       joined_numbers_text);
-  note(rows.first_number_jump(), rows.number_jumps(), "frame_number_jump",
-       "the number of a frame is not one more than the number before: frames are kept in the order "
-       "of the file");
+void note_repairs(const SourceText& text, const AmcRows& rows) {
+  text.note("value_not_finite", rows.found().gaps,
+            "a value is not finite: held from a neighbouring frame");
+  note_joined_numbers(text, rows.found().joins);
+  text.note("frame_number_jump", rows.number_jumps(),
+            "the number of a frame is not one more than the number before: frames are kept in the "
+            "order of the file");
 }
 
 // Reports a cut frame, and makes reads and writes end before it.
-void note_cut(const SourceText& text, Diagnostics& diagnostics, const AmcRows& rows,
-              std::size_t frames) {
+void note_cut(const SourceText& text, const AmcRows& rows, std::size_t frames) {
   if (rows.cut_frame() == nullptr) return;
   if (frames == 0)
     throw text.error_at(rows.cut_frame(), "the file ends in the middle of its first frame");
-  note_repair(text, diagnostics, "file_cut",
-              static_cast<std::size_t>(rows.cut_frame() - text.bytes.data()),
-              "the file ends in the middle of a frame: the frames before it are read");
+  text.note("file_cut", rows.cut_frame(),
+            "the file ends in the middle of a frame: the frames before it are read");
 }
 
-void read_frames(const SourceText& text, Diagnostics& diagnostics, Take& clip,
-                 AmcDocument& document) {
+void read_frames(const SourceText& text, Take& clip, AmcDocument& document) {
   document.is_angle = angle_columns(clip.skeleton);
   ClipRows clip_rows(clip, offset_adding_frames(clip.skeleton),
                      text.bytes.size() + document.asf_bytes.size());
@@ -76,7 +66,7 @@ void read_frames(const SourceText& text, Diagnostics& diagnostics, Take& clip,
       std::numeric_limits<std::size_t>::max(),
       (text.bytes.size() - document.data_begin) / least_frame_bytes(document.layout) + 1);
   std::vector<double> values(block * width);
-  std::size_t filled = 0, gaps_before = 0;
+  std::size_t filled = 0;
   for (bool more = true; more;) {
     more = rows.next(values.data() + filled * width);
     filled += more ? 1 : 0;
@@ -86,22 +76,20 @@ void read_frames(const SourceText& text, Diagnostics& diagnostics, Take& clip,
                           fmt::format("{} joints: too much memory for a file of {} bytes",
                                       clip.joint_count(), text.bytes.size()));
     }
-    clip_rows.append(values.data(), filled, rows.gaps() > gaps_before);
-    gaps_before = rows.gaps();
+    clip_rows.append(values.data(), filled);
     filled = 0;
   }
-  if (rows.gaps() > 0 && rows.gaps() == clip.frame_count() * width) {
-    throw text.error_at(rows.first_gap(), "every value is not finite");
-  }
-  note_cut(text, diagnostics, rows, clip.frame_count());
-  note_repairs(text, diagnostics, rows);
-  clip_rows.finish(document, rows.gaps() > 0);
+  const CountedRepair<const char*>& gaps = rows.found().gaps;
+  if (gaps.count > 0 && gaps.count == clip.frame_count() * width)
+    throw text.error_at(gaps.first, "every value is not finite");
+  note_cut(text, rows, clip.frame_count());
+  note_repairs(text, rows);
+  clip_rows.finish(document, gaps.count > 0);
   note_first_frame(clip, rows.first_frame_number());
   document.data_end = rows.last_end();
-  document.decimals = rows.most_decimals();
-  if (rows.cut_frame() != nullptr)
-    document.bytes.resize(static_cast<std::size_t>(rows.cut_frame() - text.bytes.data()));
-  separate_numbers(document, rows.joins());
+  document.decimals = rows.found().most_decimals;
+  if (rows.cut_frame() != nullptr) document.bytes.resize(text.offset_of(rows.cut_frame()));
+  separate_numbers(document, rows.found().joins);
 }
 
 void set_rate(Take& clip, Diagnostics& diagnostics, const ReadOptions& options) {
@@ -165,21 +153,21 @@ TakeResult read_amc(std::string bytes, std::string_view name, std::string asf_by
   document->name = name;
   document->skeleton_name = std::filesystem::path(asf_name).filename().string();
   TakeResult result;
-  const SourceText asf_text{asf_name, document->asf_bytes, options.strict};
-  AsfSkeleton asf = parse_asf(asf_text, result.diagnostics, options.max_depth);
-  const SourceText text{name, document->bytes, options.strict};
+  const SourceText asf_text{asf_name, document->asf_bytes, options.strict, &result.diagnostics};
+  AsfSkeleton asf = parse_asf(asf_text, options.max_depth);
+  const SourceText text{name, document->bytes, options.strict, &result.diagnostics};
   if (text.bytes.empty()) throw text.error_at(std::size_t{0}, "the file is empty");
-  const AmcHeader header = read_amc_header(text, result.diagnostics);
+  const AmcHeader header = read_amc_header(text);
   document->data_begin = document->data_end = header.data_begin;
   document->degrees_per_value = header.radians.value_or(asf.radians) ? degrees_per_radian : 1;
   const bool has_frames = header.data_begin < text.bytes.size();
-  document->layout = has_frames ? read_amc_layout(text, result.diagnostics, header, asf, asf_name)
-                                : make_amc_layout(asf);
+  document->layout =
+      has_frames ? read_amc_layout(text, header, asf, asf_name) : make_amc_layout(asf);
   Take& clip = result.take;
   clip.metres_per_unit = document->metres_per_unit = asf.metres_per_unit;
   clip.skeleton = std::move(asf.skeleton);
   set_rate(clip, result.diagnostics, options);
-  read_frames(text, result.diagnostics, clip, *document);
+  read_frames(text, clip, *document);
   document->skeleton = clip.skeleton;
   document->frame_rate_hz = clip.frame_rate_hz;
   document->frame_count = clip.frame_count();
@@ -191,8 +179,7 @@ TakeResult read_amc(std::string bytes, std::string_view name, std::string asf_by
 
 TakeResult read_amc(std::string bytes, std::string_view name, const ReadOptions& options) {
   if (bytes.empty()) throw Error::at_line(name, 1, "the file is empty");
-  Diagnostics ignored;
-  const AmcHeader header = read_amc_header({name, bytes}, ignored);
+  const AmcHeader header = read_amc_header({name, bytes});
   const std::filesystem::path asf = find_skeleton_file(name, header.skeleton_file, options);
   return read_amc(std::move(bytes), name, read_file(asf), asf.string(), options);
 }
@@ -202,8 +189,8 @@ TakeResult read_asf(std::string bytes, std::string_view name, const ReadOptions&
   document->asf_bytes = std::move(bytes);
   document->name = name;
   TakeResult result;
-  const SourceText text{name, document->asf_bytes, options.strict};
-  AsfSkeleton asf = parse_asf(text, result.diagnostics, options.max_depth);
+  const SourceText text{name, document->asf_bytes, options.strict, &result.diagnostics};
+  AsfSkeleton asf = parse_asf(text, options.max_depth);
   document->layout = make_amc_layout(asf);
   document->degrees_per_value = asf.radians ? degrees_per_radian : 1;
   Take& clip = result.take;
@@ -318,9 +305,8 @@ bool has_positions_of(const Take& clip, const Skeleton& skeleton) {
 std::optional<SideFile> amc_side_file(const Take& clip, std::string_view bytes,
                                       const std::filesystem::path& output) {
   const auto* document = dynamic_cast<const AmcDocument*>(clip.source.document.get());
-  Diagnostics ignored;
   const std::string name = output.string();
-  const AmcHeader header = read_amc_header({name, bytes}, ignored);
+  const AmcHeader header = read_amc_header({name, bytes});
   SideFile skeleton{{}, write_asf(clip)};
   skeleton.path = skeleton_place(output, header.skeleton_file, skeleton.bytes,
                                  document != nullptr ? document->skeleton_name : "");

@@ -24,7 +24,7 @@ std::string frame_time_text(double frame_rate_hz) {
     const std::string_view written(
         text.data(),
         static_cast<std::size_t>(write_fixed(text.data(), frame_time_s, decimals) - text.data()));
-    const NumberToken number = read_number(written.data(), written.data() + written.size());
+    const NumberToken number = read_number(written);
     if (number.value > 0 && rate_from_frame_time(number.value, written) == frame_rate_hz)
       return std::string(written);
   }
@@ -93,10 +93,7 @@ class HierarchyWriter {
   void offset_line(std::size_t depth, Vec3 offset) {
     for (std::size_t i = 0; i < depth; ++i) out_.append("\t");
     out_.append("OFFSET");
-    for (const double value : {offset.x, offset.y, offset.z}) {
-      out_.append(" ");
-      out_.append_shortest(value);
-    }
+    out_.append_each(" ", {offset.x, offset.y, offset.z});
     out_.append("\n");
   }
 
