@@ -97,6 +97,27 @@ std::u32string codes_of(std::string_view text) {
   return codes;
 }
 
+// Returns the head alone.
+std::string npy_head(std::string_view type, std::span<const std::size_t> shape) {
+  std::string extents;
+  for (const std::size_t extent : shape) extents += fmt::format("{}, ", extent);
+  if (shape.size() == 1) extents.pop_back();  // (3,)
+  if (shape.size() > 1) extents.resize(extents.size() - 2);
+  std::string text =
+      fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, extents);
+  // Elements begin at a multiple of 64 bytes; a line end ends the head.
+  constexpr std::size_t fixed = 10, alignment = 64;
+  const std::size_t size = (fixed + text.size() + alignment) / alignment * alignment - fixed;
+  text.resize(size - 1, ' ');
+  text += '\n';
+  std::string head(npy_mark);
+  head += '\1';
+  head += '\0';
+  head += static_cast<char>(size & 0xFF);
+  head += static_cast<char>(size >> 8);
+  return head + text;
+}
+
 template <class Value>
 std::string npy_of_values(std::string_view type, std::span<const Value> values,
                           std::span<const std::size_t> shape) {
@@ -168,26 +189,6 @@ std::string npy_text(const NpyArray& array, std::size_t index) {
   // Texts are padded to one size with zeros.
   text.resize(text.find_last_not_of('\0') + 1);
   return text;
-}
-
-std::string npy_head(std::string_view type, std::span<const std::size_t> shape) {
-  std::string extents;
-  for (const std::size_t extent : shape) extents += fmt::format("{}, ", extent);
-  if (shape.size() == 1) extents.pop_back();  // (3,)
-  if (shape.size() > 1) extents.resize(extents.size() - 2);
-  std::string text =
-      fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, extents);
-  // Elements begin at a multiple of 64 bytes; a line end ends the head.
-  constexpr std::size_t fixed = 10, alignment = 64;
-  const std::size_t size = (fixed + text.size() + alignment) / alignment * alignment - fixed;
-  text.resize(size - 1, ' ');
-  text += '\n';
-  std::string head(npy_mark);
-  head += '\1';
-  head += '\0';
-  head += static_cast<char>(size & 0xFF);
-  head += static_cast<char>(size >> 8);
-  return head + text;
 }
 
 std::string npy_of(std::span<const double> values, std::span<const std::size_t> shape) {

@@ -51,8 +51,7 @@ double npy_number(const NpyArray& array, std::size_t index);
 /// a byte becomes that byte again. Errors: `unreadable_input` for a code that is not a character.
 std::string npy_text(const NpyArray& array, std::size_t index);
 
-/// Return members to write: `npy_head` the head alone, for little-endian elements in C order.
-std::string npy_head(std::string_view type, std::span<const std::size_t> shape);
+/// Return members to write, with little-endian elements in C order.
 std::string npy_of(std::span<const double> values, std::span<const std::size_t> shape);
 std::string npy_of(std::span<const std::int32_t> values, std::span<const std::size_t> shape);
 std::string npy_of(std::span<const std::uint8_t> values, std::span<const std::size_t> shape);

@@ -11,8 +11,6 @@
 #include "base/text.hpp"
 #include "io/held_samples.hpp"
 #include "io/npz/npz.hpp"
-#include "io/npz/npz_document.hpp"
-#include "io/npz/zip_archive.hpp"
 #include "io/reading_limits.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 

@@ -9,7 +9,6 @@
 #include "io/held_samples.hpp"
 #include "io/motion/motion_write.hpp"
 #include "io/npz/npz.hpp"
-#include "io/npz/npz_document.hpp"
 #include "io/reading_limits.hpp"
 
 namespace kinemend {
