@@ -6,13 +6,9 @@
 
 #include <algorithm>
 #include <cstring>
-#include <unordered_map>
 #include <utility>
 
-#include "io/acclaim/asf.hpp"
 #include "io/bvh/bvh_hierarchy.hpp"
-#include "io/text/number.hpp"
-#include "io/text/text.hpp"
 #include "kinemend/experimental/letter_case.hpp"
 #include "kinemend/experimental/text.hpp"
 
@@ -184,12 +180,7 @@ class LayoutMatcher {
 };
 
 void number_columns(AmcLayout& layout, const AsfSkeleton& asf) {
-  std::vector<std::size_t> first_column;
-  std::size_t columns = 0;
-  for (const auto& channels : asf.skeleton.channels) {
-    first_column.push_back(columns);
-    columns += channels.size();
-  }
+  const std::vector<std::size_t> first_column = first_columns(asf.skeleton);
   for (AmcBone& bone : layout) {
     for (const auto& slot : channel_slots(asf.dofs[bone.joint])) {
       bone.columns.push_back(slot ? first_column[bone.joint] + *slot : AmcBone::no_column);
@@ -198,6 +189,16 @@ void number_columns(AmcLayout& layout, const AsfSkeleton& asf) {
 }
 
 }  // namespace
+
+std::vector<std::size_t> first_columns(const Skeleton& skeleton) {
+  std::vector<std::size_t> first;
+  std::size_t columns = 0;
+  for (const auto& channels : skeleton.channels) {
+    first.push_back(columns);
+    columns += channels.size();
+  }
+  return first;
+}
 
 AmcHeader read_amc_header(const SourceText& text) {
   const std::string_view bytes = text.bytes;

@@ -62,8 +62,8 @@ struct AmcDocument : MotionDocument {
   std::unique_ptr<RowReader> rows() const override;
 };
 
-/// Returns for each column of `MotionColumns` whether it holds an angle.
-std::vector<std::uint8_t> angle_columns(const Skeleton& skeleton);
+/// Returns the first column of each joint in `MotionColumns`.
+std::vector<std::size_t> first_columns(const Skeleton& skeleton);
 
 /// Walks over the frames of an AMC: a number on a line of its own, then a line for each bone.
 class AmcRows {

@@ -5,15 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <unordered_set>
 #include <utility>
 
 #include "io/acclaim/amc_document.hpp"
 #include "io/motion/motion_write.hpp"
-#include "io/text/number.hpp"
-#include "io/text/text.hpp"
 #include "kinemend/error.hpp"
 
 namespace kinemend {

@@ -8,8 +8,6 @@
 #include <cmath>
 #include <optional>
 
-#include "io/text/number.hpp"
-#include "kinemend/error.hpp"
 #include "kinemend/experimental/letter_case.hpp"
 
 namespace kinemend {
