@@ -166,7 +166,6 @@ class C3dReader {
     std::size_t mended =
         mend_c3d_parameters(document_.bytes, source_.processor, document_.parameters);
     mended += mend_c3d_header(document_.bytes, source_.processor, header, document_.parameters);
-    if (mended == 0) return;
     source_.note("parameter_not_finite", header.parameters_begin,
                  "a rate, scale or offset is not finite: taken as unknown", mended);
   }
@@ -225,8 +224,11 @@ class C3dReader {
   // Reads blocks that stay in the cache, so that the clip's memory is written once and never read.
   void read_points() {
     const std::size_t points = layout().point_count, frames = layout().frame_count;
-    if (frames > 0) mend_analog();
-    if (points == 0 || frames == 0) return;
+    if (frames == 0) return;
+    source_.note("analog_not_finite", layout().data_begin,
+                 "an analog sample is not finite: held from the sample before",
+                 mend_c3d_analog(document_.bytes, source_.processor, layout()));
+    if (points == 0) return;
     const std::size_t block = c3d_block_frames(layout());
     C3dPoints part;
     part.resize(block * points);
@@ -250,13 +252,6 @@ class C3dReader {
     clip_.source.facts = c3d_facts(document_, decoder.counts());
   }
 
-  void mend_analog() {
-    const std::size_t mended = mend_c3d_analog(document_.bytes, source_.processor, layout());
-    if (mended == 0) return;
-    source_.note("analog_not_finite", layout().data_begin,
-                 "an analog sample is not finite: held from the sample before", mended);
-  }
-
   // Marks samples whose fourth word has a residual or a camera; a sample that was not seen has
   // neither.
   std::vector<std::uint8_t> samples_with_a_measure() const {
@@ -273,11 +268,9 @@ class C3dReader {
   }
 
   void repair_points(const C3dPointCounts& counts) {
-    if (counts.not_finite > 0) {
-      source_.note("value_not_finite", layout().data_begin,
-                   "a position is not finite and not marked as missing: taken as missing",
-                   counts.not_finite);
-    }
+    source_.note("value_not_finite", layout().data_begin,
+                 "a position is not finite and not marked as missing: taken as missing",
+                 counts.not_finite);
     // Some programs mark missing points in this way too, so a strict reader accepts it.
     for (std::size_t i = 0; i < counts.missing_not_finite; ++i) {
       source_.diagnostics.add("missing_not_finite",
