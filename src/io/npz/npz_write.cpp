@@ -1,5 +1,4 @@
 // Writes npz files: into the source archive if the take has one, else as new archives.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>

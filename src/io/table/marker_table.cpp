@@ -11,6 +11,7 @@
 #include "io/reading_limits.hpp"
 #include "io/table/marker_zeros.hpp"
 #include "io/text/fixed_digits.hpp"
+#include "kinemend/experimental/frame_rate.hpp"
 
 namespace kinemend {
 
@@ -506,6 +507,17 @@ void name_the_unnamed(const SourceText& text, std::size_t place, Take& clip) {
   text.note("marker_unnamed", place,
             "a marker has no name: it is called *1, *2, ... by its position", unnamed);
 }
+
+namespace {
+
+// Returns the rate if a take can have it, else 0 for unknown. A missing rate is no repair.
+double usable_rate(const SourceText& text, double stated_hz, std::size_t place) {
+  if (is_usable_frame_rate(stated_hz)) return stated_hz;
+  if (stated_hz > 0) text.note("frame_rate_unusable", place, unusable_rate_text(stated_hz));
+  return 0;
+}
+
+}  // namespace
 
 double table_rate(const SourceText& text, const RowRate& times, std::size_t rows_place,
                   const TableRate& said) {
