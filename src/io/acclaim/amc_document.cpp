@@ -9,8 +9,7 @@
 #include <utility>
 
 #include "io/bvh/bvh_hierarchy.hpp"
-#include "kinemend/experimental/letter_case.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

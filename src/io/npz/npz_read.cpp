@@ -12,7 +12,7 @@
 #include "io/held_samples.hpp"
 #include "io/npz/npz.hpp"
 #include "io/reading_limits.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/extend/frames.hpp"
 
 namespace kinemend {
 

@@ -6,8 +6,7 @@
 
 #include <algorithm>
 
-#include "kinemend/experimental/letter_case.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "io/table/marker_table.hpp"
-#include "kinemend/skeleton.hpp"
 #include "kinemend/take.hpp"
 #include "motion/conversions.hpp"
 

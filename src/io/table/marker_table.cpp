@@ -11,7 +11,7 @@
 #include "io/reading_limits.hpp"
 #include "io/table/marker_zeros.hpp"
 #include "io/text/fixed_digits.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/extend/frames.hpp"
 
 namespace kinemend {
 

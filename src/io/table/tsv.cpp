@@ -8,7 +8,7 @@
 #include "io/table/marker_table.hpp"
 #include "io/table/tables.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <optional>
 
-#include "kinemend/experimental/letter_case.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 
