@@ -26,12 +26,10 @@ namespace {
 // Chosen by hand: more than any format needs to be recognised.
 constexpr std::size_t sniffed_bytes = 4096;
 
-std::string known_formats(bool only_readable) {
+std::string known_formats() {
   std::string names;
-  for (const Format& format : formats()) {
-    if (only_readable && format.read == nullptr) continue;
+  for (const Format& format : formats())
     names += (names.empty() ? "" : ", ") + std::string(format.name);
-  }
   return names;
 }
 
@@ -39,8 +37,8 @@ const Format& format_called(std::string_view name) {
   for (const Format& format : formats()) {
     if (format.name == name) return format;
   }
-  throw Error(ErrorKind::usage, fmt::format("unknown format {}; the formats are: {}", quote(name),
-                                            known_formats(false)));
+  throw Error(ErrorKind::usage,
+              fmt::format("unknown format {}; the formats are: {}", quote(name), known_formats()));
 }
 
 const Format& format_of(std::string_view bytes, std::string_view name) {
@@ -48,8 +46,8 @@ const Format& format_of(std::string_view bytes, std::string_view name) {
   if (best == nullptr) best = format_of_path(std::filesystem::path(name));
   if (best != nullptr) return *best;
   if (bytes.empty()) throw Error::at_line(name, 1, "the file is empty");
-  throw Error::at_line(
-      name, 1, fmt::format("not a motion file of a known format ({})", known_formats(true)));
+  throw Error::at_line(name, 1,
+                       fmt::format("not a motion file of a known format ({})", known_formats()));
 }
 
 // A table with tabs may have the extension .tsv, whichever program wrote it.
@@ -221,10 +219,6 @@ TakeResult read_take(std::string bytes, std::string_view name, const ReadOptions
   if (options.frame_rate_hz != 0) check_frame_rate(options.frame_rate_hz);
   const Format& format =
       options.format.empty() ? format_of(bytes, name) : format_called(options.format);
-  if (format.read == nullptr) {
-    throw Error(ErrorKind::usage,
-                fmt::format("{}: {} files are written, not read", name, format.name));
-  }
   Diagnostics about_name;
   if (options.format.empty()) note_extension(format, name, options.strict, about_name);
   TakeResult result = format.read(std::move(bytes), name, options);

@@ -1,10 +1,8 @@
-// Limits on what readers accept from a file: the memory that its take needs, and the frame rate
-// that it states.
+// Limits on what readers accept from a file: the memory that its take needs, and its frame rate.
 #pragma once
 
 #include <cstddef>
-
-#include "io/text/text.hpp"
+#include <string>
 
 namespace kinemend {
 
@@ -14,12 +12,7 @@ inline std::size_t memory_limit(std::size_t file_bytes) {
   return (std::size_t{16} << 20) + 24 * file_bytes;
 }
 
-/// Returns the rate that a file states if a take can have it (`frame_rate.hpp`), else 0 for
-/// unknown. A rate out of range is the repair `frame_rate_unusable`; a missing rate is not.
-double usable_rate(const SourceText& text, Diagnostics& diagnostics, double stated_hz,
-                   std::size_t place);
-
-/// Returns the message of that repair.
+/// Returns the message of the repair `frame_rate_unusable`, for a rate that a take cannot have.
 std::string unusable_rate_text(double stated_hz);
 
 }  // namespace kinemend

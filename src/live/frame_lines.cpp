@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "io/bvh/bvh.hpp"
+#include "io/held_samples.hpp"
 #include "io/motion/motion_rows.hpp"
 #include "motion/rotation.hpp"
 
@@ -43,7 +44,7 @@ FrameReader::Read FrameReader::read(std::string_view line) {
     constexpr double most = 0x1p53;  // still exact
     const std::string_view word = take_word(line);
     if (word.empty()) return Read::text;
-    const NumberToken token = read_number(word.data(), word.data() + word.size());
+    const NumberToken token = read_number(word);
     const bool whole = token.kind == TokenKind::number && token.end == word.data() + word.size() &&
                        std::fabs(token.value) < most && token.value == std::floor(token.value);
     if (!whole) return begins_like_a_number(word) ? Read::number : Read::text;
@@ -81,7 +82,7 @@ FrameReader::Read JointReader::read_values(std::string_view line) {
     ++values_found_;
     return Read::values;
   }
-  gaps_ = rows.gaps();
+  gaps_ = rows.found().gaps.count;
   take_rotations();
   take_positions();
   return Read::frame;
@@ -92,7 +93,7 @@ void JointReader::take_rotations() {
   frame_.observed.clear();
   if (gaps_ > 0) frame_.observed.resize(rotations_.size(), 1);
   for (std::size_t j = 0; j < rotations_.size(); ++j) {
-    if (is_gap(rotations_[j])) {
+    if (is_missing(rotations_[j])) {
       frame_.observed[j] = 0;
       continue;
     }
@@ -251,7 +252,7 @@ void JointWriter::append_values(const Frame& frame) {
   }
   for (std::size_t j = 0; j < angles_.size(); ++j) {
     const MotionColumns::Rotation& rotation = columns_.rotations()[j];
-    if (rotation.order.count == 0 || is_gap(frame.rotations[j])) continue;
+    if (rotation.order.count == 0 || is_missing(frame.rotations[j])) continue;
     angles_[j] = to_euler_near(frame.rotations[j], rotation.order, angles_[j]);
     for (std::size_t i = 0; i < rotation.order.count; ++i)
       put(rotation.columns[i], angles_[j][i] * degrees_per_radian);

@@ -79,9 +79,9 @@ std::string_view first_word(std::string_view line) {
 }  // namespace
 
 LiveHeader read_live_header(std::string_view text, std::string_view name, double frame_rate_hz) {
-  const SourceText source{name, text};
   Diagnostics diagnostics;
-  BvhHeader read = read_bvh_header(source, diagnostics, most_depth, rate_when_unknown_hz);
+  const SourceText source{name, text, false, &diagnostics};
+  BvhHeader read = read_bvh_header(source, most_depth, rate_when_unknown_hz);
   LiveHeader header;
   const auto piece = [&](ByteSpan span) { return text.substr(span.begin, span.size); };
   if (frame_rate_hz > 0) {
@@ -128,8 +128,7 @@ LiveHeader read_marker_header(std::string_view line, double frame_rate_hz) {
   scanner.next();
   const std::string_view rate = scanner.next();
   LiveHeader header;
-  const NumberToken token =
-      rate.empty() ? NumberToken{} : read_number(rate.data(), rate.data() + rate.size());
+  const NumberToken token = read_number(rate);
   if (token.kind != TokenKind::number || !is_usable_frame_rate(token.value))
     fail(fmt::format("expected the rate in hertz after MARKERS, found {}", quote(rate)));
   header.frame_rate_hz = frame_rate_hz > 0 ? frame_rate_hz : token.value;

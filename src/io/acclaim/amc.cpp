@@ -8,7 +8,6 @@
 #include <array>
 #include <cctype>
 #include <limits>
-#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -27,6 +26,117 @@ namespace kinemend {
 
 namespace {
 
+namespace fs = std::filesystem;
+
+bool is_asf(const fs::path& path) { return equal_ignoring_case(path.extension().string(), ".asf"); }
+
+// Returns the part before the number of the take: 35 for 35_01.
+std::string subject_of(const std::string& stem) { return stem.substr(0, stem.find('_')); }
+
+// Returns file names, the most likely first. A path inside the file is from the machine that wrote
+// it, so only its last part is used.
+std::vector<std::string> likely_names(const std::string& stem, std::string_view named_inside) {
+  std::vector<std::string> names;
+  const auto add = [&](std::string name) {
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(std::move(name));
+  };
+  const std::string_view inside = named_inside.substr(named_inside.find_last_of("\\/") + 1);
+  if (is_asf(fs::path(inside))) add(std::string(inside));
+  add(stem + ".asf");
+  if (!subject_of(stem).empty()) add(subject_of(stem) + ".asf");
+  return names;
+}
+
+// Whether a file belongs to a subject, as 35-walk.asf belongs to 35.
+bool names_subject(const fs::path& file, const std::string& subject) {
+  const std::string stem = file.stem().string();
+  if (subject.empty() || stem.size() <= subject.size()) return false;
+  const auto next = static_cast<unsigned char>(stem[subject.size()]);
+  return equal_ignoring_case(stem.substr(0, subject.size()), subject) && std::isalnum(next) == 0;
+}
+
+std::vector<fs::path> asf_files_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (is_asf(entry->path())) files.push_back(entry->path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// Finds the ASF file of an AMC, as `ReadOptions::skeleton` describes. `amc_name` is the AMC's path
+// or "standard input", `named_inside` the path in its line `#!OML:ASF`. Errors: `unreadable_input`,
+// with the names that were tried.
+fs::path find_skeleton_file(std::string_view amc_name, std::string_view named_inside,
+                            const ReadOptions& options) {
+  if (!options.skeleton.empty()) return options.skeleton;
+  const fs::path parent = fs::path(amc_name).parent_path();
+  const fs::path folder = parent.empty() ? fs::path(".") : parent;
+  const std::string stem = fs::path(amc_name).stem().string();
+  const std::vector<std::string> names = likely_names(stem, named_inside);
+  const std::vector<fs::path> files = asf_files_in(folder);
+  for (const std::string& name : names) {
+    const auto same = [&](const fs::path& file) {
+      return equal_ignoring_case(file.filename().string(), name);
+    };
+    const auto found = std::find_if(files.begin(), files.end(), same);
+    if (found != files.end()) return parent / found->filename();
+  }
+  std::vector<fs::path> of_subject;
+  for (const fs::path& file : files) {
+    if (names_subject(file, subject_of(stem))) of_subject.push_back(file);
+  }
+  if (of_subject.size() == 1) return parent / of_subject[0].filename();
+  if (files.size() == 1) return parent / files[0].filename();
+  throw Error(
+      ErrorKind::unreadable_input,
+      fmt::format(
+          "{}: an AMC file needs its skeleton: its folder has no {}, and {}; name one "
+          "with --asf",
+          amc_name, fmt::join(names, ", "),
+          files.empty() ? "no other ASF file" : fmt::format("{} other ASF files", files.size())));
+}
+
+// Returns the path at which the skeleton `asf_bytes` must be written beside the AMC file `output`,
+// so that `find_skeleton_file` finds it; empty if it finds it already. `usual_name`: the current
+// name of the skeleton, which is kept if possible.
+fs::path skeleton_place(const fs::path& output, std::string_view named_inside,
+                        std::string_view asf_bytes, const std::string& usual_name) {
+  const fs::path parent = output.parent_path();
+  const std::string stem = output.stem().string();
+  // Lists the files before reading them, because a take written meanwhile may add this skeleton.
+  const std::vector<fs::path> files = asf_files_in(parent.empty() ? fs::path(".") : parent);
+  const auto holds_it = [&](const fs::path& path) {
+    std::error_code error;
+    const auto size = fs::file_size(path, error);
+    return !error && size == asf_bytes.size() && read_file(path) == asf_bytes;
+  };
+  try {
+    if (holds_it(find_skeleton_file(output.string(), named_inside, {}))) return {};
+  } catch (const Error&) {
+    // The file does not exist yet.
+  }
+  const auto is_there = [&](const std::string& name) {
+    return std::any_of(files.begin(), files.end(), [&](const fs::path& file) {
+      return equal_ignoring_case(file.filename().string(), name);
+    });
+  };
+  // A reader uses the first likely name that exists. Names before it are free and would be found
+  // first.
+  const std::vector<std::string> names = likely_names(stem, named_inside);
+  const auto taken = std::find_if(names.begin(), names.end(), is_there);
+  for (const std::string& wanted : {usual_name, stem + ".asf"}) {
+    const auto found = std::find_if(names.begin(), taken, [&](const std::string& name) {
+      return equal_ignoring_case(name, wanted);
+    });
+    if (found != taken) return parent / *found;
+  }
+  return parent / *taken;
+}
+
 // The rate of most CMU takes (docs/formats/amc.md).
 constexpr double custom_rate_hz = 120;
 
@@ -37,35 +147,34 @@ std::size_t least_frame_bytes(const AmcLayout& layout) {
   return bytes;
 }
 
-void note_repairs(const SourceText& text, Diagnostics& diagnostics, const AmcRows& rows) {
-  const auto note = [&](const char* place, std::size_t count, std::string_view kind,
-                        std::string_view message) {
-    if (count == 0) return;
-    note_repair(text, diagnostics, kind, static_cast<std::size_t>(place - text.bytes.data()),
-                message, count);
-  };
-  note(rows.first_gap(), rows.gaps(), "value_not_finite",
-       "a value is not finite: held from a neighbouring frame");
-  note(rows.joins().empty() ? nullptr : rows.joins().front(), rows.joins().size(), "numbers_joined",
-       joined_numbers_text);
-  note(rows.first_number_jump(), rows.number_jumps(), "frame_number_jump",
-       "the number of a frame is not one more than the number before: frames are kept in the order "
-       "of the file");
+void note_repairs(const SourceText& text, const AmcRows& rows) {
+  text.note("value_not_finite", rows.found().gaps,
+            "a value is not finite: held from a neighbouring frame");
+  note_joined_numbers(text, rows.found().joins);
+  text.note("frame_number_jump", rows.number_jumps(),
+            "the number of a frame is not one more than the number before: frames are kept in the "
+            "order of the file");
 }
 
 // Reports a cut frame, and makes reads and writes end before it.
-void note_cut(const SourceText& text, Diagnostics& diagnostics, const AmcRows& rows,
-              std::size_t frames) {
+void note_cut(const SourceText& text, const AmcRows& rows, std::size_t frames) {
   if (rows.cut_frame() == nullptr) return;
   if (frames == 0)
     throw text.error_at(rows.cut_frame(), "the file ends in the middle of its first frame");
-  note_repair(text, diagnostics, "file_cut",
-              static_cast<std::size_t>(rows.cut_frame() - text.bytes.data()),
-              "the file ends in the middle of a frame: the frames before it are read");
+  text.note("file_cut", rows.cut_frame(),
+            "the file ends in the middle of a frame: the frames before it are read");
 }
 
-void read_frames(const SourceText& text, Diagnostics& diagnostics, Take& clip,
-                 AmcDocument& document) {
+// Returns for each column of `MotionColumns` whether it holds an angle.
+std::vector<std::uint8_t> angle_columns(const Skeleton& skeleton) {
+  std::vector<std::uint8_t> angles;
+  for (const auto& channels : skeleton.channels) {
+    for (const Channel channel : channels) angles.push_back(is_rotation(channel) ? 1 : 0);
+  }
+  return angles;
+}
+
+void read_frames(const SourceText& text, Take& clip, AmcDocument& document) {
   document.is_angle = angle_columns(clip.skeleton);
   ClipRows clip_rows(clip, offset_adding_frames(clip.skeleton),
                      text.bytes.size() + document.asf_bytes.size());
@@ -76,7 +185,7 @@ void read_frames(const SourceText& text, Diagnostics& diagnostics, Take& clip,
       std::numeric_limits<std::size_t>::max(),
       (text.bytes.size() - document.data_begin) / least_frame_bytes(document.layout) + 1);
   std::vector<double> values(block * width);
-  std::size_t filled = 0, gaps_before = 0;
+  std::size_t filled = 0;
   for (bool more = true; more;) {
     more = rows.next(values.data() + filled * width);
     filled += more ? 1 : 0;
@@ -86,22 +195,20 @@ void read_frames(const SourceText& text, Diagnostics& diagnostics, Take& clip,
                           fmt::format("{} joints: too much memory for a file of {} bytes",
                                       clip.joint_count(), text.bytes.size()));
     }
-    clip_rows.append(values.data(), filled, rows.gaps() > gaps_before);
-    gaps_before = rows.gaps();
+    clip_rows.append(values.data(), filled);
     filled = 0;
   }
-  if (rows.gaps() > 0 && rows.gaps() == clip.frame_count() * width) {
-    throw text.error_at(rows.first_gap(), "every value is not finite");
-  }
-  note_cut(text, diagnostics, rows, clip.frame_count());
-  note_repairs(text, diagnostics, rows);
-  clip_rows.finish(document, rows.gaps() > 0);
+  const CountedRepair<const char*>& gaps = rows.found().gaps;
+  if (gaps.count > 0 && gaps.count == clip.frame_count() * width)
+    throw text.error_at(gaps.first, "every value is not finite");
+  note_cut(text, rows, clip.frame_count());
+  note_repairs(text, rows);
+  clip_rows.finish(document, gaps.count > 0);
   note_first_frame(clip, rows.first_frame_number());
   document.data_end = rows.last_end();
-  document.decimals = rows.most_decimals();
-  if (rows.cut_frame() != nullptr)
-    document.bytes.resize(static_cast<std::size_t>(rows.cut_frame() - text.bytes.data()));
-  separate_numbers(document, rows.joins());
+  document.decimals = rows.found().most_decimals;
+  if (rows.cut_frame() != nullptr) document.bytes.resize(text.offset_of(rows.cut_frame()));
+  separate_numbers(document, rows.found().joins);
 }
 
 void set_rate(Take& clip, Diagnostics& diagnostics, const ReadOptions& options) {
@@ -135,14 +242,6 @@ std::unique_ptr<RowReader> AmcDocument::rows() const {
   return std::make_unique<AmcRowReader>(*this);
 }
 
-std::vector<std::uint8_t> angle_columns(const Skeleton& skeleton) {
-  std::vector<std::uint8_t> angles;
-  for (const auto& channels : skeleton.channels) {
-    for (const Channel channel : channels) angles.push_back(is_rotation(channel) ? 1 : 0);
-  }
-  return angles;
-}
-
 int sniff_amc(std::string_view head) {
   head = without_byte_order_mark(head);
   constexpr std::string_view mark = "#!OML:ASF";
@@ -165,21 +264,21 @@ TakeResult read_amc(std::string bytes, std::string_view name, std::string asf_by
   document->name = name;
   document->skeleton_name = std::filesystem::path(asf_name).filename().string();
   TakeResult result;
-  const SourceText asf_text{asf_name, document->asf_bytes, options.strict};
-  AsfSkeleton asf = parse_asf(asf_text, result.diagnostics, options.max_depth);
-  const SourceText text{name, document->bytes, options.strict};
+  const SourceText asf_text{asf_name, document->asf_bytes, options.strict, &result.diagnostics};
+  AsfSkeleton asf = parse_asf(asf_text, options.max_depth);
+  const SourceText text{name, document->bytes, options.strict, &result.diagnostics};
   if (text.bytes.empty()) throw text.error_at(std::size_t{0}, "the file is empty");
-  const AmcHeader header = read_amc_header(text, result.diagnostics);
+  const AmcHeader header = read_amc_header(text);
   document->data_begin = document->data_end = header.data_begin;
   document->degrees_per_value = header.radians.value_or(asf.radians) ? degrees_per_radian : 1;
   const bool has_frames = header.data_begin < text.bytes.size();
-  document->layout = has_frames ? read_amc_layout(text, result.diagnostics, header, asf, asf_name)
-                                : make_amc_layout(asf);
+  document->layout =
+      has_frames ? read_amc_layout(text, header, asf, asf_name) : make_amc_layout(asf);
   Take& clip = result.take;
   clip.metres_per_unit = document->metres_per_unit = asf.metres_per_unit;
   clip.skeleton = std::move(asf.skeleton);
   set_rate(clip, result.diagnostics, options);
-  read_frames(text, result.diagnostics, clip, *document);
+  read_frames(text, clip, *document);
   document->skeleton = clip.skeleton;
   document->frame_rate_hz = clip.frame_rate_hz;
   document->frame_count = clip.frame_count();
@@ -191,8 +290,7 @@ TakeResult read_amc(std::string bytes, std::string_view name, std::string asf_by
 
 TakeResult read_amc(std::string bytes, std::string_view name, const ReadOptions& options) {
   if (bytes.empty()) throw Error::at_line(name, 1, "the file is empty");
-  Diagnostics ignored;
-  const AmcHeader header = read_amc_header({name, bytes}, ignored);
+  const AmcHeader header = read_amc_header({name, bytes});
   const std::filesystem::path asf = find_skeleton_file(name, header.skeleton_file, options);
   return read_amc(std::move(bytes), name, read_file(asf), asf.string(), options);
 }
@@ -202,8 +300,8 @@ TakeResult read_asf(std::string bytes, std::string_view name, const ReadOptions&
   document->asf_bytes = std::move(bytes);
   document->name = name;
   TakeResult result;
-  const SourceText text{name, document->asf_bytes, options.strict};
-  AsfSkeleton asf = parse_asf(text, result.diagnostics, options.max_depth);
+  const SourceText text{name, document->asf_bytes, options.strict, &result.diagnostics};
+  AsfSkeleton asf = parse_asf(text, options.max_depth);
   document->layout = make_amc_layout(asf);
   document->degrees_per_value = asf.radians ? degrees_per_radian : 1;
   Take& clip = result.take;
@@ -223,53 +321,37 @@ TakeResult read_asf(std::string bytes, std::string_view name, const ReadOptions&
 
 namespace {
 
-// Lists a line for each bone: its name, then its values in the order of the degrees of freedom.
-class LineList {
- public:
-  explicit LineList(std::string_view line_end) : line_end_(line_end) {}
-
-  void begin(const std::string& bone) {
-    lead_.clear();
-    if (!values_.empty()) lead_ = line_end_;
-    lead_ += bone;
-    lead_ += ' ';
-  }
-  void add(std::size_t joint, std::size_t channel) {
-    values_.push_back({std::exchange(lead_, std::string(1, ' ')), joint, channel});
-  }
-  std::vector<WrittenValue> take() && { return std::move(values_); }
-
- private:
-  std::string line_end_;
-  std::string lead_;
-  std::vector<WrittenValue> values_;
-};
+// Adds the line of a bone: its name, then its values.
+void add_line(std::vector<WrittenValue>& lines, std::string_view line_end, const std::string& bone,
+              std::size_t joint, const std::vector<std::size_t>& channels) {
+  std::string lead(lines.empty() ? "" : line_end);
+  lead += bone + ' ';
+  for (const std::size_t channel : channels)
+    lines.push_back({std::exchange(lead, std::string(1, ' ')), joint, channel});
+}
 
 std::vector<WrittenValue> lines_of(const AmcDocument& document, std::string_view line_end) {
-  LineList lines(line_end);
-  std::vector<std::size_t> first_column(1);
-  for (const auto& channels : document.skeleton.channels) {
-    first_column.push_back(first_column.back() + channels.size());
-  }
+  std::vector<WrittenValue> lines;
+  const std::vector<std::size_t> first = first_columns(document.skeleton);
   for (const AmcBone& bone : document.layout) {
-    lines.begin(bone.name);
+    std::vector<std::size_t> channels;
     for (const std::size_t column : bone.columns) {
-      lines.add(bone.joint, column == AmcBone::no_column ? WrittenValue::no_channel
-                                                         : column - first_column[bone.joint]);
+      channels.push_back(column == AmcBone::no_column ? WrittenValue::no_channel
+                                                      : column - first[bone.joint]);
     }
+    add_line(lines, line_end, bone.name, bone.joint, channels);
   }
-  return std::move(lines).take();
+  return lines;
 }
 
 std::vector<WrittenValue> lines_of(const std::vector<PlannedBone>& bones) {
-  LineList lines("\n");
+  std::vector<WrittenValue> lines;
   for (const PlannedBone& bone : bones) {
-    lines.begin(bone.name);
-    for (const auto& slot : channel_slots(bone.dofs)) {
-      lines.add(static_cast<std::size_t>(bone.joint), *slot);
-    }
+    std::vector<std::size_t> channels;
+    for (const auto& slot : channel_slots(bone.dofs)) channels.push_back(*slot);
+    add_line(lines, "\n", bone.name, static_cast<std::size_t>(bone.joint), channels);
   }
-  return std::move(lines).take();
+  return lines;
 }
 
 std::string plain_header(double degrees_per_value) {
@@ -318,9 +400,8 @@ bool has_positions_of(const Take& clip, const Skeleton& skeleton) {
 std::optional<SideFile> amc_side_file(const Take& clip, std::string_view bytes,
                                       const std::filesystem::path& output) {
   const auto* document = dynamic_cast<const AmcDocument*>(clip.source.document.get());
-  Diagnostics ignored;
   const std::string name = output.string();
-  const AmcHeader header = read_amc_header({name, bytes}, ignored);
+  const AmcHeader header = read_amc_header({name, bytes});
   SideFile skeleton{{}, write_asf(clip)};
   skeleton.path = skeleton_place(output, header.skeleton_file, skeleton.bytes,
                                  document != nullptr ? document->skeleton_name : "");
@@ -343,115 +424,6 @@ std::string write_amc(const Take& clip) {
   Take rooted = clip;
   rooted.skeleton = std::move(skeleton);
   return write_plain_amc(rooted);
-}
-
-namespace {
-
-namespace fs = std::filesystem;
-
-bool is_asf(const fs::path& path) { return equal_ignoring_case(path.extension().string(), ".asf"); }
-
-// Returns the part before the number of the take: 35 for 35_01.
-std::string subject_of(const std::string& stem) { return stem.substr(0, stem.find('_')); }
-
-// Returns file names, the most likely first. A path inside the file is from the machine that wrote
-// it, so only its last part is used.
-std::vector<std::string> likely_names(const std::string& stem, std::string_view named_inside) {
-  std::vector<std::string> names;
-  const auto add = [&](std::string name) {
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      names.push_back(std::move(name));
-  };
-  const std::string_view inside = named_inside.substr(named_inside.find_last_of("\\/") + 1);
-  if (is_asf(fs::path(inside))) add(std::string(inside));
-  add(stem + ".asf");
-  if (!subject_of(stem).empty()) add(subject_of(stem) + ".asf");
-  return names;
-}
-
-// Whether a file belongs to a subject, as 35-walk.asf belongs to 35.
-bool names_subject(const fs::path& file, const std::string& subject) {
-  const std::string stem = file.stem().string();
-  if (subject.empty() || stem.size() <= subject.size()) return false;
-  const auto next = static_cast<unsigned char>(stem[subject.size()]);
-  return equal_ignoring_case(stem.substr(0, subject.size()), subject) && std::isalnum(next) == 0;
-}
-
-std::vector<fs::path> asf_files_in(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    if (is_asf(entry->path())) files.push_back(entry->path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-}  // namespace
-
-fs::path find_skeleton_file(std::string_view amc_name, std::string_view named_inside,
-                            const ReadOptions& options) {
-  if (!options.skeleton.empty()) return options.skeleton;
-  const fs::path parent = fs::path(amc_name).parent_path();
-  const fs::path folder = parent.empty() ? fs::path(".") : parent;
-  const std::string stem = fs::path(amc_name).stem().string();
-  const std::vector<std::string> names = likely_names(stem, named_inside);
-  const std::vector<fs::path> files = asf_files_in(folder);
-  for (const std::string& name : names) {
-    const auto same = [&](const fs::path& file) {
-      return equal_ignoring_case(file.filename().string(), name);
-    };
-    const auto found = std::find_if(files.begin(), files.end(), same);
-    if (found != files.end()) return parent / found->filename();
-  }
-  std::vector<fs::path> of_subject;
-  for (const fs::path& file : files) {
-    if (names_subject(file, subject_of(stem))) of_subject.push_back(file);
-  }
-  if (of_subject.size() == 1) return parent / of_subject[0].filename();
-  if (files.size() == 1) return parent / files[0].filename();
-  throw Error(
-      ErrorKind::unreadable_input,
-      fmt::format(
-          "{}: an AMC file needs its skeleton: its folder has no {}, and {}; name one "
-          "with --asf",
-          amc_name, fmt::join(names, ", "),
-          files.empty() ? "no other ASF file" : fmt::format("{} other ASF files", files.size())));
-}
-
-fs::path skeleton_place(const fs::path& output, std::string_view named_inside,
-                        std::string_view asf_bytes, const std::string& usual_name) {
-  const fs::path parent = output.parent_path();
-  const std::string stem = output.stem().string();
-  // Lists the files before reading them, because a take written meanwhile may add this skeleton.
-  const std::vector<fs::path> files = asf_files_in(parent.empty() ? fs::path(".") : parent);
-  const auto holds_it = [&](const fs::path& path) {
-    std::error_code error;
-    const auto size = fs::file_size(path, error);
-    return !error && size == asf_bytes.size() && read_file(path) == asf_bytes;
-  };
-  try {
-    if (holds_it(find_skeleton_file(output.string(), named_inside, {}))) return {};
-  } catch (const Error&) {
-    // The file does not exist yet.
-  }
-  const auto is_there = [&](const std::string& name) {
-    return std::any_of(files.begin(), files.end(), [&](const fs::path& file) {
-      return equal_ignoring_case(file.filename().string(), name);
-    });
-  };
-  // A reader uses the first likely name that exists. Names before it are free and would be found
-  // first.
-  const std::vector<std::string> names = likely_names(stem, named_inside);
-  const auto taken = std::find_if(names.begin(), names.end(), is_there);
-  for (const std::string& wanted : {usual_name, stem + ".asf"}) {
-    const auto found = std::find_if(names.begin(), taken, [&](const std::string& name) {
-      return equal_ignoring_case(name, wanted);
-    });
-    if (found != taken) return parent / *found;
-  }
-  return parent / *taken;
 }
 
 }  // namespace kinemend

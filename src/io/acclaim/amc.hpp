@@ -1,5 +1,4 @@
-// The format AMC: recognises, reads and writes motion that belongs to an ASF skeleton, and finds
-// the skeleton's file.
+// The format AMC: recognises, reads and writes motion that belongs to an ASF skeleton.
 #pragma once
 
 #include <filesystem>
@@ -26,18 +25,5 @@ std::string write_amc(const Take& clip);
 /// Returns `side_file` of an AMC.
 std::optional<SideFile> amc_side_file(const Take& take, std::string_view bytes,
                                       const std::filesystem::path& output);
-
-/// Finds the ASF file of an AMC, as `ReadOptions::skeleton` describes. `amc_name` is the AMC's path
-/// or "standard input", `named_inside` the path in its line `#!OML:ASF`. Errors:
-/// `unreadable_input`, with the names that were tried.
-std::filesystem::path find_skeleton_file(std::string_view amc_name, std::string_view named_inside,
-                                         const ReadOptions& options);
-
-/// Returns the path at which the skeleton `asf_bytes` must be written beside the AMC file `output`,
-/// so that `find_skeleton_file` finds it; empty if it finds it already. `usual_name`: the current
-/// name of the skeleton, which is kept if possible.
-std::filesystem::path skeleton_place(const std::filesystem::path& output,
-                                     std::string_view named_inside, std::string_view asf_bytes,
-                                     const std::string& usual_name);
 
 }  // namespace kinemend

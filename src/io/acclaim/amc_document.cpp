@@ -6,13 +6,9 @@
 
 #include <algorithm>
 #include <cstring>
-#include <unordered_map>
 #include <utility>
 
-#include "io/acclaim/asf.hpp"
 #include "io/bvh/bvh_hierarchy.hpp"
-#include "io/text/number.hpp"
-#include "io/text/text.hpp"
 #include "kinemend/extend/text.hpp"
 
 namespace kinemend {
@@ -24,16 +20,7 @@ struct BoneLine {
   std::size_t values = 0;
 };
 
-bool is_number(std::string_view word) {
-  const NumberToken token = read_number(word.data(), word.data() + word.size());
-  return token.kind == TokenKind::number;
-}
-
-std::string_view trim(std::string_view text) {
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  return text;
-}
+bool is_number(std::string_view word) { return read_number(word).kind == TokenKind::number; }
 
 // Returns the lines between the first frame's number and the second's.
 std::vector<BoneLine> first_frame(const SourceText& text, std::size_t begin) {
@@ -105,10 +92,9 @@ void give_three_turns(AsfSkeleton& asf, std::size_t joint) {
 
 class LayoutMatcher {
  public:
-  LayoutMatcher(const SourceText& text, Diagnostics& diagnostics, const AmcHeader& header,
-                AsfSkeleton& asf, std::string_view asf_name)
+  LayoutMatcher(const SourceText& text, const AmcHeader& header, AsfSkeleton& asf,
+                std::string_view asf_name)
       : text_(text),
-        diagnostics_(diagnostics),
         header_(header),
         asf_(asf),
         asf_name_(asf_name),
@@ -154,10 +140,10 @@ class LayoutMatcher {
       differs = differs || asf_.dofs[layout_[i].joint].size() != 3;
     }
     if (differs) {
-      note_repair(text_, diagnostics_, "three_dofs_undeclared", header_.data_begin,
-                  fmt::format("every bone has three values, other than the skeleton {} says: taken "
-                              "as rx ry rz",
-                              asf_name_));
+      text_.note("three_dofs_undeclared", header_.data_begin,
+                 fmt::format("every bone has three values, other than the skeleton {} says: taken "
+                             "as rx ry rz",
+                             asf_name_));
     }
     return differs;
   }
@@ -185,7 +171,6 @@ class LayoutMatcher {
   }
 
   const SourceText& text_;
-  Diagnostics& diagnostics_;
   const AmcHeader& header_;
   AsfSkeleton& asf_;
   std::string_view asf_name_;
@@ -194,12 +179,7 @@ class LayoutMatcher {
 };
 
 void number_columns(AmcLayout& layout, const AsfSkeleton& asf) {
-  std::vector<std::size_t> first_column;
-  std::size_t columns = 0;
-  for (const auto& channels : asf.skeleton.channels) {
-    first_column.push_back(columns);
-    columns += channels.size();
-  }
+  const std::vector<std::size_t> first_column = first_columns(asf.skeleton);
   for (AmcBone& bone : layout) {
     for (const auto& slot : channel_slots(asf.dofs[bone.joint])) {
       bone.columns.push_back(slot ? first_column[bone.joint] + *slot : AmcBone::no_column);
@@ -209,17 +189,27 @@ void number_columns(AmcLayout& layout, const AsfSkeleton& asf) {
 
 }  // namespace
 
-AmcHeader read_amc_header(const SourceText& text, Diagnostics& diagnostics) {
+std::vector<std::size_t> first_columns(const Skeleton& skeleton) {
+  std::vector<std::size_t> first;
+  std::size_t columns = 0;
+  for (const auto& channels : skeleton.channels) {
+    first.push_back(columns);
+    columns += channels.size();
+  }
+  return first;
+}
+
+AmcHeader read_amc_header(const SourceText& text) {
   const std::string_view bytes = text.bytes;
   AmcHeader header;
   std::size_t position = byte_order_mark_size(bytes);
   while (position < bytes.size()) {
     const std::size_t end = std::min(bytes.find_first_of("\r\n", position), bytes.size());
-    const std::string_view line = trim(bytes.substr(position, end - position));
+    const std::string_view line = without_spaces_around(bytes.substr(position, end - position));
     constexpr std::string_view skeleton_mark = "#!OML:ASF";
     const std::string_view keyword = line.substr(0, line.find_first_of(" \t"));
     if (equal_ignoring_case(keyword, skeleton_mark)) {
-      header.skeleton_file = trim(line.substr(skeleton_mark.size()));
+      header.skeleton_file = without_spaces_around(line.substr(skeleton_mark.size()));
     } else if (equal_ignoring_case(keyword, ":DEGREES")) {
       header.radians = false;
     } else if (equal_ignoring_case(keyword, ":RADIANS")) {
@@ -228,8 +218,8 @@ AmcHeader read_amc_header(const SourceText& text, Diagnostics& diagnostics) {
       header.three_dofs = true;
     } else if (keyword.substr(0, 1) == ":") {
       if (!equal_ignoring_case(keyword, ":FULLY-SPECIFIED")) {
-        note_repair(text, diagnostics, "unknown_keyword", position,
-                    fmt::format("{} is not a keyword of the format", quote(keyword)));
+        text.note("unknown_keyword", position,
+                  fmt::format("{} is not a keyword of the format", quote(keyword)));
       }
     } else if (!line.empty() && line[0] != '#') {
       header.data_begin = static_cast<std::size_t>(line.data() - bytes.data());
@@ -243,9 +233,9 @@ AmcHeader read_amc_header(const SourceText& text, Diagnostics& diagnostics) {
   return header;
 }
 
-AmcLayout read_amc_layout(const SourceText& text, Diagnostics& diagnostics, const AmcHeader& header,
-                          AsfSkeleton& asf, std::string_view asf_name) {
-  AmcLayout layout = LayoutMatcher(text, diagnostics, header, asf, asf_name).match();
+AmcLayout read_amc_layout(const SourceText& text, const AmcHeader& header, AsfSkeleton& asf,
+                          std::string_view asf_name) {
+  AmcLayout layout = LayoutMatcher(text, header, asf, asf_name).match();
   number_columns(layout, asf);
   return layout;
 }
@@ -308,16 +298,14 @@ bool AmcRows::read_frame_number() {
   position_ = p;
   if (p == end_) return false;
   const std::string_view word = word_at(p);
-  const NumberToken token = read_number(p, p + word.size());
+  const NumberToken token = read_number(word);
   if (token.kind != TokenKind::number || token.end != p + word.size()) {
     const bool again = index_of_.find(word) != index_of_.end();
     fail(p, word, may_start_number(word),
          again ? fmt::format("the bone {} occurs twice in a frame", quote(word))
                : fmt::format("expected the number of a frame, found {}", quote(word)));
   }
-  if (has_frame_number_ && token.value != frame_number_ + 1 && number_jumps_++ == 0) {
-    first_number_jump_ = p;
-  }
+  if (has_frame_number_ && token.value != frame_number_ + 1) number_jumps_.add(p);
   if (!has_frame_number_) first_frame_number_ = token.value;
   frame_number_ = token.value;
   has_frame_number_ = true;
@@ -338,8 +326,8 @@ bool AmcRows::starts_bone(const char* p, const std::string& name) const {
 
 bool AmcRows::next(double* values, TokenSpan* tokens) {
   const char* const last_end = last_end_;
-  const std::size_t gaps = gaps_, number_jumps = number_jumps_;
-  const std::size_t joins = joins_.size();
+  const CountedRepair<const char*> gaps = found_.gaps, number_jumps = number_jumps_;
+  const std::size_t joins = found_.joins.size();
   const char* const begin = skip_lines(position_);
   try {
     if (!read_frame(values, tokens)) return false;
@@ -350,9 +338,9 @@ bool AmcRows::next(double* values, TokenSpan* tokens) {
   cut_frame_ = begin;
   position_ = end_;
   last_end_ = last_end;
-  gaps_ = gaps;
+  found_.gaps = gaps;
   number_jumps_ = number_jumps;
-  joins_.resize(joins);
+  found_.joins.resize(joins);
   return false;
 }
 
@@ -400,9 +388,7 @@ std::size_t AmcRows::bone_at(const char* p, const std::vector<bool>& seen) const
   const std::string_view word = word_at(p);
   const auto found = index_of_.find(word);
   if (found == index_of_.end()) {
-    if (word.empty() || read_number(p, p + word.size()).kind == TokenKind::number) {
-      fail_missing(seen, p);
-    }
+    if (word.empty() || is_number(word)) fail_missing(seen, p);
     fail(p, word, true, fmt::format("the bone {} is not in the first frame", quote(word)));
   }
   if (seen[found->second]) {
@@ -443,20 +429,20 @@ double AmcRows::read_value(const char*& p) {
   if (plain_places_.holds(p) && read_plain_number(p, plain) && is_space(p[plain.length]))
       [[likely]] {
     p += plain.length;
-    most_decimals_ = std::max(most_decimals_, plain.decimals);
+    found_.most_decimals = std::max(found_.most_decimals, plain.decimals);
     return plain.value;
   }
   const std::string_view word = word_at(p);
-  const NumberToken token = word.empty() ? NumberToken{} : read_sample(p, p + word.size());
+  const NumberToken token = read_sample(p, p + word.size());
   if (token.kind == TokenKind::text && numbers_in_word(word) > 1) return read_joined(p, word);
   const bool is_value = token.kind == TokenKind::number || token.kind == TokenKind::not_finite;
   if (!is_value || token.end != p + word.size()) {
     fail(p, word, may_start_number(word), fmt::format("expected a number, found {}", quote(word)));
   }
-  if (token.kind == TokenKind::not_finite && gaps_++ == 0) first_gap_ = p;
-  most_decimals_ = std::max(most_decimals_, token.decimals);
+  if (token.kind == TokenKind::not_finite) found_.gaps.add(p);
+  found_.most_decimals = std::max(found_.most_decimals, token.decimals);
   p += word.size();
-  return token.kind == TokenKind::number ? token.value : std::numeric_limits<double>::quiet_NaN();
+  return token.value;
 }
 
 // Reads the first of several numbers without a blank between them.
@@ -465,7 +451,7 @@ double AmcRows::read_joined(const char*& p, std::string_view word) {
   const char* const next = second_number(p, end);
   const double value = read_sample(p, next).value;
   p = next;
-  if (next != end) joins_.push_back(next);
+  if (next != end) found_.joins.push_back(next);
   return value;
 }
 

@@ -41,12 +41,12 @@ struct AmcBone {
 using AmcLayout = std::vector<AmcBone>;
 
 /// Reads the head of an AMC file. Errors: `unreadable_input` with the line.
-AmcHeader read_amc_header(const SourceText& text, Diagnostics& diagnostics);
+AmcHeader read_amc_header(const SourceText& text);
 /// Finds the bones of the first frame in the skeleton. If the take has three values per bone, the
 /// skeleton gets three degrees of freedom per bone. Errors: `unreadable_input`, naming the bone
 /// that does not fit.
-AmcLayout read_amc_layout(const SourceText& text, Diagnostics& diagnostics, const AmcHeader& header,
-                          AsfSkeleton& asf, std::string_view asf_name);
+AmcLayout read_amc_layout(const SourceText& text, const AmcHeader& header, AsfSkeleton& asf,
+                          std::string_view asf_name);
 /// Returns the lines of the joints that have degrees of freedom, in the order of the skeleton.
 AmcLayout make_amc_layout(const AsfSkeleton& asf);
 
@@ -62,8 +62,8 @@ struct AmcDocument : MotionDocument {
   std::unique_ptr<RowReader> rows() const override;
 };
 
-/// Returns for each column of `MotionColumns` whether it holds an angle.
-std::vector<std::uint8_t> angle_columns(const Skeleton& skeleton);
+/// Returns the first column of each joint in `MotionColumns`.
+std::vector<std::size_t> first_columns(const Skeleton& skeleton);
 
 /// Walks over the frames of an AMC: a number on a line of its own, then a line for each bone.
 class AmcRows {
@@ -78,16 +78,11 @@ class AmcRows {
   bool next(double* values, TokenSpan* tokens = nullptr);
 
   std::size_t last_end() const { return static_cast<std::size_t>(last_end_ - text_.bytes.data()); }
-  unsigned most_decimals() const { return most_decimals_; }
-  std::size_t gaps() const { return gaps_; }  ///< values that are not finite
-  const char* first_gap() const { return first_gap_; }
+  const RowFindings& found() const { return found_; }
   /// Returns the number of the first frame that was read.
   double first_frame_number() const { return first_frame_number_; }
-  /// Returns how many frames have a number that is not one more than the previous frame's.
-  std::size_t number_jumps() const { return number_jumps_; }
-  const char* first_number_jump() const { return first_number_jump_; }
-  /// Returns the starts of numbers that have no blank before them (`0.0-7.5`).
-  const std::vector<const char*>& joins() const { return joins_; }
+  /// Returns the frames whose number is not one more than the previous frame's.
+  const CountedRepair<const char*>& number_jumps() const { return number_jumps_; }
   /// Returns the start of a frame that was cut off by the end of the file, or nullptr.
   const char* cut_frame() const { return cut_frame_; }
 
@@ -120,12 +115,8 @@ class AmcRows {
   std::unordered_map<std::string_view, std::size_t> index_of_;
   double frame_number_ = 0, first_frame_number_ = 1;
   bool has_frame_number_ = false;
-  unsigned most_decimals_ = 0;
-  std::size_t gaps_ = 0;
-  const char* first_gap_ = nullptr;
-  std::size_t number_jumps_ = 0;
-  const char* first_number_jump_ = nullptr;
-  std::vector<const char*> joins_;
+  RowFindings found_;
+  CountedRepair<const char*> number_jumps_;
   const char* data_begin_;
   const char* cut_frame_ = nullptr;
 };

@@ -5,15 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <unordered_set>
 #include <utility>
 
 #include "io/acclaim/amc_document.hpp"
 #include "io/motion/motion_write.hpp"
-#include "io/text/number.hpp"
-#include "io/text/text.hpp"
 #include "kinemend/error.hpp"
 
 namespace kinemend {
@@ -25,7 +22,7 @@ bool is_reserved(std::string_view name) {
   constexpr std::array<std::string_view, 3> words{"root", "begin", "end"};
   const auto same = [&](std::string_view word) { return equal_ignoring_case(name, word); };
   if (std::any_of(words.begin(), words.end(), same)) return true;
-  return read_number(name.data(), name.data() + name.size()).kind != TokenKind::text;
+  return read_number(name).kind != TokenKind::text;
 }
 
 // Converts a name to one word that is not a number, keyword or comment.
@@ -219,18 +216,11 @@ class AsfWriter {
   }
 
  private:
-  void numbers(std::initializer_list<double> values) {
-    for (const double value : values) {
-      out_.append(" ");
-      out_.append_shortest(value);
-    }
-  }
-
   // Writes Euler angles for the letters XYZ: rotations about fixed axes, x first.
   void axis_angles(Quat axis) {
     const std::array<double, 3> zyx = to_euler(axis, parse_rotation_order("ZYX"));
-    numbers(
-        {zyx[2] * degrees_per_radian, zyx[1] * degrees_per_radian, zyx[0] * degrees_per_radian});
+    out_.append_each(" ", {zyx[2] * degrees_per_radian, zyx[1] * degrees_per_radian,
+                           zyx[0] * degrees_per_radian});
   }
 
   void dof_names(const std::vector<AsfDof>& dofs) {
@@ -242,7 +232,7 @@ class AsfWriter {
 
   void write_head() {
     out_.append(":version 1.10\n:name skeleton\n:units\n  mass 1\n  length");
-    numbers({metres_per_unit_ > 0 ? 0.0254 / metres_per_unit_ : 1});
+    out_.append_each(" ", {metres_per_unit_ > 0 ? 0.0254 / metres_per_unit_ : 1});
     out_.append("\n  angle deg\n:documentation\n  Written by Kinemend.\n");
   }
 
@@ -259,9 +249,9 @@ class AsfWriter {
     const double length = norm(bone.extent);
     const Vec3 direction = length > 0 ? (1 / length) * bone.extent : Vec3{0, 0, 1};
     out_.append(fmt::format("  begin\n    id {}\n    name {}\n    direction", index, bone.name));
-    numbers({direction.x, direction.y, direction.z});
+    out_.append_each(" ", {direction.x, direction.y, direction.z});
     out_.append("\n    length");
-    numbers({length});
+    out_.append_each(" ", {length});
     out_.append("\n    axis");
     axis_angles(bone.axis);
     out_.append(" XYZ\n");

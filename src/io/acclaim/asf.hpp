@@ -41,7 +41,7 @@ std::vector<Channel> channels_of(const std::vector<AsfDof>& dofs);
 std::vector<std::optional<std::size_t>> channel_slots(const std::vector<AsfDof>& dofs);
 
 /// Parses an ASF file. Errors: `unreadable_input` with the line.
-AsfSkeleton parse_asf(const SourceText& text, Diagnostics& diagnostics, std::size_t max_depth);
+AsfSkeleton parse_asf(const SourceText& text, std::size_t max_depth);
 
 /// Returns how likely the head of a file is ASF, 0 to 100.
 int sniff_asf(std::string_view head);

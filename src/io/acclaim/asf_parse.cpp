@@ -43,11 +43,8 @@ std::optional<AsfDof> dof_of(std::string_view word) {
 // Index 0 is the root, the others are bones in the order of the file.
 class AsfParser {
  public:
-  AsfParser(const SourceText& text, Diagnostics& diagnostics, std::size_t max_depth)
-      : text_(text),
-        diagnostics_(diagnostics),
-        max_depth_(max_depth),
-        scanner_(text.bytes, byte_order_mark_size(text.bytes)) {
+  AsfParser(const SourceText& text, std::size_t max_depth)
+      : text_(text), max_depth_(max_depth), scanner_(text.bytes, byte_order_mark_size(text.bytes)) {
     Bone root;
     root.name = "root";
     bones_.push_back(std::move(root));
@@ -94,8 +91,7 @@ class AsfParser {
 
   double number() {
     const std::string_view word = scanner_.peek();
-    NumberToken token;
-    if (!word.empty()) token = read_number(word.data(), word.data() + word.size());
+    const NumberToken token = read_number(word);
     if (token.kind != TokenKind::number || token.end != word.data() + word.size()) fail("a number");
     // Above this, sums and products along a chain could overflow. Chosen by hand, as in
     // `read_sample`.
@@ -150,13 +146,13 @@ class AsfParser {
   void assume_root_order() {
     for (std::size_t i = 0; i < asf_dof_names.size(); ++i)
       bones_[0].dofs.emplace_back(static_cast<Channel>(i));
-    note_repair(text_, diagnostics_, "root_order_missing", bones_[0].place,
-                "no order of the root: TX TY TZ RX RY RZ assumed");
+    text_.note("root_order_missing", bones_[0].place,
+               "no order of the root: TX TY TZ RX RY RZ assumed");
   }
 
   void skip_unknown() {
-    note_repair(text_, diagnostics_, "unknown_keyword", scanner_.position(),
-                fmt::format("{} is not a keyword of the format", quote(scanner_.peek())));
+    text_.note("unknown_keyword", scanner_.position(),
+               fmt::format("{} is not a keyword of the format", quote(scanner_.peek())));
     scanner_.skip_line();
   }
 
@@ -243,7 +239,7 @@ class AsfParser {
     for (;;) {
       const std::string_view word = scanner_.peek();
       if (word.empty()) return;
-      const NumberToken token = read_number(word.data(), word.data() + word.size());
+      const NumberToken token = read_number(word);
       if (token.kind != TokenKind::number && token.kind != TokenKind::not_finite) return;
       const double open = bone.limits.size() % 2 == 0 ? -infinity : infinity;
       bone.limits.push_back(token.kind == TokenKind::number ? token.value : open);
@@ -307,8 +303,8 @@ class AsfParser {
   Vec3 extent(const Bone& bone, Quat axis) {
     const double size = norm(bone.direction);
     if (bone.length != 0 && size == 0) {
-      note_repair(
-          text_, diagnostics_, "direction_zero", bone.place,
+      text_.note(
+          "direction_zero", bone.place,
           fmt::format("the bone {} has no direction: its length is taken as 0", quote(bone.name)));
     }
     if (size == 0) return {};
@@ -318,9 +314,9 @@ class AsfParser {
   std::vector<ChannelLimit> limits_of(const Bone& bone) {
     if (bone.limits.empty()) return {};
     if (bone.limits.size() != 2 * bone.dofs.size()) {
-      note_repair(text_, diagnostics_, "limits_mismatch", bone.place,
-                  fmt::format("the bone {} has {} degrees of freedom and {} limits: limits ignored",
-                              quote(bone.name), bone.dofs.size(), bone.limits.size()));
+      text_.note("limits_mismatch", bone.place,
+                 fmt::format("the bone {} has {} degrees of freedom and {} limits: limits ignored",
+                             quote(bone.name), bone.dofs.size(), bone.limits.size()));
       return {};
     }
     const auto slots = channel_slots(bone.dofs);
@@ -403,7 +399,6 @@ class AsfParser {
   }
 
   const SourceText& text_;
-  Diagnostics& diagnostics_;
   std::size_t max_depth_;
   AsfScanner scanner_;
   double length_unit_ = 0;
@@ -420,8 +415,8 @@ class AsfParser {
 
 }  // namespace
 
-AsfSkeleton parse_asf(const SourceText& text, Diagnostics& diagnostics, std::size_t max_depth) {
-  return AsfParser(text, diagnostics, max_depth).parse();
+AsfSkeleton parse_asf(const SourceText& text, std::size_t max_depth) {
+  return AsfParser(text, max_depth).parse();
 }
 
 int sniff_asf(std::string_view head) {

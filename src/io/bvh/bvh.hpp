@@ -1,15 +1,12 @@
-// The format BVH: recognises, reads and writes it, keeps a file as it was read so that it can be
-// written back in its own layout, and holds the pieces of text that writers share.
+// The format BVH: recognises, reads and writes it, and keeps a file as it was read so that it can
+// be written back in its own layout.
 #pragma once
 
-#include <cstddef>
 #include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "io/motion/motion_document.hpp"
-#include "io/text/text.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/take.hpp"
 
@@ -34,21 +31,5 @@ struct BvhDocument : MotionDocument {
 
 /// Returns the frame time with the fewest decimals, at least six, that read back as the same rate.
 std::string frame_time_text(double frame_rate_hz);
-
-/// The style of `append_motion`.
-struct MotionStyle {
-  std::string_view line_end = "\n";
-  unsigned decimals = 6;
-  std::string_view frame_time;
-};
-
-/// Appends `MOTION` and all frames, one per line, with joints in the given order; angles continue
-/// the frame before. Errors: `usage` for values that are not finite.
-void append_motion(TextBuffer& out, const Take& clip, const std::vector<std::size_t>& joints,
-                   const MotionStyle& style);
-
-/// Returns the document's text with every changed sample replaced. The clip must have the
-/// document's skeleton and frame count, and its rate too if the file has no frame time.
-std::string rewrite_bvh(const Take& clip, const BvhDocument& document);
 
 }  // namespace kinemend

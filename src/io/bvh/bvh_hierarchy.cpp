@@ -28,9 +28,8 @@ struct Block {
 
 class HierarchyParser {
  public:
-  HierarchyParser(const SourceText& text, Diagnostics& diagnostics, TextScanner& scanner,
-                  std::size_t max_depth)
-      : text_(text), diagnostics_(diagnostics), scanner_(scanner), max_depth_(max_depth) {}
+  HierarchyParser(const SourceText& text, TextScanner& scanner, std::size_t max_depth)
+      : text_(text), scanner_(scanner), max_depth_(max_depth) {}
 
   Skeleton parse() {
     while (scanner_.accept("ROOT")) {
@@ -104,7 +103,7 @@ class HierarchyParser {
 
   void close(const Block& block) {
     if (!block.has_offset) {
-      note_repair(text_, diagnostics_, "offset_missing", block.begin, "no OFFSET: 0 0 0 assumed");
+      text_.note("offset_missing", block.begin, "no OFFSET: 0 0 0 assumed");
     }
     blocks_.pop_back();
   }
@@ -132,8 +131,7 @@ class HierarchyParser {
   double parse_offset_value(CommaStyle commas) {
     if (commas == CommaStyle::separator) skip_commas();
     const std::string_view word = scanner_.peek();
-    const NumberToken token =
-        word.empty() ? NumberToken{} : read_number(word.data(), word.data() + word.size(), commas);
+    const NumberToken token = read_number(word, commas);
     if (token.kind != TokenKind::number) fail_expected("a number of OFFSET");
     scanner_.move_to(scanner_.position() + static_cast<std::size_t>(token.end - word.data()));
     return token.value;
@@ -142,8 +140,7 @@ class HierarchyParser {
   void parse_channels(Block& block) {
     const std::string_view word = scanner_.peek();
     const std::size_t begin = scanner_.position();
-    const NumberToken count =
-        word.empty() ? NumberToken{} : read_number(word.data(), word.data() + word.size());
+    const NumberToken count = read_number(word);
     if (count.kind != TokenKind::number || !(count.value >= 0 && count.value <= 6) ||
         count.value != std::floor(count.value)) {
       fail_expected("a number of channels from 0 to 6");
@@ -202,7 +199,6 @@ class HierarchyParser {
   }
 
   const SourceText& text_;
-  Diagnostics& diagnostics_;
   TextScanner& scanner_;
   std::size_t max_depth_;
   Skeleton skeleton_;
@@ -212,24 +208,19 @@ class HierarchyParser {
 // Parses `Frames:` and `Frame Time:`, in either order, any case, with or without the colon.
 class MotionHeaderParser {
  public:
-  MotionHeaderParser(const SourceText& text, Diagnostics& diagnostics, TextScanner& scanner,
-                     BvhHeader& header, double unknown_rate_hz)
-      : text_(text),
-        diagnostics_(diagnostics),
-        scanner_(scanner),
-        header_(header),
-        unknown_rate_hz_(unknown_rate_hz) {}
+  MotionHeaderParser(const SourceText& text, TextScanner& scanner, BvhHeader& header,
+                     double unknown_rate_hz)
+      : text_(text), scanner_(scanner), header_(header), unknown_rate_hz_(unknown_rate_hz) {}
 
   void parse() {
     header_.data_begin = scanner_.position();
     while (accept_key()) header_.data_begin = scanner_.position();
     if (!seen_frames_) {
-      note_repair(text_, diagnostics_, "frame_count_missing", header_.data_begin,
-                  "no Frames: line: frames are counted");
+      text_.note("frame_count_missing", header_.data_begin, "no Frames: line: frames are counted");
     }
     if (!seen_time_) {
-      note_repair(text_, diagnostics_, "frame_time_missing", header_.data_begin,
-                  fmt::format("no Frame Time: line: {} Hz assumed", unknown_rate_hz_));
+      text_.note("frame_time_missing", header_.data_begin,
+                 fmt::format("no Frame Time: line: {} Hz assumed", unknown_rate_hz_));
     }
   }
 
@@ -262,7 +253,7 @@ class MotionHeaderParser {
     const std::string_view word = scanner_.peek();
     const ByteSpan span{scanner_.position(), word.size()};
     if (!word.empty()) {
-      number = read_number(word.data(), word.data() + word.size(), comma_style(word, 1));
+      number = read_number(word, comma_style(word, 1));
     }
     if (number.kind == TokenKind::text) {
       fail(fmt::format("expected {}, found {}", expected, quote(word)));
@@ -281,8 +272,8 @@ class MotionHeaderParser {
         number.value == std::floor(number.value)) {
       header_.frames = static_cast<std::size_t>(std::min(number.value, most));
     } else {
-      note_repair(text_, diagnostics_, "frame_count_missing", header_.frame_count.begin,
-                  "Frames: is not a whole number: frames are counted");
+      text_.note("frame_count_missing", header_.frame_count.begin,
+                 "Frames: is not a whole number: frames are counted");
     }
   }
 
@@ -294,9 +285,9 @@ class MotionHeaderParser {
     if (number.kind == TokenKind::number && is_usable_frame_rate(1 / number.value)) {
       header_.frame_time_s = number.value;
     } else {
-      note_repair(text_, diagnostics_, "frame_time_unusable", header_.frame_time.begin,
-                  fmt::format("Frame Time: is not the time of a rate of {} to {} Hz: {} Hz assumed",
-                              least_frame_rate_hz, most_frame_rate_hz, unknown_rate_hz_));
+      text_.note("frame_time_unusable", header_.frame_time.begin,
+                 fmt::format("Frame Time: is not the time of a rate of {} to {} Hz: {} Hz assumed",
+                             least_frame_rate_hz, most_frame_rate_hz, unknown_rate_hz_));
     }
   }
 
@@ -305,7 +296,6 @@ class MotionHeaderParser {
   }
 
   const SourceText& text_;
-  Diagnostics& diagnostics_;
   TextScanner& scanner_;
   BvhHeader& header_;
   double unknown_rate_hz_;
@@ -323,15 +313,13 @@ std::size_t first_text_byte(const SourceText& text) {
 
 }  // namespace
 
-BvhHeader read_bvh_header(const SourceText& text, Diagnostics& diagnostics, std::size_t max_depth,
-                          double unknown_rate_hz) {
+BvhHeader read_bvh_header(const SourceText& text, std::size_t max_depth, double unknown_rate_hz) {
   TextScanner scanner(text.bytes, first_text_byte(text));
   if (scanner.peek().empty()) throw text.error_at(std::size_t{0}, "the file is empty");
-  HierarchyParser parser(text, diagnostics, scanner, max_depth);
+  HierarchyParser parser(text, scanner, max_depth);
   if (!scanner.accept("HIERARCHY")) {
     if (!equal_ignoring_case(scanner.peek(), "ROOT")) parser.fail_expected("HIERARCHY");
-    note_repair(text, diagnostics, "hierarchy_keyword_missing", scanner.position(),
-                "no HIERARCHY before ROOT");
+    text.note("hierarchy_keyword_missing", scanner.position(), "no HIERARCHY before ROOT");
   }
   BvhHeader header;
   header.skeleton = parser.parse();
@@ -339,16 +327,15 @@ BvhHeader read_bvh_header(const SourceText& text, Diagnostics& diagnostics, std:
   header.data_begin = text.bytes.size();
   if (scanner.accept("MOTION")) {
     header.has_motion = true;
-    MotionHeaderParser(text, diagnostics, scanner, header, unknown_rate_hz).parse();
+    MotionHeaderParser(text, scanner, header, unknown_rate_hz).parse();
   } else if (scanner.peek().empty()) {
-    note_repair(text, diagnostics, "motion_missing", header.hierarchy_end,
-                "no MOTION: the take has no frames");
+    text.note("motion_missing", header.hierarchy_end, "no MOTION: the take has no frames");
   } else {
     parser.fail_expected("MOTION");
   }
   if (scanner.comments() > 0) {
-    note_repair(text, diagnostics, "comment_skipped", scanner.first_comment(),
-                "comments are not part of the format: skipped", scanner.comments());
+    text.note("comment_skipped", scanner.first_comment(),
+              "comments are not part of the format: skipped", scanner.comments());
   }
   return header;
 }

@@ -29,8 +29,7 @@ inline constexpr std::size_t most_joints = 16384;
 
 /// Parses up to the first channel value. `unknown_rate_hz`: the rate if the file has no usable
 /// frame time. Errors: `unreadable_input` with the line.
-BvhHeader read_bvh_header(const SourceText& text, Diagnostics& diagnostics, std::size_t max_depth,
-                          double unknown_rate_hz);
+BvhHeader read_bvh_header(const SourceText& text, std::size_t max_depth, double unknown_rate_hz);
 
 /// Returns the frames per second of a frame time as written: a usual rate (24, 25, 30, ..., 240 and
 /// their NTSC neighbours) if the text is within 1e-3 of it (1e-6 with nine digits or more), a whole

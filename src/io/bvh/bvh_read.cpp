@@ -27,11 +27,10 @@ constexpr double bvh_rate_when_unknown_hz = 30;
 
 class MotionReader {
  public:
-  MotionReader(const SourceText& text, const ReadOptions& options, Diagnostics& diagnostics,
-               const BvhHeader& header, Take& clip, BvhDocument& document)
+  MotionReader(const SourceText& text, const ReadOptions& options, const BvhHeader& header,
+               Take& clip, BvhDocument& document)
       : text_(text),
         progress_(options.progress),
-        diagnostics_(diagnostics),
         header_(header),
         clip_(clip),
         document_(document),
@@ -60,24 +59,21 @@ class MotionReader {
       check_end(rows, rest);
     }
     note_repairs(rows);
-    clip_rows_.finish(document_, rows.gaps() > 0);
-    document_.data_end = place_of(is_cut ? row_begin_ : rows.last_end());
-    document_.decimals = rows.most_decimals();
+    clip_rows_.finish(document_, rows.found().gaps.count > 0);
+    document_.data_end = text_.offset_of(is_cut ? row_begin_ : rows.last_end());
+    document_.decimals = rows.found().most_decimals;
     if (is_cut) leave_out_cut_row();
-    separate_numbers(document_, rows.joins());
+    separate_numbers(document_, rows.found().joins);
   }
 
  private:
   std::size_t frames() const { return clip_rows_.frames(); }
-  std::size_t place_of(const char* p) const {
-    return static_cast<std::size_t>(p - text_.bytes.data());
-  }
   std::size_t most_frames() const {
     return static_cast<std::size_t>(end_ - begin_) / (2 * columns_.count()) + 1;
   }
 
   void note_count(std::string_view message) {
-    note_repair(text_, diagnostics_, "frame_count_mismatch", header_.frame_count.begin, message);
+    text_.note("frame_count_mismatch", header_.frame_count.begin, message);
   }
 
   // A wrong count is repaired; a count that is impossibly large shows that the rest of the file
@@ -112,7 +108,6 @@ class MotionReader {
   struct Block {
     std::vector<double> values;
     std::size_t frames = 0;
-    bool with_gaps = false;
     const char* end = nullptr;
   };
 
@@ -135,7 +130,7 @@ class MotionReader {
 
   // Returns how many values the last row has; at the end it may be fewer than the columns.
   std::size_t read_block(MotionRows& rows, Block& block) {
-    const std::size_t width = columns_.count(), gaps_before = rows.gaps();
+    const std::size_t width = columns_.count();
     block.values.resize(columns_.block_frames() * width);
     block.frames = 0;
     std::size_t count = width;
@@ -149,7 +144,6 @@ class MotionReader {
       ++block.frames;
       uneven_lines_ = uneven_lines_ || !(rows.at_line_start() || rows.at_end());
     }
-    block.with_gaps = rows.gaps() > gaps_before;
     block.end = rows.position();
     return count;
   }
@@ -168,7 +162,7 @@ class MotionReader {
     if (wanted * clip_.joint_count() > clip_.rotations.capacity()) {
       clip_rows_.reserve(std::numeric_limits<std::size_t>::max(), most_frames());
     }
-    clip_rows_.append(block.values.data(), block.frames, block.with_gaps);
+    clip_rows_.append(block.values.data(), block.frames);
     progress_.reach(static_cast<double>(block.end - begin_) / static_cast<double>(end_ - begin_));
   }
 
@@ -204,10 +198,10 @@ class MotionReader {
   }
 
   void note_cut() {
-    note_repair(text_, diagnostics_, "file_cut", place_of(row_begin_),
-                fmt::format("the file ends in the middle of frame {}: the {} before it {} read",
-                            frames() + 1, frames() == 1 ? "frame" : "frames",
-                            frames() == 1 ? "is" : "are"));
+    text_.note("file_cut", row_begin_,
+               fmt::format("the file ends in the middle of frame {}: the {} before it {} read",
+                           frames() + 1, frames() == 1 ? "frame" : "frames",
+                           frames() == 1 ? "is" : "are"));
     if (header_.frames && *header_.frames < frames())
       note_count(fmt::format("Frames: says {}, the file holds {}", *header_.frames, frames()));
   }
@@ -215,7 +209,7 @@ class MotionReader {
   // Removes the cut row from the document and writes the actual number of frames over the old
   // number, so that outputs are complete.
   void leave_out_cut_row() {
-    document_.bytes.resize(place_of(row_begin_));
+    document_.bytes.resize(text_.offset_of(row_begin_));
     // If the row starts within a word, the bytes end with a number that would look cut.
     if (!is_space(document_.bytes.back())) document_.bytes += '\n';
     std::string count = std::to_string(frames());
@@ -227,8 +221,7 @@ class MotionReader {
   void check_end(const MotionRows& rows, std::size_t rest) {
     const bool wanted = frames() < header_.frames.value_or(frames() == 0 ? 1 : 0);
     if (!rows.at_end() && (rest > 0 || wanted)) {
-      TextScanner scanner(text_.bytes,
-                          static_cast<std::size_t>(rows.position() - text_.bytes.data()));
+      TextScanner scanner(text_.bytes, text_.offset_of(rows.position()));
       const std::string_view found = scanner.peek();
       throw text_.error_at(scanner.position(),
                            fmt::format("expected a number, found {}", quote(found)));
@@ -248,37 +241,26 @@ class MotionReader {
     if (wrong_count)
       note_count(fmt::format("Frames: says {}, the file holds {}", *header_.frames, frames()));
     if (!rows.at_end()) {
-      note_repair(text_, diagnostics_, "trailing_text",
-                  static_cast<std::size_t>(rows.position() - text_.bytes.data()),
-                  "text after the last frame");
+      text_.note("trailing_text", rows.position(), "text after the last frame");
     }
   }
 
   void note_repairs(const MotionRows& rows) {
-    const auto note = [&](const char* place, std::size_t count, std::string_view kind,
-                          std::string_view message) {
-      if (count == 0) return;
-      note_repair(text_, diagnostics_, kind, static_cast<std::size_t>(place - text_.bytes.data()),
-                  message, count);
-    };
-    if (rows.gaps() > 0 && rows.gaps() == frames() * columns_.count()) {
-      throw text_.error_at(rows.first_gap(), "every channel value is not finite");
-    }
-    note(rows.first_gap(), rows.gaps(), "value_not_finite",
-         "a channel value is not finite: held from a neighbouring frame");
-    note(rows.joins().empty() ? nullptr : rows.joins().front(), rows.joins().size(),
-         "numbers_joined", joined_numbers_text);
-    note(rows.first_comment(), rows.comments(), "comment_skipped",
-         "comments are not part of the format: skipped");
+    const auto& [decimals, gaps, comments, joins] = rows.found();
+    if (gaps.count > 0 && gaps.count == frames() * columns_.count())
+      throw text_.error_at(gaps.first, "every channel value is not finite");
+    text_.note("value_not_finite", gaps,
+               "a channel value is not finite: held from a neighbouring frame");
+    note_joined_numbers(text_, joins);
+    text_.note("comment_skipped", comments, "comments are not part of the format: skipped");
     if (document_.commas == CommaStyle::decimal)
-      note(begin_, 1, "decimal_comma", "numbers have decimal commas");
+      text_.note("decimal_comma", begin_, "numbers have decimal commas");
     if (document_.commas == CommaStyle::separator)
-      note(begin_, 1, "comma_separator", "commas separate the values");
+      text_.note("comma_separator", begin_, "commas separate the values");
   }
 
   const SourceText& text_;
   ShareProgress progress_;
-  Diagnostics& diagnostics_;
   const BvhHeader& header_;
   Take& clip_;
   BvhDocument& document_;
@@ -305,19 +287,18 @@ int sniff_bvh(std::string_view head) {
 TakeResult read_bvh(std::string bytes, std::string_view name, const ReadOptions& options) {
   const auto document = std::make_shared<BvhDocument>();
   document->bytes = std::move(bytes);
-  const SourceText text{name, document->bytes, options.strict};
   TakeResult result;
+  const SourceText text{name, document->bytes, options.strict, &result.diagnostics};
   const double unknown_rate_hz =
       options.frame_rate_hz > 0 ? options.frame_rate_hz : bvh_rate_when_unknown_hz;
-  const BvhHeader header =
-      read_bvh_header(text, result.diagnostics, options.max_depth, unknown_rate_hz);
+  const BvhHeader header = read_bvh_header(text, options.max_depth, unknown_rate_hz);
   Take& clip = result.take;
   clip.skeleton = header.skeleton;
   clip.frame_rate_hz =
       header.frame_time_s > 0
           ? rate_from_frame_time(header.frame_time_s, document->text(header.frame_time))
           : unknown_rate_hz;
-  MotionReader(text, options, result.diagnostics, header, clip, *document).read();
+  MotionReader(text, options, header, clip, *document).read();
   document->skeleton = clip.skeleton;
   document->frame_rate_hz = clip.frame_rate_hz;
   document->frame_count = clip.frame_count();

@@ -8,11 +8,8 @@
 
 #include "io/bvh/bvh.hpp"
 #include "io/bvh/bvh_hierarchy.hpp"
-#include "io/motion/motion_columns.hpp"
-#include "io/motion/motion_document.hpp"
 #include "io/motion/motion_rows.hpp"
 #include "io/motion/motion_write.hpp"
-#include "io/text/text.hpp"
 #include "kinemend/error.hpp"
 
 namespace kinemend {
@@ -24,7 +21,7 @@ std::string frame_time_text(double frame_rate_hz) {
     const std::string_view written(
         text.data(),
         static_cast<std::size_t>(write_fixed(text.data(), frame_time_s, decimals) - text.data()));
-    const NumberToken number = read_number(written.data(), written.data() + written.size());
+    const NumberToken number = read_number(written);
     if (number.value > 0 && rate_from_frame_time(number.value, written) == frame_rate_hz)
       return std::string(written);
   }
@@ -93,10 +90,7 @@ class HierarchyWriter {
   void offset_line(std::size_t depth, Vec3 offset) {
     for (std::size_t i = 0; i < depth; ++i) out_.append("\t");
     out_.append("OFFSET");
-    for (const double value : {offset.x, offset.y, offset.z}) {
-      out_.append(" ");
-      out_.append_shortest(value);
-    }
+    out_.append_each(" ", {offset.x, offset.y, offset.z});
     out_.append("\n");
   }
 
@@ -132,12 +126,34 @@ class HierarchyWriter {
   std::vector<std::size_t> order_;
 };
 
+// Appends `MOTION` and all frames, one per line, with joints in the given order.
+void append_motion(TextBuffer& out, const Take& clip, const std::vector<std::size_t>& joints,
+                   std::string_view line_end, unsigned decimals, std::string_view frame_time) {
+  out.append(fmt::format("MOTION{0}Frames: {1}{0}Frame Time: {2}{0}", line_end, clip.frame_count(),
+                         frame_time));
+  std::vector<WrittenValue> values;
+  for (const std::size_t j : joints) {
+    for (std::size_t c = 0; c < clip.skeleton.channels[j].size(); ++c) {
+      values.push_back({values.empty() ? "" : " ", j, c});
+    }
+  }
+  append_rows(out, clip, values, offset_replacing_frames(clip.skeleton), {line_end, decimals});
+}
+
+std::string rewrite_bvh(const Take& clip, const BvhDocument& document) {
+  std::vector<DocumentEdit> edits;
+  if (clip.frame_rate_hz != document.frame_rate_hz || document.frame_time_is_none) {
+    edits.push_back({document.frame_time, frame_time_text(clip.frame_rate_hz)});
+  }
+  return rewrite_motion(clip, document, edits);
+}
+
 std::string write_plain_bvh(const Take& clip) {
   check_channels(clip, RestRotations::in_channels);
   TextBuffer out(4096);
   const std::vector<std::size_t> order = HierarchyWriter(clip.skeleton, out).write();
   const std::string frame_time = frame_time_text(clip.frame_rate_hz);
-  append_motion(out, clip, order, {"\n", 6, frame_time});
+  append_motion(out, clip, order, "\n", 6, frame_time);
   return std::move(out).take();
 }
 
@@ -155,25 +171,11 @@ std::string write_with_hierarchy(const Take& clip, const BvhDocument& document) 
                                            : frame_time_text(clip.frame_rate_hz);
   std::vector<std::size_t> order(clip.joint_count());
   for (std::size_t j = 0; j < order.size(); ++j) order[j] = j;
-  append_motion(out, clip, order, {line_end, document.written_decimals(), frame_time});
+  append_motion(out, clip, order, line_end, document.written_decimals(), frame_time);
   return std::move(out).take();
 }
 
 }  // namespace
-
-void append_motion(TextBuffer& out, const Take& clip, const std::vector<std::size_t>& joints,
-                   const MotionStyle& style) {
-  out.append(fmt::format("MOTION{0}Frames: {1}{0}Frame Time: {2}{0}", style.line_end,
-                         clip.frame_count(), style.frame_time));
-  std::vector<WrittenValue> values;
-  for (const std::size_t j : joints) {
-    for (std::size_t c = 0; c < clip.skeleton.channels[j].size(); ++c) {
-      values.push_back({values.empty() ? "" : " ", j, c});
-    }
-  }
-  append_rows(out, clip, values, offset_replacing_frames(clip.skeleton),
-              {style.line_end, style.decimals});
-}
 
 std::string write_bvh(const Take& clip) {
   check_lengths(clip);
@@ -214,14 +216,6 @@ class BvhRowReader : public RowReader {
 
 std::unique_ptr<RowReader> BvhDocument::rows() const {
   return std::make_unique<BvhRowReader>(*this);
-}
-
-std::string rewrite_bvh(const Take& clip, const BvhDocument& document) {
-  std::vector<DocumentEdit> edits;
-  if (clip.frame_rate_hz != document.frame_rate_hz || document.frame_time_is_none) {
-    edits.push_back({document.frame_time, frame_time_text(clip.frame_rate_hz)});
-  }
-  return rewrite_motion(clip, document, edits);
 }
 
 }  // namespace kinemend

@@ -6,11 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <string>
 #include <utility>
 
-#include "io/c3d/c3d_facts.hpp"
 #include "io/text/text.hpp"
 
 namespace kinemend {
@@ -149,7 +146,8 @@ C3dCarried c3d_carried(const Take& clip, const C3dOrigin& origin) {
   return carried;
 }
 
-Diagnostics c3d_losses(const Take& clip, const C3dOrigin& origin) {
+Diagnostics lost_in_c3d(const Take& clip) {
+  const C3dOrigin origin = c3d_origin(clip.source);
   Diagnostics losses;
   if (origin.document == nullptr || goes_in_place(clip, origin)) return losses;
   add_analog_losses(clip, origin, losses);
@@ -167,10 +165,12 @@ Diagnostics c3d_losses(const Take& clip, const C3dOrigin& origin) {
   return losses;
 }
 
-std::vector<std::string> beside_points(const C3dDocument& document) {
-  const C3dParameters& parameters = document.parameters;
+std::vector<std::string> c3d_beside_points(const SourceInfo& source) {
+  const C3dDocument* const document = c3d_origin(source).document;
+  if (document == nullptr) return {};
+  const C3dParameters& parameters = document->parameters;
   std::vector<std::string> parts;
-  if (has_analog(document.layout)) parts.push_back(analog_text(document));
+  if (has_analog(document->layout)) parts.push_back(analog_text(*document));
   const auto add_count = [&](const char* group, const char* what) {
     const std::size_t count = parameters.count(group, "USED").value_or(0);
     if (count > 0) parts.push_back(count_text(count, what));
@@ -199,13 +199,6 @@ std::string write_c3d(const Take& clip) {
       return *std::move(bytes);
   }
   return new_c3d(clip, origin);
-}
-
-Diagnostics lost_in_c3d(const Take& clip) { return c3d_losses(clip, c3d_origin(clip.source)); }
-
-std::vector<std::string> c3d_beside_points(const SourceInfo& source) {
-  const C3dOrigin origin = c3d_origin(source);
-  return origin.document == nullptr ? std::vector<std::string>() : beside_points(*origin.document);
 }
 
 }  // namespace kinemend

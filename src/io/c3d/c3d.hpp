@@ -26,7 +26,8 @@ TakeResult read_c3d(std::string bytes, std::string_view name, const ReadOptions&
 std::string write_c3d(const Take& clip);
 /// Lists the parts of the source that `write_c3d` leaves out.
 Diagnostics lost_in_c3d(const Take& clip);
-/// Lists the parts of a C3D file that no other format can hold: "2 force plates".
+/// Lists the parts of a C3D file besides points and events, which no other format can hold: "36
+/// analog channels at 1000 Hz".
 std::vector<std::string> c3d_beside_points(const SourceInfo& source);
 
 /// Returns a C3D file of Intel reals. `origin`: the source file of the clip, if any. Its parameters
@@ -73,11 +74,5 @@ C3dCarried c3d_carried(const Take& clip, const C3dOrigin& origin);
 
 /// Returns the frame count of a file of this clip; the source's if neither has points.
 std::size_t c3d_frame_count(const Take& clip, const C3dOrigin& origin);
-
-/// Lists the parts of the source that a C3D file made from the clip lacks.
-Diagnostics c3d_losses(const Take& clip, const C3dOrigin& origin);
-
-/// Lists the contents of a file besides points and events: "36 analog channels at 1000 Hz".
-std::vector<std::string> beside_points(const C3dDocument& document);
 
 }  // namespace kinemend

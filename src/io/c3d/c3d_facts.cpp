@@ -1,6 +1,6 @@
 // Gathers the facts of a C3D file (its encoding, cameras, force plates and programs), and reads
 // events from the parameters, or else from the header.
-#include "io/c3d/c3d_facts.hpp"
+#include "io/c3d/c3d_document.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

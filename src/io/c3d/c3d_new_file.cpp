@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "io/c3d/c3d_document.hpp"
-#include "io/c3d/c3d_facts.hpp"
 #include "io/c3d/c3d_parameters.hpp"
 
 namespace kinemend {

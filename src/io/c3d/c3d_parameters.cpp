@@ -186,14 +186,15 @@ bool C3dParameters::has_group(std::string_view name) const {
                      [&](const C3dGroup& group) { return equal_ignoring_case(group.name, name); });
 }
 
+bool C3dParameters::holds(std::string_view group, const C3dParameter& parameter) const {
+  return std::any_of(groups.begin(), groups.end(), [&](const C3dGroup& known) {
+    return known.number == parameter.group && equal_ignoring_case(known.name, group);
+  });
+}
+
 const C3dParameter* C3dParameters::find(std::string_view group, std::string_view name) const {
-  const auto in_group = [&](const C3dParameter& parameter) {
-    return std::any_of(groups.begin(), groups.end(), [&](const C3dGroup& known) {
-      return known.number == parameter.group && equal_ignoring_case(known.name, group);
-    });
-  };
   const auto found = std::find_if(entries.begin(), entries.end(), [&](const C3dParameter& p) {
-    return equal_ignoring_case(p.name, name) && in_group(p);
+    return equal_ignoring_case(p.name, name) && holds(group, p);
   });
   return found == entries.end() ? nullptr : &*found;
 }
@@ -347,70 +348,42 @@ class SectionWriter {
   std::size_t length_at_ = 0;
 };
 
+C3dParameter new_parameter(std::string name, C3dType type, std::vector<std::uint8_t> dimensions,
+                           std::vector<double> numbers, std::string text = {}) {
+  C3dParameter parameter;
+  parameter.name = std::move(name);
+  parameter.type = type;
+  parameter.dimensions = std::move(dimensions);
+  parameter.numbers = std::move(numbers);
+  parameter.text = std::move(text);
+  return parameter;
+}
+
 }  // namespace
 
 C3dParameter c3d_integers(std::string name, std::vector<double> values) {
-  C3dParameter parameter;
-  parameter.name = std::move(name);
-  parameter.dimensions = {static_cast<std::uint8_t>(values.size())};
-  parameter.numbers = std::move(values);
-  return parameter;
+  const auto count = static_cast<std::uint8_t>(values.size());
+  return new_parameter(std::move(name), C3dType::integer, {count}, std::move(values));
 }
 
 C3dParameter c3d_integer(std::string name, double value) {
-  C3dParameter parameter = c3d_integers(std::move(name), {value});
-  parameter.dimensions.clear();
-  return parameter;
+  return new_parameter(std::move(name), C3dType::integer, {}, {value});
 }
 
 C3dParameter c3d_real(std::string name, double value) {
-  C3dParameter parameter = c3d_integer(std::move(name), value);
-  parameter.type = C3dType::real;
-  return parameter;
+  return new_parameter(std::move(name), C3dType::real, {}, {value});
 }
 
 C3dParameter c3d_reals(std::string name, std::vector<double> values, std::size_t columns) {
-  C3dParameter parameter;
-  parameter.name = std::move(name);
-  parameter.type = C3dType::real;
-  parameter.dimensions = {static_cast<std::uint8_t>(columns),
-                          static_cast<std::uint8_t>(values.size() / columns)};
-  parameter.numbers = std::move(values);
-  return parameter;
+  const auto width = static_cast<std::uint8_t>(columns);
+  const auto rows = static_cast<std::uint8_t>(values.size() / columns);
+  return new_parameter(std::move(name), C3dType::real, {width, rows}, std::move(values));
 }
 
 C3dParameter c3d_text(std::string name, std::string_view text) {
-  C3dParameter parameter;
-  parameter.name = std::move(name);
-  parameter.type = C3dType::text;
-  parameter.text = text.substr(0, most_in_a_byte);
-  parameter.dimensions = {static_cast<std::uint8_t>(parameter.text.size())};
-  return parameter;
-}
-
-std::vector<C3dParameter> c3d_texts(const std::string& name,
-                                    const std::vector<std::string>& texts) {
-  std::size_t length = 1;
-  for (const std::string& text : texts) length = std::max(length, text.size());
-  if (length > most_in_a_byte) {
-    throw Error(ErrorKind::usage,
-                fmt::format("a text of {} bytes; C3D files can hold 255", length));
-  }
-  const std::size_t rows = std::min(most_in_a_byte, most_entry_bytes / length);
-  std::vector<C3dParameter> parts;
-  for (std::size_t first = 0; first == 0 || first < texts.size(); first += rows) {
-    const std::size_t count = std::min(rows, texts.size() - first);
-    C3dParameter part;
-    part.name = parts.empty() ? name : fmt::format("{}{}", name, parts.size() + 1);
-    part.type = C3dType::text;
-    part.dimensions = {static_cast<std::uint8_t>(length), static_cast<std::uint8_t>(count)};
-    for (std::size_t i = first; i < first + count; ++i) {
-      part.text += texts[i];
-      part.text.append(length - texts[i].size(), ' ');
-    }
-    parts.push_back(std::move(part));
-  }
-  return parts;
+  text = text.substr(0, most_in_a_byte);
+  return new_parameter(std::move(name), C3dType::text, {static_cast<std::uint8_t>(text.size())}, {},
+                       std::string(text));
 }
 
 void set_parameter(C3dParameters& parameters, std::string_view group, C3dParameter parameter) {
@@ -429,8 +402,26 @@ void set_parameter(C3dParameters& parameters, std::string_view group, C3dParamet
 void set_texts(C3dParameters& parameters, std::string_view group, const std::string& name,
                const std::vector<std::string>& texts) {
   remove_parameter(parameters, group, name);
-  for (C3dParameter& part : c3d_texts(name, texts))
-    set_parameter(parameters, group, std::move(part));
+  std::size_t length = 1;
+  for (const std::string& text : texts) length = std::max(length, text.size());
+  if (length > most_in_a_byte) {
+    throw Error(ErrorKind::usage,
+                fmt::format("a text of {} bytes; C3D files can hold 255", length));
+  }
+  const std::size_t rows = std::min(most_in_a_byte, most_entry_bytes / length);
+  for (std::size_t first = 0, part = 1; first == 0 || first < texts.size(); first += rows, ++part) {
+    const std::size_t count = std::min(rows, texts.size() - first);
+    std::string text;
+    for (std::size_t i = first; i < first + count; ++i) {
+      text += texts[i];
+      text.append(length - texts[i].size(), ' ');
+    }
+    set_parameter(
+        parameters, group,
+        new_parameter(part == 1 ? name : fmt::format("{}{}", name, part), C3dType::text,
+                      {static_cast<std::uint8_t>(length), static_cast<std::uint8_t>(count)}, {},
+                      std::move(text)));
+  }
 }
 
 void remove_parameter(C3dParameters& parameters, std::string_view group, std::string_view name) {
@@ -447,14 +438,10 @@ void remove_parameter(C3dParameters& parameters, std::string_view group, std::st
 }
 
 void remove_group(C3dParameters& parameters, std::string_view name) {
-  const auto is_it = [&](const C3dGroup& group) { return equal_ignoring_case(group.name, name); };
-  const auto in_it = [&](const C3dParameter& parameter) {
-    return std::any_of(
-        parameters.groups.begin(), parameters.groups.end(),
-        [&](const C3dGroup& group) { return group.number == parameter.group && is_it(group); });
-  };
-  std::erase_if(parameters.entries, in_it);
-  std::erase_if(parameters.groups, is_it);
+  std::erase_if(parameters.entries,
+                [&](const C3dParameter& entry) { return parameters.holds(name, entry); });
+  std::erase_if(parameters.groups,
+                [&](const C3dGroup& group) { return equal_ignoring_case(group.name, name); });
 }
 
 std::string c3d_parameter_section(const C3dParameters& parameters) {

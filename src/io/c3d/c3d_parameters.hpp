@@ -41,6 +41,8 @@ struct C3dParameters {
   std::vector<C3dGroup> groups;
   std::vector<C3dParameter> entries;  ///< in the order of the file
 
+  /// Whether the parameter is in a group of that name.
+  bool holds(std::string_view group, const C3dParameter& parameter) const;
   /// Returns the first parameter of that name, or nullptr.
   const C3dParameter* find(std::string_view group, std::string_view name) const;
   bool has_group(std::string_view name) const;
@@ -69,13 +71,11 @@ C3dParameter c3d_real(std::string name, double value);     ///< without dimensio
 /// Makes a parameter with `columns` values per row.
 C3dParameter c3d_reals(std::string name, std::vector<double> values, std::size_t columns);
 C3dParameter c3d_text(std::string name, std::string_view text);
-/// Splits texts into NAME, NAME2, ... so that none exceeds the texts or bytes of a parameter.
-std::vector<C3dParameter> c3d_texts(const std::string& name, const std::vector<std::string>& texts);
-
 /// Puts a parameter into a group and replaces one of the same name. The group is created if it is
 /// missing. Errors: `usage` if no group number is free.
 void set_parameter(C3dParameters& parameters, std::string_view group, C3dParameter parameter);
-/// Replaces NAME, NAME2, NAME3, ...
+/// Replaces NAME, NAME2, NAME3, ...; no part exceeds the texts or bytes of a parameter. Errors:
+/// `usage` for a text of more than 255 bytes.
 void set_texts(C3dParameters& parameters, std::string_view group, const std::string& name,
                const std::vector<std::string>& texts);
 /// Removes NAME, NAME2, NAME3, ...

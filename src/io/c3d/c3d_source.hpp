@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <string_view>
 
 #include "base/portable.hpp"
@@ -116,7 +115,8 @@ struct C3dSource {
   Error error_at(std::size_t offset, std::string_view message) const {
     return Error::at_byte(name, offset, message);
   }
-  /// Notes a repair; throws `ErrorKind::quality_limit` when the reading is strict.
+  /// Notes a repair, unless `count` is 0; throws `ErrorKind::quality_limit` when the reading is
+  /// strict.
   void note(std::string_view kind, std::size_t offset, std::string_view message,
             std::size_t count = 1) const;
 };

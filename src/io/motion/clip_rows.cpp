@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "io/held_samples.hpp"
 #include "io/reading_limits.hpp"
-#include "io/text/number.hpp"
 
 namespace kinemend {
 
@@ -34,26 +34,11 @@ void ClipRows::reserve(std::size_t expected, std::size_t most) {
   clip_.positions.reserve(count * clip_.point_count());
 }
 
-void ClipRows::append(double* rows, std::size_t count, bool with_gaps) {
+void ClipRows::append(const double* rows, std::size_t count) {
   const std::size_t first = frames();
   clip_.rotations.resize((first + count) * joints_);
-  Quat* const rotations = clip_.rotations.data() + first * joints_;
-  columns_.decode_rotations(rows, count, rotations);
-  if (with_gaps) hold(rows, count, rotations);
+  columns_.decode_rotations(rows, count, clip_.rotations.data() + first * joints_);
   append_positions(rows, count);
-}
-
-void ClipRows::hold(double* rows, std::size_t count, Quat* rotations) {
-  const std::size_t first = frames();
-  clip_.observed.resize((first + count) * joints_, 1);
-  const std::vector<Quat> unknown(first == 0 ? joints_ : 0, Quat{not_a_number, 0, 0, 0});
-  hold_rotations(rotations, count, joints_, first == 0 ? unknown.data() : rotations - joints_,
-                 clip_.observed.data() + first * joints_);
-  std::vector<double> previous;
-  for (const auto& position : columns_.positions()) {
-    previous.push_back(first == 0 ? not_a_number : value(first - 1, position));
-  }
-  hold_positions(rows, count, columns_, previous);
 }
 
 // Appends positions as in the file; `finish` converts them to the clip's frame.
@@ -69,33 +54,30 @@ void ClipRows::append_positions(const double* rows, std::size_t count) {
   }
 }
 
-// Samples before the first finite sample take its value; without a finite sample, the rest pose.
-void ClipRows::fill_leading_gaps() {
-  if (clip_.observed.empty()) return;
-  clip_.observed.resize(frames() * joints_, 1);
-  for (std::size_t j = 0; j < joints_; ++j) {
-    std::size_t known = 0;
-    while (known < frames() && is_gap(clip_.rotation(known, j))) ++known;
-    const Quat sample = known < frames() ? clip_.rotation(known, j) : Quat{};
-    for (std::size_t f = 0; f < known; ++f) clip_.rotation(f, j) = sample;
+// A track without a finite sample gets the rest pose.
+void ClipRows::hold_gaps() {
+  auto& rotations = clip_.rotations;
+  if (std::any_of(rotations.begin(), rotations.end(), [](Quat q) { return is_missing(q); })) {
+    for (const Quat& q : rotations) clip_.observed.push_back(is_missing(q) ? 0 : 1);
+    for (std::size_t j = 0; j < joints_; ++j) hold_missing(rotations, j, joints_, Quat{});
   }
-  for (const auto& position : columns_.positions()) fill_leading_positions(position);
-  const auto& observed = clip_.observed;
-  if (std::find(observed.begin(), observed.end(), 0) == observed.end()) clip_.observed.clear();
-}
-
-void ClipRows::fill_leading_positions(const MotionColumns::Position& position) {
-  std::size_t known = 0;
-  while (known < frames() && std::isnan(value(known, position))) ++known;
-  const double sample =
-      known < frames() ? value(known, position) : component(frame_of(position).rest, position.axis);
-  for (std::size_t f = 0; f < known; ++f) value(f, position) = sample;
+  for (const auto& position : columns_.positions()) {
+    double held = component(frame_of(position).rest, position.axis);
+    for (std::size_t f = frames(); f-- > 0;) {
+      if (!std::isnan(value(f, position))) held = value(f, position);
+    }
+    for (std::size_t f = 0; f < frames(); ++f) {
+      double& sample = value(f, position);
+      if (std::isnan(sample)) sample = held;
+      held = sample;
+    }
+  }
 }
 
 void ClipRows::finish(MotionDocument& document, bool has_gaps) {
-  fill_leading_gaps();
   document.has_gaps = has_gaps && frames() > 0;
   if (document.has_gaps) {
+    hold_gaps();
     document.first_rotations.assign(clip_.rotations.begin(),
                                     clip_.rotations.begin() + static_cast<std::ptrdiff_t>(joints_));
     for (const auto& position : columns_.positions()) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 #include "io/motion/motion_columns.hpp"
@@ -26,18 +25,16 @@ class ClipRows {
   bool fits(std::size_t frames) const;
   /// Reserves memory for `expected` frames, but not for more than `most` or than the limit.
   void reserve(std::size_t expected, std::size_t most);
-  /// Appends at most `columns().block_frames()` rows, in which held values replace NaN.
-  void append(double* rows, std::size_t count, bool with_gaps);
-  /// Call this after the last row: it fills the samples before the first finite value, and stores
-  /// in the document the values of frame 0 that a rewrite needs.
+  /// Appends at most `columns().block_frames()` rows.
+  void append(const double* rows, std::size_t count);
+  /// Call this after the last row: it replaces NaN, and stores in the document the values of frame
+  /// 0 that a rewrite needs.
   void finish(MotionDocument& document, bool has_gaps);
 
  private:
   std::size_t bytes_per_frame() const;
-  void hold(double* rows, std::size_t count, Quat* rotations);
   void append_positions(const double* rows, std::size_t count);
-  void fill_leading_gaps();
-  void fill_leading_positions(const MotionColumns::Position& position);
+  void hold_gaps();
   const PositionFrame& frame_of(const MotionColumns::Position& position) const {
     return position_frames_[frame_index(position.translated)];
   }

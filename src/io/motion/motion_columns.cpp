@@ -144,32 +144,6 @@ void MotionColumns::decode_rotations(const double* rows, std::size_t frames, Qua
   }
 }
 
-bool is_gap(Quat q) {
-  return std::isnan(q.w) || std::isnan(q.x) || std::isnan(q.y) || std::isnan(q.z);
-}
-
-void hold_rotations(Quat* rotations, std::size_t frames, std::size_t joints, const Quat* previous,
-                    std::uint8_t* observed) {
-  for (std::size_t f = 0; f < frames; ++f) {
-    for (std::size_t j = 0; j < joints; ++j) {
-      const std::size_t at = f * joints + j;
-      if (!is_gap(rotations[at])) continue;
-      rotations[at] = f == 0 ? previous[j] : rotations[at - joints];
-      if (observed != nullptr) observed[at] = 0;
-    }
-  }
-}
-
-void hold_positions(double* rows, std::size_t frames, const MotionColumns& columns,
-                    std::span<const double> previous) {
-  for (std::size_t f = 0; f < frames; ++f) {
-    for (std::size_t i = 0; i < previous.size(); ++i) {
-      const std::size_t at = f * columns.count() + columns.positions()[i].column;
-      if (std::isnan(rows[at])) rows[at] = f == 0 ? previous[i] : rows[at - columns.count()];
-    }
-  }
-}
-
 namespace {
 
 template <class MakeFrame>

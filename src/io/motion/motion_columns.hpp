@@ -58,17 +58,6 @@ class MotionColumns {
   std::vector<double> degrees_, sines_, cosines_;
 };
 
-/// Replaces each NaN sample by the sample of the frame before; frame 0 uses `previous` (J). Marks
-/// them in `observed` (same shape) unless that is null.
-void hold_rotations(Quat* rotations, std::size_t frames, std::size_t joints, const Quat* previous,
-                    std::uint8_t* observed);
-/// `hold_rotations` for the position columns of rows of values; `previous` holds one value per
-/// position column.
-void hold_positions(double* rows, std::size_t frames, const MotionColumns& columns,
-                    std::span<const double> previous);
-
-bool is_gap(Quat q);
-
 /// The meaning of a joint's position columns: the clip's position is origin + R(turn) v, where v
 /// holds the values of the columns, and `rest` along axes without a column.
 struct PositionFrame {

@@ -5,21 +5,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
-#include <memory>
 #include <optional>
-#include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "base/parallel.hpp"
 #include "base/portable.hpp"
-#include "io/motion/motion_columns.hpp"
-#include "io/text/text.hpp"
+#include "io/held_samples.hpp"
 #include "motion/rotation.hpp"
 
 namespace kinemend {
+
+namespace {
 
 /// A block of frames of a document's text. Position columns are repaired; angles are as in the
 /// file, in degrees.
@@ -40,15 +36,48 @@ struct SourceBlock {
 /// Decodes the frames of a document's text as its reader did, a block at a time.
 class SourceFrames {
  public:
-  explicit SourceFrames(const MotionDocument& document);
+  explicit SourceFrames(const MotionDocument& document)
+      : document_(document),
+        columns_(document.skeleton),
+        last_rotations_(document.first_rotations),
+        last_positions_(document.first_positions),
+        text_(document.rows()) {}
 
   const MotionColumns& columns() const { return columns_; }
 
   /// Reads the next block, reusing its memory; false after the last.
-  bool next(SourceBlock& block);
+  bool next(SourceBlock& block) {
+    block.first = next_;
+    block.count = std::min(columns_.block_frames(), document_.frame_count - next_);
+    block.width = columns_.count();
+    block.joints = document_.skeleton.joint_count();
+    if (block.count == 0) return false;
+    next_ += block.count;
+    block.values.resize(block.count * block.width);
+    block.places.resize(block.count * block.width);
+    block.turns.resize(block.count * block.joints);
+    text_->next(block.values.data(), block.count, block.places.data());
+    columns_.decode_rotations(block.values.data(), block.count, block.turns.data());
+    if (document_.has_gaps) hold(block);
+    return true;
+  }
 
  private:
-  void hold(SourceBlock& block);
+  // Replaces each value that is not finite by the value of the frame before.
+  void hold(SourceBlock& block) {
+    for (std::size_t f = 0; f < block.count; ++f) {
+      for (std::size_t j = 0; j < block.joints; ++j) {
+        Quat& turn = block.turns[f * block.joints + j];
+        if (is_missing(turn)) turn = last_rotations_[j];
+        last_rotations_[j] = turn;
+      }
+      for (std::size_t i = 0; i < last_positions_.size(); ++i) {
+        double& value = block.values[f * block.width + columns_.positions()[i].column];
+        if (std::isnan(value)) value = last_positions_[i];
+        last_positions_[i] = value;
+      }
+    }
+  }
 
   const MotionDocument& document_;
   MotionColumns columns_;
@@ -57,8 +86,6 @@ class SourceFrames {
   std::vector<double> last_positions_;
   std::unique_ptr<RowReader> text_;
 };
-
-namespace {
 
 using Angles = std::array<double, 3>;
 
@@ -373,39 +400,6 @@ std::string rewrite_motion(const Take& clip, const MotionDocument& document,
   return MotionRewriter(clip, document).rewrite(edits);
 }
 
-SourceFrames::SourceFrames(const MotionDocument& document)
-    : document_(document),
-      columns_(document.skeleton),
-      last_rotations_(document.first_rotations),
-      last_positions_(document.first_positions),
-      text_(document.rows()) {}
-
-bool SourceFrames::next(SourceBlock& block) {
-  block.first = next_;
-  block.count = std::min(columns_.block_frames(), document_.frame_count - next_);
-  block.width = columns_.count();
-  block.joints = document_.skeleton.joint_count();
-  if (block.count == 0) return false;
-  next_ += block.count;
-  block.values.resize(block.count * block.width);
-  block.places.resize(block.count * block.width);
-  block.turns.resize(block.count * block.joints);
-  text_->next(block.values.data(), block.count, block.places.data());
-  columns_.decode_rotations(block.values.data(), block.count, block.turns.data());
-  if (document_.has_gaps) hold(block);
-  return true;
-}
-
-void SourceFrames::hold(SourceBlock& block) {
-  hold_rotations(block.turns.data(), block.count, block.joints, last_rotations_.data(), nullptr);
-  hold_positions(block.values.data(), block.count, columns_, last_positions_);
-  const Quat* const last = block.rotations(block.count - 1);
-  last_rotations_.assign(last, last + block.joints);
-  for (std::size_t i = 0; i < last_positions_.size(); ++i) {
-    last_positions_[i] = block.row(block.count - 1)[columns_.positions()[i].column];
-  }
-}
-
 unsigned MotionDocument::written_decimals() const {
   // Chosen by hand.
   constexpr unsigned least = 4, least_of_radians = 6, most = 9;
@@ -421,6 +415,11 @@ std::vector<double> MotionDocument::channel_values() const {
     values.insert(values.end(), block.values.begin(), block.values.end());
   }
   return values;
+}
+
+void note_joined_numbers(const SourceText& text, const std::vector<const char*>& places) {
+  text.note("numbers_joined", places.empty() ? nullptr : places[0],
+            "two numbers have no blank between them: the sign starts the second", places.size());
 }
 
 void separate_numbers(MotionDocument& document, const std::vector<const char*>& places) {

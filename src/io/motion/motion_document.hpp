@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "io/motion/motion_columns.hpp"
-#include "io/motion/motion_rows.hpp"
-#include "io/text/number.hpp"
+#include "io/text/text.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {
@@ -73,10 +72,8 @@ struct DocumentEdit {
 std::string rewrite_motion(const Take& clip, const MotionDocument& document,
                            const std::vector<DocumentEdit>& edits = {});
 
-/// The message of the repair `numbers_joined`.
-inline constexpr std::string_view joined_numbers_text =
-    "two numbers have no blank between them: the sign starts the second";
-
+/// Notes the repair `numbers_joined`, made at these places.
+void note_joined_numbers(const SourceText& text, const std::vector<const char*>& places);
 /// Inserts a blank at each of the places in the document's bytes, in ascending order, so that every
 /// program can read the output. Places behind the frames are ignored.
 void separate_numbers(MotionDocument& document, const std::vector<const char*>& places);

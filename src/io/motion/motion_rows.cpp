@@ -30,10 +30,10 @@ bool MotionRows::read_rare(const char*& p, NumberToken& token) {
     if (token.kind == TokenKind::text) return read_joined(p, token);
     if (token.kind == TokenKind::number) return true;
     if (token.kind == TokenKind::not_finite) {
-      if (gaps_++ == 0) first_gap_ = p;
+      found_.gaps.add(p);
       return true;
     }
-    if (comments_++ == 0) first_comment_ = p;
+    found_.comments.add(p);
     p = skip(std::find_if(p, end_, is_line_end));
   }
 }
@@ -47,8 +47,8 @@ bool MotionRows::read_joined(const char* p, NumberToken& token) {
   }
   const char* const next = second_number(p, joined_until_);
   token = read_sample(p, next, commas_);
-  if (token.kind == TokenKind::not_finite && gaps_++ == 0) first_gap_ = p;
-  if (next != joined_until_) joins_.push_back(next);
+  if (token.kind == TokenKind::not_finite) found_.gaps.add(p);
+  if (next != joined_until_) found_.joins.push_back(next);
   return true;
 }
 
@@ -56,7 +56,7 @@ template <bool keep_tokens>
 std::size_t MotionRows::read(double* values, std::size_t count, TokenSpan* tokens) {
   const char* p = skip(position_);
   const char* last_end = last_end_;
-  unsigned most_decimals = most_decimals_;
+  unsigned most_decimals = found_.most_decimals;
   std::size_t i = 0;
   for (; i < count; ++i) {
     PlainNumber number;
@@ -86,7 +86,7 @@ std::size_t MotionRows::read(double* values, std::size_t count, TokenSpan* token
     p = skip(last_end);
   }
   last_end_ = last_end;
-  most_decimals_ = most_decimals;
+  found_.most_decimals = most_decimals;
   position_ = p;
   return i;
 }

@@ -7,14 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "io/text/number.hpp"
+#include "io/text/text.hpp"
 
 namespace kinemend {
 
-/// The bytes of a channel value.
-struct TokenSpan {
-  const char* begin = nullptr;
-  const char* end = nullptr;
+/// The findings of a reader besides the values.
+struct RowFindings {
+  unsigned most_decimals = 0;
+  CountedRepair<const char*> gaps;  ///< values that are not finite
+  CountedRepair<const char*> comments;
+  std::vector<const char*> joins;  ///< starts of numbers that have no blank before them (`0.0-7.5`)
 };
 
 /// Walks over channel values, a frame at a time. Line ends, white space and comments between values
@@ -36,13 +38,7 @@ class MotionRows {
   /// Whether a line ended between the last row and `position()`.
   bool at_line_start() const;
 
-  unsigned most_decimals() const { return most_decimals_; }
-  std::size_t gaps() const { return gaps_; }  ///< values that are not finite
-  const char* first_gap() const { return first_gap_; }
-  /// Returns the starts of numbers that have no blank before them (`0.0-7.5`).
-  const std::vector<const char*>& joins() const { return joins_; }
-  std::size_t comments() const { return comments_; }
-  const char* first_comment() const { return first_comment_; }
+  const RowFindings& found() const { return found_; }
 
  private:
   template <bool keep_tokens>
@@ -56,12 +52,7 @@ class MotionRows {
   const char* last_end_;
   PlainPlaces plain_places_;
   CommaStyle commas_;
-  unsigned most_decimals_ = 0;
-  std::size_t gaps_ = 0;
-  const char* first_gap_ = nullptr;
-  std::size_t comments_ = 0;
-  const char* first_comment_ = nullptr;
-  std::vector<const char*> joins_;
+  RowFindings found_;
   const char* joined_until_ = nullptr;  // the end of a word of several numbers
 };
 

@@ -13,7 +13,6 @@
 
 #include "base/portable.hpp"
 #include "base/text.hpp"
-#include "kinemend/error.hpp"
 
 namespace kinemend {
 
@@ -24,11 +23,6 @@ static_assert(std::endian::native == std::endian::little, "elements are written 
 constexpr std::string_view npy_mark = "\x93NUMPY";
 // Python's surrogateescape: byte 0x80 is U+DC80.
 constexpr std::uint32_t escaped_bytes = 0xDC00;
-
-Error npy_error(const NpyPlace& place, std::string_view message) {
-  return Error::at_byte(place.file, place.begin,
-                        fmt::format("array {}: {}", quote(place.array), message));
-}
 
 // Returns the place of element `index` (in C order) in an array in Fortran order, whose first index
 // varies fastest.
@@ -103,6 +97,27 @@ std::u32string codes_of(std::string_view text) {
   return codes;
 }
 
+// Returns the head alone.
+std::string npy_head(std::string_view type, std::span<const std::size_t> shape) {
+  std::string extents;
+  for (const std::size_t extent : shape) extents += fmt::format("{}, ", extent);
+  if (shape.size() == 1) extents.pop_back();  // (3,)
+  if (shape.size() > 1) extents.resize(extents.size() - 2);
+  std::string text =
+      fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, extents);
+  // Elements begin at a multiple of 64 bytes; a line end ends the head.
+  constexpr std::size_t fixed = 10, alignment = 64;
+  const std::size_t size = (fixed + text.size() + alignment) / alignment * alignment - fixed;
+  text.resize(size - 1, ' ');
+  text += '\n';
+  std::string head(npy_mark);
+  head += '\1';
+  head += '\0';
+  head += static_cast<char>(size & 0xFF);
+  head += static_cast<char>(size >> 8);
+  return head + text;
+}
+
 template <class Value>
 std::string npy_of_values(std::string_view type, std::span<const Value> values,
                           std::span<const std::size_t> shape) {
@@ -113,6 +128,10 @@ std::string npy_of_values(std::string_view type, std::span<const Value> values,
 }
 
 }  // namespace
+
+Error NpyPlace::error(std::string_view message) const {
+  return Error::at_byte(file, begin, fmt::format("array {}: {}", quote(array), message));
+}
 
 std::size_t NpyArray::count() const {
   std::size_t product = 1;
@@ -136,6 +155,12 @@ void npy_numbers(const NpyArray& array, std::size_t first, std::span<double> val
   }
 }
 
+double npy_number(const NpyArray& array, std::size_t index) {
+  double value = 0;
+  npy_numbers(array, index, {&value, 1});
+  return value;
+}
+
 std::string npy_text(const NpyArray& array, std::size_t index) {
   const std::size_t stored = array.is_fortran ? place_in_fortran_order(array.shape, index) : index;
   const std::string_view element(array.content.data() + array.elements + stored * array.item_bytes,
@@ -153,7 +178,7 @@ std::string npy_text(const NpyArray& array, std::size_t index) {
       const bool is_surrogate = code >= 0xD800 && code <= 0xDFFF;
       const bool is_escaped = code >= escaped_bytes + 0x80 && code <= escaped_bytes + 0xFF;
       if (code > 0x10FFFF || (is_surrogate && !is_escaped))
-        throw npy_error(array.place, fmt::format("text {} is damaged", index));
+        throw array.place.error(fmt::format("text {} is damaged", index));
       if (is_escaped) {
         text += static_cast<char>(code - escaped_bytes);
       } else {
@@ -164,26 +189,6 @@ std::string npy_text(const NpyArray& array, std::size_t index) {
   // Texts are padded to one size with zeros.
   text.resize(text.find_last_not_of('\0') + 1);
   return text;
-}
-
-std::string npy_head(std::string_view type, std::span<const std::size_t> shape) {
-  std::string extents;
-  for (const std::size_t extent : shape) extents += fmt::format("{}, ", extent);
-  if (shape.size() == 1) extents.pop_back();  // (3,)
-  if (shape.size() > 1) extents.resize(extents.size() - 2);
-  std::string text =
-      fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, extents);
-  // Elements begin at a multiple of 64 bytes; a line end ends the head.
-  constexpr std::size_t fixed = 10, alignment = 64;
-  const std::size_t size = (fixed + text.size() + alignment) / alignment * alignment - fixed;
-  text.resize(size - 1, ' ');
-  text += '\n';
-  std::string head(npy_mark);
-  head += '\1';
-  head += '\0';
-  head += static_cast<char>(size & 0xFF);
-  head += static_cast<char>(size >> 8);
-  return head + text;
 }
 
 std::string npy_of(std::span<const double> values, std::span<const std::size_t> shape) {
@@ -330,33 +335,29 @@ class NpyReader {
 
   NpyArray read() {
     NpyHead head(head_text());
-    if (!head.read(array_)) throw error("the head of the array is damaged");
+    if (!head.read(array_)) throw array_.place.error("the head of the array is damaged");
     set_type(head.type);
     check_size();
     return std::move(array_);
   }
 
  private:
-  Error error(std::string_view message) const {
-    return Error::at_byte(array_.place.file, array_.place.begin,
-                          fmt::format("array {}: {}", quote(array_.place.array), message));
-  }
-
   // Versions 2 and 3 state the size of the head in four bytes instead of two.
   std::string_view head_text() {
     const std::string_view bytes = array_.content;
     constexpr std::size_t size_at = 8;
     if (bytes.substr(0, 6) != "\x93NUMPY" || bytes.size() < size_at)
-      throw error("is no array of NumPy");
+      throw array_.place.error("is no array of NumPy");
     const int version = static_cast<unsigned char>(bytes[6]);
-    if (version < 1 || version > 3) throw error(fmt::format("unknown version {}", version));
+    if (version < 1 || version > 3)
+      throw array_.place.error(fmt::format("unknown version {}", version));
     const std::size_t size_bytes = version == 1 ? 2 : 4;
-    if (bytes.size() < size_at + size_bytes) throw error("ends in its head");
+    if (bytes.size() < size_at + size_bytes) throw array_.place.error("ends in its head");
     std::size_t size = 0;
     for (std::size_t i = size_bytes; i-- > 0;)
       size = size << 8 | static_cast<unsigned char>(bytes[size_at + i]);
     array_.elements = size_at + size_bytes;
-    if (size > bytes.size() - array_.elements) throw error("ends in its head");
+    if (size > bytes.size() - array_.elements) throw array_.place.error("ends in its head");
     const std::string_view text = bytes.substr(array_.elements, size);
     array_.elements += size;
     return text;
@@ -375,8 +376,8 @@ class NpyReader {
     array_.kind = rest.empty() ? '?' : rest.front();
     array_.item_bytes = array_.kind == 'U' ? 4 * size : size;
     if (is_known && is_read()) return;
-    throw error(fmt::format("elements of type {} are not read; numbers and texts are",
-                            type == "?" ? "with fields" : quote(type)));
+    throw array_.place.error(fmt::format("elements of type {} are not read; numbers and texts are",
+                                         type == "?" ? "with fields" : quote(type)));
   }
 
   bool is_read() const {
@@ -403,11 +404,11 @@ class NpyReader {
     std::size_t count = is_empty ? 0 : 1;
     for (const std::size_t extent : array_.shape) {
       if (count > room / std::max<std::size_t>(extent, 1))
-        throw error("ends before its last element");
+        throw array_.place.error("ends before its last element");
       count *= extent;
     }
-    if (count > room) throw error("ends before its last element");
-    if (count < room) throw error("goes on behind its last element");
+    if (count > room) throw array_.place.error("ends before its last element");
+    if (count < room) throw array_.place.error("goes on behind its last element");
   }
 
   NpyArray array_;

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "kinemend/error.hpp"
+
 namespace kinemend {
 
 /// The origin of an array, for messages.
@@ -16,6 +18,8 @@ struct NpyPlace {
   std::string file;
   std::string array;
   std::size_t begin = 0;  ///< byte of its member
+
+  Error error(std::string_view message) const;
 };
 
 /// An array of numbers or texts, with any order of elements and bytes.
@@ -41,12 +45,13 @@ NpyArray read_npy(std::string content, NpyPlace place);
 /// Numbers that are not finite become NaN, and so do numbers beyond 1e100, whose squares may
 /// overflow.
 void npy_numbers(const NpyArray& array, std::size_t first, std::span<double> values);
+/// Returns one of these numbers.
+double npy_number(const NpyArray& array, std::size_t index);
 /// Returns the text of one element in UTF-8. A character that Python's `surrogateescape` made from
 /// a byte becomes that byte again. Errors: `unreadable_input` for a code that is not a character.
 std::string npy_text(const NpyArray& array, std::size_t index);
 
-/// Return members to write: `npy_head` the head alone, for little-endian elements in C order.
-std::string npy_head(std::string_view type, std::span<const std::size_t> shape);
+/// Return members to write, with little-endian elements in C order.
 std::string npy_of(std::span<const double> values, std::span<const std::size_t> shape);
 std::string npy_of(std::span<const std::int32_t> values, std::span<const std::size_t> shape);
 std::string npy_of(std::span<const std::uint8_t> values, std::span<const std::size_t> shape);

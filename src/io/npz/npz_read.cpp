@@ -11,10 +11,7 @@
 #include "base/text.hpp"
 #include "io/held_samples.hpp"
 #include "io/npz/npz.hpp"
-#include "io/npz/npz_document.hpp"
-#include "io/npz/zip_archive.hpp"
 #include "io/reading_limits.hpp"
-#include "kinemend/error.hpp"
 #include "kinemend/extend/frames.hpp"
 
 namespace kinemend {
@@ -46,7 +43,7 @@ class NpzDecoder {
   explicit NpzDecoder(const NpzDocument& document)
       : document_(document), left_bytes_(memory_limit(document.bytes.size())) {}
 
-  NpzTake decode() {
+  TakeResult decode() {
     check_layout();
     if (document_.archive.find("rotations.npy") != nullptr) {
       read_joints();
@@ -67,11 +64,6 @@ class NpzDecoder {
     return Error(ErrorKind::unreadable_input,
                  fmt::format("{}: {}", document_.archive.name, message));
   }
-  static Error array_error(const NpyArray& array, std::string_view message) {
-    return Error::at_byte(array.place.file, array.place.begin,
-                          fmt::format("array {}: {}", quote(array.place.array), message));
-  }
-
   std::string member_list() const {
     constexpr std::size_t most_named = 20;
     std::vector<std::string> names;
@@ -91,13 +83,13 @@ class NpzDecoder {
   }
 
   void note(std::string_view kind, std::string_view message, std::size_t count) {
-    if (count > 0) result_.repairs.push_back({std::string(kind), std::string(message), count});
+    for (std::size_t i = 0; i < count; ++i) result_.diagnostics.add(kind, message);
   }
 
   std::optional<NpyArray> optional_array(const std::string& name, bool of_numbers = true) {
     std::optional<NpyArray> array = npz_array(document_, name, left_bytes_);
     if (array && array->holds_numbers() != of_numbers)
-      throw array_error(*array, of_numbers ? "expected numbers" : "expected texts");
+      throw array->place.error(of_numbers ? "expected numbers" : "expected texts");
     return array;
   }
   NpyArray array(const std::string& name, bool of_numbers = true) {
@@ -107,15 +99,13 @@ class NpzDecoder {
 
   static void check_shape(const NpyArray& array, std::initializer_list<std::size_t> shape) {
     if (std::equal(shape.begin(), shape.end(), array.shape.begin(), array.shape.end())) return;
-    throw array_error(array, fmt::format("expected the shape ({}), found ({})",
-                                         fmt::join(shape, ", "), fmt::join(array.shape, ", ")));
+    throw array.place.error(fmt::format("expected the shape ({}), found ({})",
+                                        fmt::join(shape, ", "), fmt::join(array.shape, ", ")));
   }
 
   static double only_number(const NpyArray& array) {
-    if (array.count() != 1) throw array_error(array, "expected one number");
-    double value = 0;
-    npy_numbers(array, 0, {&value, 1});
-    return value;
+    if (array.count() != 1) throw array.place.error("expected one number");
+    return npy_number(array, 0);
   }
   double number_or(const std::string& name, double otherwise) {
     const std::optional<NpyArray> found = optional_array(name);
@@ -124,7 +114,7 @@ class NpzDecoder {
   std::string text_or_none(const std::string& name) {
     const std::optional<NpyArray> found = optional_array(name, false);
     if (!found) return "";
-    if (found->count() != 1) throw array_error(*found, "expected one text");
+    if (found->count() != 1) throw found->place.error("expected one text");
     return npy_text(*found, 0);
   }
 
@@ -158,11 +148,10 @@ class NpzDecoder {
   std::vector<std::int32_t> indices(const NpyArray& found, std::int32_t least, End end) {
     std::vector<std::int32_t> values;
     for (std::size_t i = 0; i < found.count(); ++i) {
-      double value = 0;
-      npy_numbers(found, i, {&value, 1});
+      const double value = npy_number(found, i);
       const bool is_lawful = value >= least && value < end(i) && value == std::floor(value);
       if (!is_lawful)
-        throw array_error(found, fmt::format("element {} is {}, which no joint can be", i, value));
+        throw found.place.error(fmt::format("element {} is {}, which no joint can be", i, value));
       values.push_back(static_cast<std::int32_t>(value));
     }
     return values;
@@ -172,7 +161,7 @@ class NpzDecoder {
     std::vector<Vec3> vectors;
     for (std::size_t i = 0; i < found.shape[0]; ++i) {
       const Vec3 v = vector_at(found, i);
-      if (is_missing(v)) throw array_error(found, fmt::format("row {} is not finite", i));
+      if (is_missing(v)) throw found.place.error(fmt::format("row {} is not finite", i));
       vectors.push_back(v);
     }
     return vectors;
@@ -192,7 +181,7 @@ class NpzDecoder {
   void read_joints() {
     const NpyArray parents = array("parents");
     if (parents.shape.size() != 1 || parents.shape[0] == 0)
-      throw array_error(parents, "expected one number for each of at least one joint");
+      throw parents.place.error("expected one number for each of at least one joint");
     read_skeleton(parents, parents.shape[0]);
     read_translated();
     read_positions();
@@ -223,8 +212,8 @@ class NpzDecoder {
     for (std::size_t j = 0; j < above.size(); ++j) {
       if (above[j] >= 0) depth[j] = depth[static_cast<std::size_t>(above[j])] + 1;
       if (depth[j] > document_.max_depth)
-        throw array_error(parents,
-                          fmt::format("joints are nested deeper than {}", document_.max_depth));
+        throw parents.place.error(
+            fmt::format("joints are nested deeper than {}", document_.max_depth));
     }
   }
 
@@ -236,7 +225,7 @@ class NpzDecoder {
     for (std::size_t j = 0; j < skeleton.joint_count(); ++j) {
       const auto [w, x, y, z] = four_at(*rest, j);
       const Quat rotation = rotation_of_values(w, x, y, z);
-      if (is_missing(rotation)) throw array_error(*rest, fmt::format("row {} is no rotation", j));
+      if (is_missing(rotation)) throw rest->place.error(fmt::format("row {} is no rotation", j));
       skeleton.rest_rotations[j] = rotation;
     }
   }
@@ -244,7 +233,7 @@ class NpzDecoder {
   void read_end_sites() {
     const std::optional<NpyArray> parents = optional_array("end_parents");
     if (!parents) return;
-    if (parents->shape.size() != 1) throw array_error(*parents, "expected one index");
+    if (parents->shape.size() != 1) throw parents->place.error("expected one index");
     const std::size_t count = parents->shape[0];
     constexpr std::size_t bytes_a_site = 128;
     charge(count, bytes_a_site);
@@ -262,14 +251,14 @@ class NpzDecoder {
   void read_translated() {
     const std::optional<NpyArray> found = optional_array("translated_joints");
     if (!found) return;
-    if (found->shape.size() != 1) throw array_error(*found, "expected one index");
+    if (found->shape.size() != 1) throw found->place.error("expected one index");
     const auto joints = static_cast<double>(take().joint_count());
     take().translated_joints = indices(*found, 1, [&](std::size_t) { return joints; });
     const auto& translated = take().translated_joints;
     const auto is_not_ascending = [](std::int32_t a, std::int32_t b) { return a >= b; };
     if (std::adjacent_find(translated.begin(), translated.end(), is_not_ascending) !=
         translated.end())
-      throw array_error(*found, "expected ascending numbers of joints");
+      throw found->place.error("expected ascending numbers of joints");
     for (const std::int32_t joint : translated) {
       take().skeleton.channels[static_cast<std::size_t>(joint)] =
           make_channels(true, parse_rotation_order("ZXY"));
@@ -279,7 +268,7 @@ class NpzDecoder {
   void read_positions() {
     const NpyArray found = array("positions");
     const std::size_t points = take().point_count();
-    if (found.shape.size() != 3) throw array_error(found, "expected the shape (frames, points, 3)");
+    if (found.shape.size() != 3) throw found.place.error("expected the shape (frames, points, 3)");
     frames_ = found.shape[0];
     check_shape(found, {frames_, points, 3});
     charge(frames_ * points, sizeof(Vec3) + 1);
@@ -313,9 +302,7 @@ class NpzDecoder {
     std::vector<std::uint8_t> seen(found->count());
     bool is_whole = true;
     for (std::size_t i = 0; i < seen.size(); ++i) {
-      double value = 0;
-      npy_numbers(*found, i, {&value, 1});
-      seen[i] = value != 0 ? 1 : 0;
+      seen[i] = npy_number(*found, i) != 0 ? 1 : 0;
       is_whole = is_whole && seen[i] != 0;
     }
     return is_whole ? std::vector<std::uint8_t>() : seen;
@@ -358,7 +345,7 @@ class NpzDecoder {
   void read_markers() {
     const NpyArray found = array("positions");
     if (found.shape.size() != 3 || found.shape[1] == 0)
-      throw array_error(found, "expected the shape (frames, markers, 3)");
+      throw found.place.error("expected the shape (frames, markers, 3)");
     frames_ = found.shape[0];
     const std::size_t markers = found.shape[1];
     check_shape(found, {frames_, markers, 3});
@@ -395,7 +382,7 @@ class NpzDecoder {
   const NpzDocument& document_;
   std::size_t left_bytes_;
   std::size_t frames_ = 0;
-  NpzTake result_;
+  TakeResult result_;
 };
 
 }  // namespace
@@ -422,7 +409,7 @@ std::vector<std::string> other_npz_arrays(const NpzDocument& document) {
   return others;
 }
 
-NpzTake take_of_npz(const NpzDocument& document) { return NpzDecoder(document).decode(); }
+TakeResult take_of_npz(const NpzDocument& document) { return NpzDecoder(document).decode(); }
 
 // An archive of arrays may hold any data, so this looks for an array of the layout.
 int sniff_npz(std::string_view head) {
@@ -451,14 +438,10 @@ TakeResult read_npz(std::string bytes, std::string_view name, const ReadOptions&
   document->bytes = std::move(bytes);
   document->rate_when_unknown_hz = options.frame_rate_hz;
   document->max_depth = options.max_depth;
-  NpzTake decoded = take_of_npz(*document);
-  TakeResult result{std::move(decoded.take), {}};
-  for (const NpzRepair& repair : decoded.repairs) {
-    if (options.strict)
-      throw Error(ErrorKind::quality_limit, fmt::format("{}: {}", name, repair.message));
-    for (std::size_t i = 0; i < repair.count; ++i)
-      result.diagnostics.add(repair.kind, repair.message);
-  }
+  TakeResult result = take_of_npz(*document);
+  if (options.strict && !result.diagnostics.empty())
+    throw Error(ErrorKind::quality_limit,
+                fmt::format("{}: {}", name, result.diagnostics.entries()[0].message));
   SourceInfo& source = result.take.source;
   source.name = name;
   source.format = "npz";

@@ -1,5 +1,4 @@
 // Writes npz files: into the source archive if the take has one, else as new archives.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -9,7 +8,6 @@
 #include "io/held_samples.hpp"
 #include "io/motion/motion_write.hpp"
 #include "io/npz/npz.hpp"
-#include "io/npz/npz_document.hpp"
 #include "io/reading_limits.hpp"
 
 namespace kinemend {

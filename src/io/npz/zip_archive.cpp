@@ -128,6 +128,12 @@ class ZipDirectory {
   std::set<std::string> names_;
 };
 
+// Returns the CRC-32 of a member's unpacked bytes.
+std::uint32_t zip_checksum(std::string_view raw) {
+  return static_cast<std::uint32_t>(
+      crc32(0, reinterpret_cast<const Bytef*>(raw.data()), static_cast<uInt>(raw.size())));
+}
+
 // Unpacks raw deflate data of known size; returns false if the bytes are damaged.
 bool inflate_zip(std::string_view packed, std::string& raw) {
   z_stream stream{};
@@ -288,11 +294,6 @@ class ZipWriter {
 };
 
 }  // namespace
-
-std::uint32_t zip_checksum(std::string_view raw) {
-  return static_cast<std::uint32_t>(
-      crc32(0, reinterpret_cast<const Bytef*>(raw.data()), static_cast<uInt>(raw.size())));
-}
 
 std::string make_zip(const std::vector<ZipContent>& contents) {
   ZipWriter writer;

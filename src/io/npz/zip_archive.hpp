@@ -75,7 +75,4 @@ inline std::size_t zip_number(std::string_view bytes, std::size_t place, std::si
   return value;
 }
 
-/// Returns the CRC-32 of a member's unpacked bytes.
-std::uint32_t zip_checksum(std::string_view raw);
-
 }  // namespace kinemend

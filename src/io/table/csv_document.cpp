@@ -5,9 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <optional>
 
 #include "kinemend/extend/text.hpp"
 
@@ -62,15 +59,15 @@ std::optional<double> seconds_of(const std::string& name) {
 
 class CsvHeaderReader {
  public:
-  explicit CsvHeaderReader(const SourceText& text) : text_(text) {}
+  explicit CsvHeaderReader(const SourceText& text)
+      : text_(text), lines_(text, byte_order_mark_size(text.bytes)) {}
 
   CsvHeader read() {
-    next_ = byte_order_mark_size(text_.bytes);
-    if (without_spaces_around(text_.bytes.substr(next_)).empty()) {
+    if (without_spaces_around(text_.bytes.substr(lines_.next())).empty()) {
       throw Error::at_line(text_.name, 1, "the file is empty");
     }
     while (header_.groups.empty()) read_line();
-    header_.data_begin = next_;
+    header_.data_begin = lines_.next();
     header_.data_end = text_.bytes.size();
     read_units_below();
     read_notes();
@@ -82,30 +79,25 @@ class CsvHeaderReader {
  private:
   [[noreturn]] void fail() const {
     throw text_.error_at(
-        first_row_.value_or(place_),
+        first_row_.value_or(lines_.place()),
         "expected a row of labels such as frame,time_s,LASI_x,LASI_y,LASI_z, found none");
   }
 
-  std::string_view take_line() {
-    place_ = next_;
-    next_ = next_line(text_.bytes, next_);
-    return line_from(text_.bytes, place_);
-  }
-
   void read_line() {
-    if (next_ == text_.bytes.size() || above_.size() == most_head_lines) fail();
-    const std::string_view line = take_line(), bare = without_spaces_around(line);
+    if (lines_.at_end() || above_.size() == most_head_lines) fail();
+    const std::string_view line = lines_.take(), bare = without_spaces_around(line);
     if (bare.empty()) return;
     if (bare[0] == '#') return read_note(bare);
     // Spreadsheets read this line.
-    if (place_ == byte_order_mark_size(text_.bytes) && bare.substr(0, 4) == "sep=") return;
-    if (!first_row_) first_row_ = place_;
+    if (lines_.place() == byte_order_mark_size(text_.bytes) && bare.substr(0, 4) == "sep=") return;
+    if (!first_row_) first_row_ = lines_.place();
     const char separator = separator_of(line);
     if (static_cast<std::size_t>(std::count(line.begin(), line.end(), separator)) > most_columns) {
-      throw text_.error_at(place_, fmt::format("at most {} columns can be read", most_columns));
+      throw text_.error_at(lines_.place(),
+                           fmt::format("at most {} columns can be read", most_columns));
     }
     header_.style.separator = separator;
-    header_.labels_line = place_;
+    header_.labels_line = lines_.place();
     Cells cells = split_cells(line, separator);
     std::vector<Column> columns;
     for (const std::string& cell : cells) columns.push_back(column_of(cell));
@@ -125,7 +117,8 @@ class CsvHeaderReader {
     const std::size_t colon = line.find(':');
     if (colon == line.npos) return;
     header_.notes.push_back({lower_case(without_spaces_around(line.substr(0, colon))),
-                             std::string(without_spaces_around(line.substr(colon + 1))), place_});
+                             std::string(without_spaces_around(line.substr(colon + 1))),
+                             lines_.place()});
   }
 
   // Returns the columns of a row of axes (X, Y, Z, X, ...), whose names are in the row above.
@@ -193,7 +186,7 @@ class CsvHeaderReader {
 
   // Reads a row of units below the axes.
   void read_units_below() {
-    const std::string_view line = line_from(text_.bytes, next_);
+    const std::string_view line = line_from(text_.bytes, lines_.next());
     for (const std::string& cell : split_cells(line, header_.style.separator)) {
       if (cell.empty()) continue;
       if (metres_per_unit(cell) == 0) return;
@@ -201,7 +194,7 @@ class CsvHeaderReader {
     }
     if (!header_.unit.empty() && !without_spaces_around(line).empty() &&
         line.find_first_of("0123456789") == line.npos) {
-      header_.data_begin = next_line(text_.bytes, next_);
+      header_.data_begin = next_line(text_.bytes, lines_.next());
     }
   }
 
@@ -218,11 +211,10 @@ class CsvHeaderReader {
   }
 
   const SourceText& text_;
+  HeadLines lines_;
   CsvHeader header_;
   std::vector<Cells> above_;
   std::optional<std::size_t> first_row_;  // first row that is not blank or a note
-  std::size_t place_ = 0;
-  std::size_t next_ = 0;
 };
 
 }  // namespace
@@ -252,60 +244,6 @@ bool has_csv_header(std::string_view head) {
   } catch (const Error&) {
     return false;
   }
-}
-
-std::string_view without_spaces_around(std::string_view text) {
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  return text;
-}
-
-double number_of(std::string_view text) {
-  if (!text.empty()) {
-    const NumberToken token =
-        read_number(text.data(), text.data() + text.size(), CommaStyle::decimal);
-    const bool whole = token.end == text.data() + text.size();
-    if (whole && token.kind == TokenKind::number) return token.value;
-  }
-  return std::nan("");
-}
-
-char separator_of(std::string_view line) {
-  constexpr std::string_view separators = ",;\t";
-  std::array<std::size_t, 3> counts{};
-  bool quoted = false;
-  for (const char c : line) {
-    quoted = quoted != (c == '"');
-    const std::size_t at = separators.find(c);
-    if (!quoted && at != separators.npos) ++counts[at];
-  }
-  return separators[static_cast<std::size_t>(std::max_element(counts.begin(), counts.end()) -
-                                             counts.begin())];
-}
-
-CommaStyle commas_of(std::string_view rows, char separator) {
-  const Cells cells = split_cells(line_from(rows, 0), separator);
-  const bool decimal = separator == ','
-                           ? std::any_of(cells.begin(), cells.end(),
-                                         [](const auto& c) { return c.find(',') != c.npos; })
-                           : rows.find(',') != rows.npos;
-  return decimal ? CommaStyle::decimal : CommaStyle::none;
-}
-
-std::string_view HeadLines::take() {
-  place_ = next_;
-  next_ = next_line(text_->bytes, next_);
-  return line_from(text_->bytes, place_);
-}
-
-Cells HeadLines::take_cells() {
-  const std::string_view line = take();
-  separator_ = separator_of(line);
-  const auto separators = std::count(line.begin(), line.end(), separator_);
-  if (static_cast<std::size_t>(separators) > most_columns) {
-    throw text_->error_at(place_, fmt::format("at most {} columns can be read", most_columns));
-  }
-  return split_cells(line, separator_);
 }
 
 }  // namespace kinemend

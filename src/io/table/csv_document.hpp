@@ -6,13 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "io/table/marker_table.hpp"
-#include "io/text/text.hpp"
 #include "kinemend/take.hpp"
 #include "motion/conversions.hpp"
 
@@ -66,17 +64,10 @@ CsvHeader read_csv_header(const SourceText& text);
 /// Whether the text begins with such a head.
 bool has_csv_header(std::string_view head);
 
-/// A CSV file as it was read. The bytes hold every digit, so only a few offsets are stored with
-/// them.
-struct CsvDocument : FollowingDocument {
-  std::string bytes;
+/// A CSV file as it was read; `table` has no markers in a file of joints, whose samples the members
+/// from `groups` on describe.
+struct CsvDocument : FollowingDocument, TableFile {
   std::string beside;  ///< description of the file's other data; empty: none
-  double frame_rate_hz = 0;
-  MarkerTable table;  ///< for joints: without markers
-
-  std::vector<std::string> names;
-  std::int64_t first_frame = 1;
-  std::string unit;
 
   std::vector<CsvGroup> groups;
   Skeleton skeleton;
@@ -93,38 +84,6 @@ struct TableRest : FollowingDocument {
   std::shared_ptr<const SourceDocument> after(const TakeChange& change) const override;
 };
 
-using Cells = std::vector<std::string>;
-
-inline constexpr std::size_t most_columns = 4 * most_markers;
-
-std::string_view without_spaces_around(std::string_view text);
-/// Returns NaN if the text is not a finite number. A decimal comma is allowed.
-double number_of(std::string_view text);
-/// Returns a comma, semicolon or tab: the one that occurs most often in the line outside quotes.
-char separator_of(std::string_view line);
-/// Returns `decimal` if the first row can only be read with decimal commas.
-CommaStyle commas_of(std::string_view rows, char separator);
-
-/// Walks over the lines of a head.
-class HeadLines {
- public:
-  HeadLines(const SourceText& text, std::size_t begin) : text_(&text), next_(begin) {}
-
-  bool at_end() const { return next_ >= text_->bytes.size(); }
-  std::size_t place() const { return place_; }  ///< place of the last line taken
-  std::size_t next() const { return next_; }
-  std::string_view take();
-  /// Returns the cells of the next line. Errors: more columns than any table has.
-  Cells take_cells();
-  char separator() const { return separator_; }  ///< separator of the last cells taken
-
- private:
-  const SourceText* text_;
-  std::size_t place_ = 0;
-  std::size_t next_ = 0;
-  char separator_ = ',';
-};
-
 /// Whether the text begins with a section of Vicon's programs (Nexus and its predecessors), which
 /// has a name and a rate.
 bool starts_with_vicon_section(std::string_view text);
@@ -135,5 +94,25 @@ CsvHeader read_vicon_header(const SourceText& text);
 bool starts_as_motive_export(std::string_view text);
 /// Reads the columns of its markers. Errors: an export without markers.
 CsvHeader read_motive_header(const SourceText& text);
+
+/// Reads a table of joints. Repairs: `skeleton_missing`, `rotation_missing`, `position_missing`,
+/// `rotation_not_unit`, `value_not_finite`, `row_too_short`. Errors: `unreadable_input`, naming the
+/// line.
+Take read_csv_joints(const SourceText& text, const CsvHeader& header, CsvDocument& document,
+                     RowLabels& labels);
+
+/// The document's bytes with every changed sample replaced. The clip has its skeleton and frames.
+std::string rewrite_csv_joints(const Take& clip, const CsvDocument& document);
+
+/// Returns the lines of a skeleton, joint by joint, then end sites:
+///   # joint 3: LeftKnee; parent 2; offset 0 -8.1 0; channels Zrotation Yrotation Xrotation
+///   # end 0: Toe; parent 5; offset 0 0 1.2 `rest w x y z` is added if the rest rotation is not the
+///   identity, `limits low high ...` if there are limits. A name with a semicolon, a quote or
+///   blanks at its ends is quoted. Errors: `usage` for a name with a line end.
+std::string skeleton_lines(const Skeleton& skeleton);
+
+/// Returns the skeleton of such lines, without joints if there are no such lines. Errors:
+/// `unreadable_input`, naming the line.
+Skeleton read_skeleton_lines(const SourceText& text, const std::vector<CsvNote>& notes);
 
 }  // namespace kinemend

@@ -179,6 +179,8 @@ struct Section {
   std::size_t body = 0;   ///< place of the line below its rate
 };
 
+bool holds_no_cell(std::string_view line) { return line.find_first_not_of(",;\" \t") == line.npos; }
+
 std::size_t filled(const Cells& cells) {
   return static_cast<std::size_t>(
       std::count_if(cells.begin(), cells.end(), [](const auto& cell) { return !cell.empty(); }));
@@ -210,7 +212,7 @@ std::vector<Section> sections_of(const SourceText& text, bool only_first) {
   bool after_blank = true;
   while (!lines.at_end()) {
     const std::string_view line = lines.take();
-    const bool blank = line.find_first_not_of(",;\" \t") == line.npos;
+    const bool blank = holds_no_cell(line);
     const bool may_be_name = after_blank && !blank && line.size() < 256;
     after_blank = blank;
     if (!may_be_name) {
@@ -357,13 +359,9 @@ class ViconReader {
     }
   }
 
-  static bool is_blank(std::string_view line) {
-    return line.find_first_not_of(",;\" \t") == line.npos;
-  }
-
   static std::size_t first_blank_line(std::string_view rows) {
     for (std::size_t at = 0; at < rows.size(); at = next_line(rows, at)) {
-      if (is_blank(line_from(rows, at))) return at;
+      if (holds_no_cell(line_from(rows, at))) return at;
     }
     return rows.size();
   }
@@ -371,7 +369,7 @@ class ViconReader {
   // A blank line ends the section. Rejects rows after it, which would be lost silently.
   void refuse_text_behind(std::size_t blank) const {
     for (std::size_t at = blank; at < header_.data_end; at = next_line(text_.bytes, at)) {
-      if (!is_blank(line_from(text_.bytes, at)))
+      if (!holds_no_cell(line_from(text_.bytes, at)))
         throw text_.error_at(at, "expected another section after the blank line");
     }
   }

@@ -1,23 +1,18 @@
 // Reads a table of joints, writes a changed take into its bytes, and writes and reads a skeleton as
 // lines of notes.
-#include "io/table/csv_joints.hpp"
+#include "io/table/csv_document.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <span>
 
 #include "io/bvh/bvh_hierarchy.hpp"
 #include "io/held_samples.hpp"
 #include "io/motion/motion_columns.hpp"
 #include "io/reading_limits.hpp"
-#include "io/text/cells.hpp"
-#include "io/text/number.hpp"
-#include "io/text/text.hpp"
 #include "kinemend/error.hpp"
 
 namespace kinemend {
@@ -33,6 +28,14 @@ std::vector<const CsvGroup*> groups_of(const std::vector<CsvGroup>& groups, CsvG
   }
   return found;
 }
+
+// The columns of a table of joints.
+struct JointColumns {
+  std::vector<std::array<std::size_t, 4>> rotations;  // J times w, x, y, z
+  // Root, then the translated joints; the first is unused without a root position.
+  std::vector<std::array<std::size_t, 3>> positions;
+  bool has_root = false;
+};
 
 JointColumns columns_of(const std::vector<CsvGroup>& groups) {
   JointColumns columns;
@@ -60,10 +63,9 @@ std::size_t width_of(const MarkerTable& table, const std::vector<CsvGroup>& grou
 
 class JointReader {
  public:
-  JointReader(const SourceText& text, Diagnostics& diagnostics, const CsvHeader& header,
-              CsvDocument& document, RowLabels& labels)
+  JointReader(const SourceText& text, const CsvHeader& header, CsvDocument& document,
+              RowLabels& labels)
       : text_(text),
-        diagnostics_(diagnostics),
         header_(header),
         document_(document),
         labels_(labels),
@@ -107,8 +109,8 @@ class JointReader {
       }
     }
     if (!stated) {
-      note_repair(text_, diagnostics_, "skeleton_missing", header_.labels_line,
-                  "no lines '# joint': every joint is a child of the first, without an offset");
+      text_.note("skeleton_missing", header_.labels_line,
+                 "no lines '# joint': every joint is a child of the first, without an offset");
     }
   }
 
@@ -141,8 +143,7 @@ class JointReader {
     clip_.metres_per_unit = metres_per_unit(header_.unit);
     for (const CsvNote& note : header_.notes) {
       if (note.key != "metres_per_unit" || note.value.empty()) continue;
-      const NumberToken token =
-          read_number(note.value.data(), note.value.data() + note.value.size());
+      const NumberToken token = read_number(note.value);
       if (token.kind == TokenKind::number && token.value > 0) clip_.metres_per_unit = token.value;
     }
   }
@@ -187,15 +188,13 @@ class JointReader {
       throw text_.error_at(header_.data_begin, "expected a row for each frame, found none");
     }
     document_.table.frames = clip_.frame_count();
-    if (rows.not_finite() > 0) {
-      note_repair(text_, diagnostics_, "value_not_finite",
-                  static_cast<std::size_t>(rows.first_not_finite() - text_.bytes.data()),
-                  "a value is not finite: it is missing", rows.not_finite());
-    }
-    note(too_short_, "row_too_short", "a row ends early: the rest of it is missing");
-    note(not_unit_, "rotation_not_unit", "the length of a quaternion is not 1: it is scaled");
-    note(rotation_missing_, "rotation_missing", "a rotation is missing: held from a neighbour");
-    note(position_missing_, "position_missing", "a position is missing: held from a neighbour");
+    text_.note("value_not_finite", rows.not_finite(), "a value is not finite: it is missing");
+    text_.note("row_too_short", too_short_, "a row ends early: the rest of it is missing");
+    text_.note("rotation_not_unit", not_unit_, "the length of a quaternion is not 1: it is scaled");
+    text_.note("rotation_missing", rotation_missing_,
+               "a rotation is missing: held from a neighbour");
+    text_.note("position_missing", position_missing_,
+               "a position is missing: held from a neighbour");
   }
 
   // Whether the file was cut off in this row, after complete rows.
@@ -212,8 +211,8 @@ class JointReader {
 
   // A partial rotation is not usable, so the frame is left out.
   void leave_out_from(std::size_t place) {
-    note_repair(text_, diagnostics_, "file_cut", place,
-                "the file ends in the middle of a row: the rows before it are read");
+    text_.note("file_cut", place,
+               "the file ends in the middle of a row: the rows before it are read");
     document_.bytes.resize(place);
   }
 
@@ -262,13 +261,7 @@ class JointReader {
     document_.positions = clip_.positions;
   }
 
-  void note(const CountedRepair& repair, std::string_view kind, std::string_view message) {
-    if (repair.count > 0)
-      note_repair(text_, diagnostics_, kind, repair.first, message, repair.count);
-  }
-
   const SourceText& text_;
-  Diagnostics& diagnostics_;
   const CsvHeader& header_;
   CsvDocument& document_;
   RowLabels& labels_;
@@ -276,7 +269,7 @@ class JointReader {
   std::size_t width_;
   Take clip_;
   std::vector<double> values_;
-  CountedRepair too_short_, not_unit_, rotation_missing_, position_missing_;
+  CountedRepair<std::size_t> too_short_, not_unit_, rotation_missing_, position_missing_;
 };
 
 class JointRewriter {
@@ -291,7 +284,9 @@ class JointRewriter {
   std::string rewrite() {
     for (std::size_t f = 0; f < clip_.frame_count() && patch_.next();) {
       if (document_.table.is_filler(patch_.row())) continue;
-      mend_labels(f);
+      mend_row_labels(document_.table,
+                      static_cast<double>(first_frame_number(clip_)) + static_cast<double>(f),
+                      patch_);
       for (std::size_t j = 0; j < clip_.joint_count(); ++j) compare_rotation(f, j);
       for (std::size_t i = columns_.has_root ? 0 : 1; i < columns_.positions.size(); ++i)
         compare_position(f, i);
@@ -301,49 +296,37 @@ class JointRewriter {
   }
 
  private:
-  // Replaces frame numbers and times that are not finite.
-  void mend_labels(std::size_t frame) {
-    const MarkerTable& table = document_.table;
-    const auto is_no_number = [&](std::int32_t column) {
-      return column >= 0 && patch_.is_no_number(static_cast<std::size_t>(column));
-    };
-    if (is_no_number(table.frame_column)) {
-      const std::int64_t first = first_frame_number(clip_);
-      patch_.replace(static_cast<std::size_t>(table.frame_column),
-                     static_cast<double>(first) + static_cast<double>(frame), 0);
-    }
-    if (is_no_number(table.time_column))
-      patch_.replace(static_cast<std::size_t>(table.time_column), not_a_number, 0);
-  }
-
   void compare_rotation(std::size_t frame, std::size_t joint) {
-    const auto& [w, x, y, z] = columns_.rotations[joint];
+    const auto& columns = columns_.rotations[joint];
+    const auto& [w, x, y, z] = columns;
     const Quat before =
         rotation_of_values(patch_.value(w), patch_.value(x), patch_.value(y), patch_.value(z));
     Quat now = clip_.rotation(frame, joint);
     const bool known = clip_.is_observed(frame, joint);
-    const bool is_number = !patch_.is_no_number(w) && !patch_.is_no_number(x) &&
-                           !patch_.is_no_number(y) && !patch_.is_no_number(z);
-    if (is_number && (is_missing(before) ? !known : known && now == before)) return;
+    if (holds_numbers(columns) && (is_missing(before) ? !known : known && now == before)) return;
     if (!known) now = {not_a_number, not_a_number, not_a_number, not_a_number};
-    patch_.replace(w, now.w, shortest_digits);
-    patch_.replace(x, now.x, shortest_digits);
-    patch_.replace(y, now.y, shortest_digits);
-    patch_.replace(z, now.z, shortest_digits);
+    replace(columns, std::array{now.w, now.x, now.y, now.z});
   }
 
   void compare_position(std::size_t frame, std::size_t index) {
     const Vec3 now = clip_.position(frame, index);
     const auto& held = document_.positions;
-    const auto& [x, y, z] = columns_.positions[index];
+    const auto& columns = columns_.positions[index];
+    const auto& [x, y, z] = columns;
     const Vec3 before = held.empty() ? Vec3{patch_.value(x), patch_.value(y), patch_.value(z)}
                                      : held[frame * clip_.point_count() + index];
-    const bool is_number =
-        !patch_.is_no_number(x) && !patch_.is_no_number(y) && !patch_.is_no_number(z);
-    if (now == before && is_number) return;
-    patch_.replace(x, now.x, shortest_digits);
-    patch_.replace(y, now.y, shortest_digits);
-    patch_.replace(z, now.z, shortest_digits);
+    if (now == before && holds_numbers(columns)) return;
+    replace(columns, std::array{now.x, now.y, now.z});
+  }
+
+  bool holds_numbers(std::span<const std::size_t> columns) const {
+    return std::none_of(columns.begin(), columns.end(),
+                        [&](std::size_t column) { return patch_.is_no_number(column); });
+  }
+
+  void replace(std::span<const std::size_t> columns, std::span<const double> values) {
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      patch_.replace(columns[i], values[i], shortest_digits);
   }
 
   const Take& clip_;
@@ -354,9 +337,9 @@ class JointRewriter {
 
 }  // namespace
 
-Take read_csv_joints(const SourceText& text, Diagnostics& diagnostics, const CsvHeader& header,
-                     CsvDocument& document, RowLabels& labels) {
-  return JointReader(text, diagnostics, header, document, labels).read();
+Take read_csv_joints(const SourceText& text, const CsvHeader& header, CsvDocument& document,
+                     RowLabels& labels) {
+  return JointReader(text, header, document, labels).read();
 }
 
 std::string rewrite_csv_joints(const Take& clip, const CsvDocument& document) {
@@ -369,12 +352,7 @@ std::string quoted_name(const std::string& name) {
   if (name.find_first_of("\r\n") != name.npos) {
     throw Error(ErrorKind::usage, fmt::format("CSV cannot hold the name {}", quote(name)));
   }
-  const bool plain = !name.empty() && name.find_first_of(";\"") == name.npos &&
-                     !is_space(name.front()) && !is_space(name.back());
-  if (plain) return name;
-  std::string text = "\"";
-  for (const char c : name) text += c == '"' ? "\"\"" : std::string(1, c);
-  return text + "\"";
+  return name.empty() ? "\"\"" : cell_of(name, ';');
 }
 
 std::string numbers(std::span<const double> values) {
@@ -417,7 +395,7 @@ class NoteReader {
     const std::vector<std::string> parts = words(field);
     std::vector<double> found;
     for (const std::string& part : parts) {
-      const NumberToken token = read_number(part.data(), part.data() + part.size());
+      const NumberToken token = read_number(part);
       const bool infinite = part == "inf" || part == "-inf";
       if (token.kind != TokenKind::number && !infinite) fail(field, count);
       constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -6,15 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "base/portable.hpp"
 #include "io/reading_limits.hpp"
 #include "io/table/marker_zeros.hpp"
-#include "io/text/cells.hpp"
 #include "io/text/fixed_digits.hpp"
-#include "io/text/number.hpp"
-#include "io/text/text.hpp"
+#include "kinemend/extend/frames.hpp"
 
 namespace kinemend {
 
@@ -22,16 +19,15 @@ namespace {
 
 class TableReader {
  public:
-  TableReader(const SourceText& text, Diagnostics& diagnostics, std::size_t declared_frames,
-              MarkerTable& table, Take& clip)
+  TableReader(const SourceText& text, std::size_t declared_frames, TableFile& file, Take& clip)
       : text_(text),
-        diagnostics_(diagnostics),
         declared_frames_(declared_frames),
-        table_(table),
+        file_(file),
+        table_(file.table),
         clip_(clip),
         markers_(clip.marker_count()),
-        width_(table.width()),
-        rows_(text.bytes, table.begin, table.style),
+        width_(table_.width()),
+        rows_(text.bytes, table_.begin, table_.style),
         values_(width_) {}
 
   TableFinding read() {
@@ -68,7 +64,7 @@ class TableReader {
     const auto place = static_cast<std::size_t>(row.fault - text_.bytes.data());
     line = line.substr(0, place - row_begin_);
     if (std::any_of(line.begin(), line.end(), [](char c) { return !is_space(c); })) return false;
-    note_repair(text_, diagnostics_, "trailing_text", place, "text after the last frame");
+    text_.note("trailing_text", place, "text after the last frame");
     return true;
   }
 
@@ -77,10 +73,7 @@ class TableReader {
     clip_.positions.clear();
     clip_.observed.clear();
     table_.frames = 0;
-    TableFinding finding;
-    finding.widest = widest;
-    finding.wide_row = row_begin_;
-    return finding;
+    return {{}, widest, row_begin_};
   }
 
   void store(const CellRow& row) {
@@ -154,8 +147,8 @@ class TableReader {
     // The repair `file_cut` covers these faults too.
     too_short_.count -= last_row_.cells + 1 < width_ ? 1 : 0;
     incomplete_.count -= incomplete_in_row_;
-    note_repair(text_, diagnostics_, "file_cut", table_.end,
-                "the file ends in the middle of a row: its last value is not used");
+    text_.note("file_cut", table_.end,
+               "the file ends in the middle of a row: its last value is not used");
     const std::size_t column = last_row_.used - 1;
     const auto begins_behind = [&](const auto& columns) {
       return column < *std::min_element(columns.begin(), columns.end());
@@ -179,27 +172,26 @@ class TableReader {
     for (std::vector<double>* labels : {&finding_.labels.frames, &finding_.labels.times_s}) {
       if (!labels->empty()) labels->pop_back();
     }
-    finding_.cut_row = row_begin_;
+    has_cut_row_ = true;
     table_.end = row_begin_;
   }
 
   void finish() {
     leave_out_cut_value();
-    if (rows_.not_finite() > 0) {
-      note_repair(text_, diagnostics_, "value_not_finite",
-                  static_cast<std::size_t>(rows_.first_not_finite() - text_.bytes.data()),
-                  "a coordinate is not finite: the marker is missing", rows_.not_finite());
-    }
-    note(too_short_, "row_too_short", "a row ends early: the rest of it is missing");
-    note(incomplete_, "marker_incomplete", "a marker lacks some of its coordinates: it is missing");
+    text_.note("value_not_finite", rows_.not_finite(),
+               "a coordinate is not finite: the marker is missing");
+    text_.note("row_too_short", too_short_, "a row ends early: the rest of it is missing");
+    text_.note("marker_incomplete", incomplete_,
+               "a marker lacks some of its coordinates: it is missing");
     if (table_.zeros_are_missing) hide_zeros();
     const MissingZeros zeros = mark_zeros_missing(clip_);
     if (zeros.samples > 0) {
-      note_repair(text_, diagnostics_, "zero_is_missing", place_of_frame(zeros.first_frame),
-                  "a marker is at 0 0 0 but was not near before or after: it is missing",
-                  zeros.samples);
+      text_.note("zero_is_missing", place_of_frame(zeros.first_frame),
+                 "a marker is at 0 0 0 but was not near before or after: it is missing",
+                 zeros.samples);
     }
     table_.observed = clip_.observed;
+    if (has_cut_row_) file_.bytes.resize(table_.end);
   }
 
   // Marks zeros as missing, unless empty cells mark missing samples.
@@ -210,11 +202,6 @@ class TableReader {
     }
   }
 
-  void note(const CountedRepair& repair, std::string_view kind, std::string_view message) {
-    if (repair.count > 0)
-      note_repair(text_, diagnostics_, kind, repair.first, message, repair.count);
-  }
-
   std::size_t place_of_frame(std::size_t frame) const {
     CellRows rows(text_.bytes, table_.begin, table_.style);
     for (std::size_t f = 0; rows.next() && f < frame; ++f) rows.read(nullptr, 0);
@@ -222,8 +209,8 @@ class TableReader {
   }
 
   const SourceText& text_;
-  Diagnostics& diagnostics_;
   std::size_t declared_frames_;
+  TableFile& file_;
   MarkerTable& table_;
   Take& clip_;
   std::size_t markers_;
@@ -231,10 +218,10 @@ class TableReader {
   CellRows rows_;
   std::vector<double> values_;
   std::size_t row_begin_ = 0;
+  bool has_cut_row_ = false;  // the last row was cut before its first sample
   CellRow last_row_;
   TableFinding finding_;
-  CountedRepair too_short_;
-  CountedRepair incomplete_;
+  CountedRepair<std::size_t> too_short_, incomplete_;
   std::size_t incomplete_in_row_ = 0;  // incomplete markers in the last row
 };
 
@@ -280,27 +267,36 @@ std::size_t MarkerTable::width() const {
   return last;
 }
 
-TableFinding read_marker_table(const SourceText& text, Diagnostics& diagnostics,
-                               std::size_t declared_frames, MarkerTable& table, Take& clip) {
-  return TableReader(text, diagnostics, declared_frames, table, clip).read();
+bool TableFile::fits(const Take& clip) const {
+  return table.head_is_finite && !names.empty() && clip.names == names && clip.unit == unit &&
+         clip.frame_count() == table.frames && clip.frame_rate_hz == frame_rate_hz &&
+         clip.first_frame == first_frame;
+}
+
+TableFinding read_marker_table(const SourceText& text, std::size_t declared_frames, TableFile& file,
+                               Take& clip) {
+  return TableReader(text, declared_frames, file, clip).read();
+}
+
+void note_head_not_finite(const SourceText& text, std::size_t place, MarkerTable& table) {
+  table.head_is_finite = false;
+  text.note("head_not_finite", place,
+            "a number in the head is not finite: it is ignored and not written");
 }
 
 bool is_not_finite(std::string_view text) {
-  if (text.empty()) return false;
-  const char* const end = text.data() + text.size();
-  const NumberToken token = read_number(text.data(), end, CommaStyle::decimal);
-  return token.kind == TokenKind::not_finite && token.end == end;
+  const NumberToken token = read_number(text, CommaStyle::decimal);
+  return token.kind == TokenKind::not_finite && token.end == text.data() + text.size();
 }
 
 void fail_at_cell(const SourceText& text, const char* place, char separator) {
-  std::string_view cell =
-      line_from(text.bytes, static_cast<std::size_t>(place - text.bytes.data()));
+  std::string_view cell = line_from(text.bytes, text.offset_of(place));
   cell = cell.substr(0, separator == ' ' ? cell.find_first_of(" \t") : cell.find(separator));
   throw text.error_at(place, fmt::format("expected a number, found {}", quote(cell)));
 }
 
-RowRate check_row_labels(const SourceText& text, Diagnostics& diagnostics, const MarkerTable& table,
-                         const RowLabels& labels, Take& clip) {
+RowRate check_row_labels(const SourceText& text, const MarkerTable& table, const RowLabels& labels,
+                         Take& clip) {
   const auto count_steps = [](const std::vector<double>& values, auto is_odd) {
     std::size_t odd = 0;
     for (std::size_t i = 1; i < values.size(); ++i)
@@ -312,10 +308,8 @@ RowRate check_row_labels(const SourceText& text, Diagnostics& diagnostics, const
     clip.first_frame = std::llround(labels.frames[0]);
   }
   const std::size_t jumps = count_steps(labels.frames, [](double step) { return step != 1; });
-  if (jumps > 0) {
-    note_repair(text, diagnostics, "frame_number_gap", table.begin,
-                "frame numbers do not go up by one: rows are read as successive frames", jumps);
-  }
+  text.note("frame_number_gap", table.begin,
+            "frame numbers do not go up by one: rows are read as successive frames", jumps);
   const auto& times = labels.times_s;
   if (times.size() < 2) return {};
   const double steps = static_cast<double>(times.size() - 1);
@@ -325,14 +319,14 @@ RowRate check_row_labels(const SourceText& text, Diagnostics& diagnostics, const
   const std::size_t uneven = count_steps(times, [&](double step) {
     return !(std::fabs(step - mean_step_s) <= 0.1 * mean_step_s + 2 * rounding_s);
   });
-  if (uneven > 0) {
-    note_repair(text, diagnostics, "time_uneven", table.begin,
-                "times are uneven: rows are read as evenly spaced", uneven);
-  }
+  text.note("time_uneven", table.begin, "times are uneven: rows are read as evenly spaced", uneven);
   const double tolerance_s = 2.01 * rounding_s / steps;
   return {rate_of(mean_step_s, tolerance_s), mean_step_s, tolerance_s};
 }
 
+namespace {
+
+// `room` must hold `fixed_number_room` characters.
 std::string_view coordinate_text(double value, char* room, unsigned most_decimals) {
   const auto text_until = [&](const char* end) {
     return std::string_view(room, static_cast<std::size_t>(end - room));
@@ -349,8 +343,6 @@ std::string_view coordinate_text(double value, char* room, unsigned most_decimal
   return short_enough ? digits : text_until(write_fixed(room, value, most_decimals));
 }
 
-namespace {
-
 unsigned decimals_in(TokenSpan token, CommaStyle commas) {
   const std::string_view text(token.begin, static_cast<std::size_t>(token.end - token.begin));
   constexpr unsigned shortest_digits = most_fixed_decimals + 1;
@@ -364,19 +356,20 @@ unsigned decimals_in(TokenSpan token, CommaStyle commas) {
 
 class TableRewriter {
  public:
-  TableRewriter(const Take& clip, std::string_view bytes, const MarkerTable& table)
+  TableRewriter(const Take& clip, const TableFile& file)
       : clip_(clip),
-        bytes_(bytes),
-        table_(table),
-        patch_(bytes, table.begin, table.style, table.width()) {
-    for (std::size_t i = 0; i < table.observed.size(); ++i)
-      empties_cells_ = empties_cells_ || (table.observed[i] != 0 && clip.observed[i] == 0);
+        file_(file),
+        table_(file.table),
+        patch_(file.bytes, table_.begin, table_.style, table_.width()) {
+    for (std::size_t i = 0; i < table_.observed.size(); ++i)
+      empties_cells_ = empties_cells_ || (table_.observed[i] != 0 && clip.observed[i] == 0);
   }
 
   std::optional<std::string> rewrite() {
     for (std::size_t f = 0; f < table_.frames && patch_.next();) {
       if (table_.is_filler(patch_.row())) continue;
-      mend_labels(f);
+      const double number = static_cast<double>(clip_.first_frame) + static_cast<double>(f);
+      if (mend_row_labels(table_, number, patch_)) needs_empty_cells_ = true;
       for (std::size_t m = 0; m < clip_.marker_count(); ++m) compare(f, m);
       // The row may look complete after the rewrite, so a sample with cut digits is removed.
       for (const std::size_t column : cut_) {
@@ -391,19 +384,6 @@ class TableRewriter {
   }
 
  private:
-  // Replaces a frame number or time that is not finite; frame numbers continue from the first.
-  void mend_labels(std::size_t frame) {
-    if (is_no_number(table_.frame_column)) {
-      patch_.replace(static_cast<std::size_t>(table_.frame_column),
-                     static_cast<double>(clip_.first_frame) + static_cast<double>(frame), 0);
-    }
-    if (is_no_number(table_.time_column)) empty(static_cast<std::size_t>(table_.time_column));
-  }
-
-  bool is_no_number(std::int32_t column) const {
-    return column >= 0 && patch_.is_no_number(static_cast<std::size_t>(column));
-  }
-
   void empty(std::size_t column) {
     needs_empty_cells_ = true;
     patch_.replace(column, not_a_number, 0);
@@ -418,15 +398,12 @@ class TableRewriter {
     if (!known && !was_known) {
       const bool was_cut = !std::isnan(before.x + before.y + before.z) && !(before == Vec3{});
       if (was_cut) cut_.insert(cut_.end(), columns.begin(), columns.end());
-      // In a file with empty cells, zeros no longer mean missing samples, so they are emptied.
-      if (before == Vec3{} && empties_cells_) {
-        for (const std::size_t column : columns) empty(column);
-      }
-      // If one cell is a word such as nan, the rest of the position is missing too.
+      // In a file with empty cells, zeros no longer mean missing samples, so they are emptied. If
+      // one cell is a word such as nan, the rest of the position is missing too.
       const bool has_word = std::any_of(columns.begin(), columns.end(), [&](std::size_t column) {
         return patch_.is_no_number(column);
       });
-      if (has_word) {
+      if (has_word || (before == Vec3{} && empties_cells_)) {
         for (const std::size_t column : columns) empty(column);
       }
     } else if (!known) {
@@ -440,12 +417,12 @@ class TableRewriter {
 
   // Reads the text again, which only a changed take needs.
   unsigned decimals() {
-    if (!decimals_) decimals_ = decimals_of(bytes_, table_);
+    if (!decimals_) decimals_ = decimals_of(file_);
     return *decimals_;
   }
 
   const Take& clip_;
-  std::string_view bytes_;
+  const TableFile& file_;
   const MarkerTable& table_;
   CellPatch patch_;
   bool empties_cells_ = false;      // a sample that was observed is now missing
@@ -456,11 +433,12 @@ class TableRewriter {
 
 }  // namespace
 
-unsigned decimals_of(std::string_view bytes, const MarkerTable& table) {
+unsigned decimals_of(const TableFile& file) {
+  const MarkerTable& table = file.table;
   const std::size_t width = table.width();
   std::vector<double> values(width);
   std::vector<TokenSpan> tokens(width);
-  CellRows rows(bytes, table.begin, table.style);
+  CellRows rows(file.bytes, table.begin, table.style);
   unsigned most = 0;
   while (rows.next() && rows.position() < table.end) {
     rows.read(values.data(), width, tokens.data());
@@ -474,50 +452,153 @@ unsigned decimals_of(std::string_view bytes, const MarkerTable& table) {
   return most;
 }
 
-std::optional<std::string> rewrite_marker_table(const Take& clip, std::string_view bytes,
-                                                const MarkerTable& table) {
-  return TableRewriter(clip, bytes, table).rewrite();
+std::optional<std::string> rewrite_marker_table(const Take& clip, const TableFile* file) {
+  if (file == nullptr || !file->fits(clip)) return std::nullopt;
+  return TableRewriter(clip, *file).rewrite();
 }
 
-void name_the_unnamed(const SourceText& text, Diagnostics& diagnostics, std::size_t place,
-                      Take& clip) {
+bool mend_row_labels(const MarkerTable& table, double frame_number, CellPatch& patch) {
+  const auto replace = [&](std::int32_t column, double value) {
+    const auto cell = static_cast<std::size_t>(column);
+    if (column < 0 || !patch.is_no_number(cell)) return false;
+    patch.replace(cell, value, 0);
+    return true;
+  };
+  replace(table.frame_column, frame_number);
+  return replace(table.time_column, not_a_number);
+}
+
+void append_row_labels(TextBuffer& out, std::int64_t frame, double time_s, char separator) {
+  // Microseconds. Chosen by hand.
+  constexpr unsigned time_decimals = 6;
+  out.append(std::to_string(frame));
+  out.append({&separator, 1});
+  out.append_fixed(time_s, time_decimals);
+}
+
+void append_marker_rows(TextBuffer& out, const Take& clip, const TableStyle& style) {
+  char room[fixed_number_room];
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    append_row_labels(out, clip.first_frame + static_cast<std::int64_t>(f),
+                      static_cast<double>(f) / clip.frame_rate_hz, style.separator);
+    for (std::size_t m = 0; m < clip.marker_count(); ++m) {
+      const Vec3 position = clip.position(f, m);
+      for (const double value : {position.x, position.y, position.z}) {
+        out.append({&style.separator, 1});
+        if (!clip.is_observed(f, m)) continue;
+        if (style.decimals <= most_fixed_decimals) {
+          out.append_fixed(value, style.decimals);
+        } else {
+          out.append(coordinate_text(value, room, style.most_decimals));
+        }
+      }
+    }
+    out.append(style.line_end);
+  }
+}
+
+void name_the_unnamed(const SourceText& text, std::size_t place, Take& clip) {
   std::size_t unnamed = 0;
   for (std::size_t m = 0; m < clip.names.size(); ++m) {
     if (!clip.names[m].empty()) continue;
     clip.names[m] = fmt::format("*{}", m + 1);
     ++unnamed;
   }
-  if (unnamed > 0) {
-    note_repair(text, diagnostics, "marker_unnamed", place,
-                "a marker has no name: it is called *1, *2, ... by its position", unnamed);
-  }
+  text.note("marker_unnamed", place,
+            "a marker has no name: it is called *1, *2, ... by its position", unnamed);
 }
 
-double table_rate(const SourceText& text, Diagnostics& diagnostics, const RowRate& times,
+namespace {
+
+// Returns the rate if a take can have it, else 0 for unknown. A missing rate is no repair.
+double usable_rate(const SourceText& text, double stated_hz, std::size_t place) {
+  if (is_usable_frame_rate(stated_hz)) return stated_hz;
+  if (stated_hz > 0) text.note("frame_rate_unusable", place, unusable_rate_text(stated_hz));
+  return 0;
+}
+
+}  // namespace
+
+double table_rate(const SourceText& text, const RowRate& times, std::size_t rows_place,
                   const TableRate& said) {
   // Relative difference of the stated rate and the times' rate. Chosen by hand, not swept.
   constexpr double tolerance = 0.01;
-  const double stated = usable_rate(text, diagnostics, said.stated_hz, said.stated_place);
+  const double stated = usable_rate(text, said.stated_hz, said.stated_place);
   if (stated > 0) {
     const double off_s = std::fabs(1 / stated - times.step_s);
     if (times.rate_hz > 0 && off_s > tolerance / stated + times.tolerance_s) {
-      note_repair(text, diagnostics, "time_mismatch", said.mismatch_place,
-                  fmt::format("{0} states {1} Hz, the times {2:.6g} Hz: {0} is used",
-                              said.stated_by, stated, times.rate_hz));
+      text.note("time_mismatch", said.mismatch_place,
+                fmt::format("{0} states {1} Hz, the times {2:.6g} Hz: {0} is used", said.stated_by,
+                            stated, times.rate_hz));
     }
     return stated;
   }
-  const double of_times = usable_rate(text, diagnostics, times.rate_hz, said.rows_place);
+  const double of_times = usable_rate(text, times.rate_hz, rows_place);
   const bool by_times = of_times > 0, by_options = said.asked_hz > 0;
   const double rate = by_times ? of_times : by_options ? said.asked_hz : said.unknown_hz;
   if (said.must_be_stated || !(by_times || by_options)) {
-    note_repair(text, diagnostics, "frame_rate_assumed", said.stated_place,
-                fmt::format("{}: {:.6g} Hz {}", said.missing, rate,
-                            by_times     ? "from the times"
-                            : by_options ? "as requested"
-                                         : "assumed"));
+    text.note("frame_rate_assumed", said.stated_place,
+              fmt::format("{}: {:.6g} Hz {}", said.missing, rate,
+                          by_times     ? "from the times"
+                          : by_options ? "as requested"
+                                       : "assumed"));
   }
   return rate;
+}
+
+void finish_markers(const SourceText& text, const RowLabels& labels, const TableRate& said,
+                    TableFile& file, Take& clip) {
+  clip.frame_rate_hz =
+      table_rate(text, check_row_labels(text, file.table, labels, clip), file.table.begin, said);
+  clip.is_position.assign(clip.marker_count(), 1);
+  file.names = clip.names;
+  file.frame_rate_hz = clip.frame_rate_hz;
+  file.first_frame = clip.first_frame;
+  file.unit = clip.unit;
+}
+
+double number_of(std::string_view text) {
+  const NumberToken token = read_number(text, CommaStyle::decimal);
+  const bool is_whole = token.end == text.data() + text.size();
+  return is_whole && token.kind == TokenKind::number ? token.value : not_a_number;
+}
+
+char separator_of(std::string_view line) {
+  constexpr std::string_view separators = ",;\t";
+  std::array<std::size_t, 3> counts{};
+  bool quoted = false;
+  for (const char c : line) {
+    quoted = quoted != (c == '"');
+    const std::size_t at = separators.find(c);
+    if (!quoted && at != separators.npos) ++counts[at];
+  }
+  return separators[static_cast<std::size_t>(std::max_element(counts.begin(), counts.end()) -
+                                             counts.begin())];
+}
+
+CommaStyle commas_of(std::string_view rows, char separator) {
+  const Cells cells = split_cells(line_from(rows, 0), separator);
+  const bool decimal = separator == ','
+                           ? std::any_of(cells.begin(), cells.end(),
+                                         [](const auto& c) { return c.find(',') != c.npos; })
+                           : rows.find(',') != rows.npos;
+  return decimal ? CommaStyle::decimal : CommaStyle::none;
+}
+
+std::string_view HeadLines::take() {
+  place_ = next_;
+  next_ = next_line(text_->bytes, next_);
+  return line_from(text_->bytes, place_);
+}
+
+Cells HeadLines::take_cells() {
+  const std::string_view line = take();
+  separator_ = separator_of(line);
+  const auto separators = std::count(line.begin(), line.end(), separator_);
+  if (static_cast<std::size_t>(separators) > most_columns) {
+    throw text_->error_at(place_, fmt::format("at most {} columns can be read", most_columns));
+  }
+  return split_cells(line, separator_);
 }
 
 }  // namespace kinemend

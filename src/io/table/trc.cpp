@@ -1,21 +1,247 @@
-// Reads TRC files as takes of markers, and writes them in the layout of their source or in a plain
-// one.
+// Reads TRC files as takes of markers, with their heads in all dialects, and writes them in the
+// layout of their source or in a plain one.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <utility>
 
 #include "io/table/marker_table.hpp"
 #include "io/table/tables.hpp"
-#include "io/table/trc_document.hpp"
-#include "io/text/cells.hpp"
-#include "io/text/text.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/extend/text.hpp"
 
 namespace kinemend {
+
+/// The lines above the rows of a TRC file.
+struct TrcHeader {
+  std::string_view first_line;  ///< `PathFileType ...`; empty if missing
+  std::string first_cell;       ///< the name in the first line
+  std::vector<std::string> keys;
+  std::vector<std::string> values;
+  std::size_t values_line = 0;  ///< byte of the line of values
+  std::size_t labels_line = 0;
+  std::vector<std::string> labels;  ///< after `Frame#` and `Time`, one per marker
+  bool has_time = true;
+  CellStyle style;  ///< style of the rows
+  std::size_t data_begin = 0;
+
+  /// Returns the value of a key; empty if the header lacks it.
+  std::string_view value(std::string_view key) const;
+  /// Returns the value of a key as a number; NaN if it is not finite. A decimal comma is allowed.
+  double number(std::string_view key) const;
+};
+
+/// A TRC file as it was read.
+struct TrcDocument : SourceDocument, TableFile {
+  std::string first_line;
+};
+
+namespace {
+
+bool begins_with(std::string_view text, std::string_view word) {
+  return equal_ignoring_case(text.substr(0, word.size()), word);
+}
+
+// Whether a character belongs to a line that holds only separators and quotes.
+bool is_filler(char c) { return is_space(c) || c == ',' || c == ';' || c == '"'; }
+
+bool is_empty(std::string_view line) { return std::all_of(line.begin(), line.end(), is_filler); }
+
+// Returns the separator: tabs, or spaces in some files; spreadsheets write commas, or semicolons if
+// commas are decimal.
+char trc_separator(std::string_view line) {
+  for (const char separator : {'\t', ';', ','}) {
+    if (line.find(separator) != line.npos) return separator;
+  }
+  return ' ';
+}
+
+std::vector<std::string> without_empty(std::vector<std::string> cells) {
+  cells.erase(std::remove(cells.begin(), cells.end(), std::string()), cells.end());
+  return cells;
+}
+
+class TrcHeaderReader {
+ public:
+  explicit TrcHeaderReader(const SourceText& text)
+      : text_(text), lines_(text, byte_order_mark_size(text.bytes)) {}
+
+  TrcHeader read() {
+    if (is_empty(text_.bytes)) throw Error::at_line(text_.name, 1, "the file is empty");
+    while (header_.labels_line == 0) read_line();
+    read_below_labels();
+    choose_style();
+    note_separator();
+    return std::move(header_);
+  }
+
+ private:
+  // Returns the separator of values. A head with commas has values with commas; in a head with
+  // spaces commas may be decimal.
+  char separator_in(std::string_view line) const {
+    if (line.find('\t') != line.npos) return '\t';
+    return head_separator_ == '\t' ? ' ' : head_separator_;
+  }
+
+  void read_line() {
+    if (lines_.at_end()) {
+      throw text_.error_at(lines_.next(),
+                           "expected the row of labels (Frame#, Time, names of markers), "
+                           "found the end of the file");
+    }
+    const std::string_view line = lines_.take();
+    if (is_empty(line)) return;
+    if (static_cast<std::size_t>(std::count_if(line.begin(), line.end(), is_filler)) >
+        6 * most_markers) {
+      throw text_.error_at(lines_.place(),
+                           fmt::format("at most {} markers can be read", most_markers));
+    }
+    if (head_separator_ == 0) head_separator_ = trc_separator(line);
+    const std::vector<std::string> cells = split_cells(line, separator_in(line));
+    const auto key = std::find_if(cells.begin(), cells.end(), [](const std::string& cell) {
+      return equal_ignoring_case(cell, "DataRate");
+    });
+    if (begins_with(cells[0], "PathFileType")) {
+      header_.first_line = line;
+      if (cells.size() > 3) header_.first_cell = cells[3];
+    } else if (key != cells.end()) {
+      header_.keys = without_empty(cells);
+      const std::string_view values = lines_.take();
+      header_.values = without_empty(split_cells(values, separator_in(values)));
+      header_.values_line = lines_.place();
+    } else if (begins_with(cells[0], "Frame")) {
+      labels_separator_ = separator_in(line);
+      read_labels(cells, labels_separator_);
+    } else {
+      throw text_.error_at(
+          lines_.place(),
+          fmt::format("expected {}, found {}",
+                      header_.first_line.empty() && header_.keys.empty() ? "PathFileType"
+                      : header_.keys.empty() ? "DataRate and the other keys"
+                                             : "Frame#, Time and names of markers",
+                      quote(line)));
+    }
+  }
+
+  void read_labels(std::vector<std::string> cells, char separator) {
+    header_.labels_line = lines_.place();
+    header_.has_time = cells.size() > 1 && begins_with(cells[1], "Time");
+    cells.erase(cells.begin(), cells.begin() + (header_.has_time ? 2 : 1));
+    while (!cells.empty() && cells.back().empty()) cells.pop_back();
+    if (separator == ' ') {
+      header_.labels = std::move(cells);
+      return;
+    }
+    constexpr std::size_t stride = 3;
+    const bool above_x =
+        std::all_of(cells.begin(), cells.end(), [&, i = std::size_t{0}](const auto& cell) mutable {
+          return i++ % stride == 0 || cell.empty();
+        });
+    const bool thrice = !above_x && cells.size() % stride == 0 && is_thrice(cells);
+    if (!above_x) {
+      text_.note("label_layout", lines_.place(),
+                 thrice ? "each name is above all its three columns"
+                        : "names are not above the first of three columns");
+    }
+    if (above_x || thrice) {
+      for (std::size_t i = 0; i < cells.size(); i += stride) header_.labels.push_back(cells[i]);
+    } else {
+      header_.labels = without_empty(std::move(cells));
+    }
+  }
+
+  static bool is_thrice(const std::vector<std::string>& cells) {
+    for (std::size_t i = 0; i < cells.size(); i += 3) {
+      if (cells[i].empty() || cells[i + 1] != cells[i] || cells[i + 2] != cells[i]) return false;
+    }
+    return true;
+  }
+
+  // Reads the row of X1, Y1, Z1 and the blank line; both may be missing.
+  void read_below_labels() {
+    bool has_axes = false, has_blank = false;
+    header_.data_begin = lines_.next();
+    while (!lines_.at_end()) {
+      const std::string_view line = lines_.take();
+      const std::size_t first = line.find_first_not_of(" \t\v\f\",;");
+      if (first == line.npos) {
+        has_blank = true;
+      } else if (std::string_view("XYZxyz").find(line[first]) != std::string_view::npos &&
+                 !has_axes) {
+        has_axes = true;
+      } else {
+        header_.data_begin = lines_.place();
+        break;
+      }
+      header_.data_begin = lines_.next();
+    }
+    if (!has_axes && !header_.labels.empty()) {
+      text_.note("axis_row_missing", header_.labels_line, "the row of X1, Y1, Z1 is missing");
+    }
+    if (!has_blank) {
+      text_.note("blank_row_missing", header_.data_begin,
+                 "the blank line before the first frame is missing");
+    }
+  }
+
+  void choose_style() {
+    const std::string_view rows = text_.bytes.substr(header_.data_begin);
+    const std::string_view line = line_from(rows, 0);
+    // Rows use the labels' separator if they contain it, but tabs take precedence.
+    char separator = '\t';
+    if (line.find('\t') == line.npos) {
+      const bool as_labels = labels_separator_ != ' ' && line.find(labels_separator_) != line.npos;
+      separator = as_labels                            ? labels_separator_
+                  : line.find(';') != line.npos        ? ';'
+                  : split_cells(line, ' ').size() >= 2 ? ' '
+                                                       : '\t';
+    }
+    header_.style.separator = separator;
+    refuse_commas_of_two_kinds(rows);
+    header_.style.commas = commas_of(rows, separator);
+    if (header_.style.commas == CommaStyle::none) return;
+    text_.note("decimal_comma", header_.data_begin, "numbers have decimal commas");
+  }
+
+  // Rejects rows with commas and no point: digits after decimal commas would be read as cells.
+  void refuse_commas_of_two_kinds(std::string_view rows) const {
+    if (header_.style.separator != ',' || rows.find_first_of(".\"") != rows.npos) return;
+    throw text_.error_at(header_.data_begin,
+                         "decimal commas and commas between cells cannot be told apart");
+  }
+
+  void note_separator() {
+    const char separator = header_.style.separator;
+    if (separator == '\t') return;
+    const bool spaces = separator == ' ';
+    text_.note(
+        spaces ? "space_separator" : "comma_separator", header_.data_begin,
+        fmt::format("{} separate the cells instead of tabs", spaces             ? "spaces"
+                                                             : separator == ',' ? "commas"
+                                                                                : "semicolons"));
+  }
+
+  const SourceText& text_;
+  HeadLines lines_;
+  TrcHeader header_;
+  char head_separator_ = 0;  // separator of the first line
+  char labels_separator_ = '\t';
+};
+
+}  // namespace
+
+std::string_view TrcHeader::value(std::string_view key) const {
+  for (std::size_t i = 0; i < std::min(keys.size(), values.size()); ++i) {
+    if (equal_ignoring_case(keys[i], key)) return values[i];
+  }
+  return {};
+}
+
+double TrcHeader::number(std::string_view key) const {
+  const NumberToken token = read_number(value(key), CommaStyle::decimal);
+  return token.kind == TokenKind::number ? token.value : not_a_number;
+}
 
 namespace {
 
@@ -29,11 +255,11 @@ std::size_t whole(double number) {
 
 class TrcReader {
  public:
-  TrcReader(TrcDocument& document, std::string_view name, const ReadOptions& options)
-      : document_(document), options_(options), text_{name, document.bytes, options.strict} {}
+  TrcReader(TrcDocument& document, const SourceText& text, const ReadOptions& options)
+      : document_(document), options_(options), text_(text) {}
 
-  TakeResult read() {
-    header_ = read_trc_header(text_, diagnostics_);
+  Take read() {
+    header_ = TrcHeaderReader(text_).read();
     clip_.names = header_.labels;
     MarkerTable& table = document_.table;
     table.begin = header_.data_begin;
@@ -42,23 +268,19 @@ class TrcReader {
     table.time_column = header_.has_time ? 1 : -1;
     clip_.unit = header_.value("Units");
     if (is_not_finite(clip_.unit)) clip_.unit.clear();
-    table.head_is_finite =
-        std::none_of(header_.values.begin(), header_.values.end(), is_not_finite);
-    if (!table.head_is_finite)
-      note_repair(text_, diagnostics_, "head_not_finite", header_.values_line,
-                  head_not_finite_text);
+    if (std::any_of(header_.values.begin(), header_.values.end(), is_not_finite))
+      note_head_not_finite(text_, header_.values_line, table);
     const TableFinding rows = read_rows();
-    if (rows.cut_row) document_.bytes.resize(*rows.cut_row);
-    name_the_unnamed(text_, diagnostics_, header_.labels_line, clip_);
+    name_the_unnamed(text_, header_.labels_line, clip_);
     check_counts();
-    clip_.frame_rate_hz = table_rate(
-        text_, diagnostics_, check_row_labels(text_, diagnostics_, table, rows.labels, clip_),
-        {header_.number("DataRate"), header_.values_line, table.begin, options_.frame_rate_hz,
-         trc_rate_when_unknown_hz, "DataRate", header_.values_line,
-         "the header has no usable DataRate", true});
-    clip_.is_position.assign(clip_.marker_count(), 1);
+    finish_markers(text_, rows.labels,
+                   {header_.number("DataRate"), header_.values_line, options_.frame_rate_hz,
+                    trc_rate_when_unknown_hz, "DataRate", header_.values_line,
+                    "the header has no usable DataRate", true},
+                   document_, clip_);
     note_facts();
-    return finish();
+    document_.first_line = header_.first_line;
+    return std::move(clip_);
   }
 
  private:
@@ -67,7 +289,7 @@ class TrcReader {
   TableFinding read_rows() {
     set_columns();
     const auto declared = whole(header_.number("NumFrames"));
-    TableFinding rows = read_marker_table(text_, diagnostics_, declared, document_.table, clip_);
+    TableFinding rows = read_marker_table(text_, declared, document_, clip_);
     if (rows.widest == 0) return rows;
     // The commas may be both separators and decimal.
     if (document_.table.style.separator == ',') {
@@ -81,7 +303,7 @@ class TrcReader {
     check_marker_count(markers);
     clip_.names.resize(markers);
     set_columns();
-    return read_marker_table(text_, diagnostics_, declared, document_.table, clip_);
+    return read_marker_table(text_, declared, document_, clip_);
   }
 
   void check_marker_count(std::size_t markers) const {
@@ -109,20 +331,19 @@ class TrcReader {
                              std::string_view what) {
       if (header_.number(key) == static_cast<double>(found)) return;
       const std::string_view says = header_.value(key);
-      note_repair(text_, diagnostics_, kind, header_.values_line,
-                  fmt::format("{} says {}, the file holds {} {}", key,
-                              says.empty() ? "nothing" : quote(says), found, what));
+      text_.note(kind, header_.values_line,
+                 fmt::format("{} says {}, the file holds {} {}", key,
+                             says.empty() ? "nothing" : quote(says), found, what));
     };
     compare("NumFrames", document_.table.frames, "frame_count_mismatch", "frames");
     compare("NumMarkers", clip_.marker_count(), "marker_count_mismatch", "markers");
     if (header_.first_line.empty()) {
-      note_repair(text_, diagnostics_, "header_line_missing", 0,
-                  "the line PathFileType is missing");
+      text_.note("header_line_missing", std::size_t{0}, "the line PathFileType is missing");
     }
     if (metres_per_unit(clip_.unit) == 0) {
-      note_repair(text_, diagnostics_, "unit_unknown", header_.values_line,
-                  clip_.unit.empty() ? "the file names no unit"
-                                     : fmt::format("unknown unit {}", quote(clip_.unit)));
+      text_.note("unit_unknown", header_.values_line,
+                 clip_.unit.empty() ? "the file names no unit"
+                                    : fmt::format("unknown unit {}", quote(clip_.unit)));
     }
   }
 
@@ -141,19 +362,9 @@ class TrcReader {
     add("original frames", "OrigNumFrames", static_cast<double>(document_.table.frames), "");
   }
 
-  TakeResult finish() {
-    document_.first_line = header_.first_line;
-    document_.names = clip_.names;
-    document_.frame_rate_hz = clip_.frame_rate_hz;
-    document_.first_frame = clip_.first_frame;
-    document_.unit = clip_.unit;
-    return {std::move(clip_), std::move(diagnostics_)};
-  }
-
   TrcDocument& document_;
   const ReadOptions& options_;
-  SourceText text_;
-  Diagnostics diagnostics_;
+  const SourceText& text_;
   TrcHeader header_;
   Take clip_;
 };
@@ -177,53 +388,45 @@ TakeResult read_trc(std::string bytes, std::string_view name, const ReadOptions&
 
 namespace {
 
-// The style of a file that does not use its source's layout.
-struct PlainStyle {
-  std::string first_line;
-  std::string_view line_end = "\n";
-  unsigned decimals = 10;  // more than nine: as many digits as a value needs
-};
+// Returns the first line of the source, for a clip whose frames or markers differ.
+std::string first_line_of(const Take& clip, const TrcDocument* document) {
+  // A first line with commas does not fit a table with tabs.
+  if (document != nullptr && !document->first_line.empty() &&
+      (document->first_line.find('\t') != std::string::npos ||
+       document->first_line.find_first_of(",;") == std::string::npos)) {
+    return document->first_line;
+  }
+  std::string name = std::filesystem::path(clip.source.name).filename().string();
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '\t' || is_line_end(c); }, ' ');
+  return "PathFileType\t4\t(X/Y/Z)\t" + (name.empty() ? "kinemend.trc" : name);
+}
 
-// Returns the first line and the decimals of the source, for a clip whose frames or markers differ.
-PlainStyle style_of(const Take& clip, const TrcDocument* document) {
-  PlainStyle style;
-  if (document != nullptr) {
-    // A first line with commas does not fit a table with tabs.
-    if (document->first_line.find('\t') != std::string::npos ||
-        document->first_line.find_first_of(",;") == std::string::npos) {
-      style.first_line = document->first_line;
-    }
-    const std::size_t end = document->bytes.find_first_of("\r\n");
-    if (end != std::string::npos) {
-      style.line_end = document->bytes.substr(end, 2) == "\r\n" ? "\r\n" : "\n";
-    }
-    style.decimals = decimals_of(document->bytes, document->table);
-  }
-  if (style.first_line.empty()) {
-    std::string name = std::filesystem::path(clip.source.name).filename().string();
-    std::replace_if(
-        name.begin(), name.end(), [](char c) { return c == '\t' || is_line_end(c); }, ' ');
-    style.first_line = "PathFileType\t4\t(X/Y/Z)\t" + (name.empty() ? "kinemend.trc" : name);
-  }
+// Returns the line end and the decimals of the source.
+TableStyle style_of(const TrcDocument* document) {
+  TableStyle style;
+  if (document == nullptr) return style;
+  if (line_ending_of(document->bytes) == "\r\n") style.line_end = "\r\n";
+  style.decimals = decimals_of(*document);
   return style;
 }
 
 std::string rate_text(double rate_hz) {
   char room[fixed_number_room];
   const std::string two_decimals(room, write_fixed(room, rate_hz, 2));
-  const NumberToken token =
-      read_number(two_decimals.data(), two_decimals.data() + two_decimals.size());
+  const NumberToken token = read_number(two_decimals);
   return token.value == rate_hz ? two_decimals : std::string(room, write_shortest(room, rate_hz));
 }
 
 class TrcWriter {
  public:
-  TrcWriter(const Take& clip, PlainStyle style)
-      : clip_(clip), style_(std::move(style)), out_(64 * clip.positions.size() + 4096) {}
+  TrcWriter(const Take& clip, const TrcDocument* document)
+      : clip_(clip), style_(style_of(document)), out_(64 * clip.positions.size() + 4096) {
+    write_header(first_line_of(clip, document));
+  }
 
   std::string write() {
-    write_header();
-    for (std::size_t f = 0; f < clip_.frame_count(); ++f) write_row(f);
+    append_marker_rows(out_, clip_, style_);
     return std::move(out_).take();
   }
 
@@ -233,9 +436,9 @@ class TrcWriter {
     out_.append(style_.line_end);
   }
 
-  void write_header() {
+  void write_header(const std::string& first_line) {
     const std::string rate = rate_text(clip_.frame_rate_hz);
-    line(style_.first_line);
+    line(first_line);
     line(
         "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\t"
         "OrigNumFrames");
@@ -256,30 +459,8 @@ class TrcWriter {
     line("");
   }
 
-  void write_row(std::size_t frame) {
-    // Microseconds. Chosen by hand.
-    constexpr unsigned time_decimals = 6;
-    out_.append(std::to_string(clip_.first_frame + static_cast<std::int64_t>(frame)));
-    out_.append("\t");
-    out_.append_fixed(static_cast<double>(frame) / clip_.frame_rate_hz, time_decimals);
-    for (std::size_t m = 0; m < clip_.marker_count(); ++m) {
-      const Vec3 position = clip_.position(frame, m);
-      for (const double value : {position.x, position.y, position.z}) {
-        out_.append("\t");
-        if (clip_.is_observed(frame, m)) write_coordinate(value);
-      }
-    }
-    out_.append(style_.line_end);
-  }
-
-  void write_coordinate(double value) {
-    if (style_.decimals <= most_fixed_decimals) return out_.append_fixed(value, style_.decimals);
-    char room[fixed_number_room];
-    out_.append(coordinate_text(value, room, most_fixed_decimals));
-  }
-
   const Take& clip_;
-  PlainStyle style_;
+  TableStyle style_;
   TextBuffer out_;
 };
 
@@ -288,16 +469,9 @@ class TrcWriter {
 std::string write_trc(const Take& clip) {
   clip.validate();
   const auto* document = dynamic_cast<const TrcDocument*>(clip.source.document.get());
-  const bool same_layout =
-      document != nullptr && document->table.head_is_finite && clip.names == document->names &&
-      clip.unit == document->unit && clip.frame_count() == document->table.frames &&
-      clip.frame_rate_hz == document->frame_rate_hz && clip.first_frame == document->first_frame;
-  if (same_layout) {
-    if (auto bytes = rewrite_marker_table(clip, document->bytes, document->table))
-      return *std::move(bytes);
-  }
+  if (auto bytes = rewrite_marker_table(clip, document)) return *std::move(bytes);
   if (clip.names.empty()) throw Error(ErrorKind::usage, "TRC cannot hold a clip without markers");
-  return TrcWriter(clip, style_of(clip, document)).write();
+  return TrcWriter(clip, document).write();
 }
 
 }  // namespace kinemend

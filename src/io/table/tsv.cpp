@@ -4,31 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include "io/table/csv_document.hpp"
 #include "io/table/marker_table.hpp"
 #include "io/table/tables.hpp"
-#include "io/text/cells.hpp"
-#include "io/text/text.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/extend/text.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {
 
-/// A table of Qualisys Track Manager as it was read: the bytes hold every digit.
-struct TsvDocument : SourceDocument {
-  std::string bytes;
-  MarkerTable table;
-  std::vector<std::string> names;
+/// A table of Qualisys Track Manager as it was read.
+struct TsvDocument : SourceDocument, TableFile {
   std::vector<MarkerEvent> events;
-  double frame_rate_hz = 0;
-  std::int64_t first_frame = 1;
-  std::string unit;
 };
 
 namespace {
@@ -47,26 +34,21 @@ bool is_key(std::string_view cell) {
 
 class TsvReader {
  public:
-  TsvReader(TsvDocument& document, std::string_view name, const ReadOptions& options)
+  TsvReader(TsvDocument& document, const SourceText& text, const ReadOptions& options)
       : document_(document),
         options_(options),
-        text_{name, document.bytes, options.strict},
+        text_(text),
         lines_(text_, byte_order_mark_size(document.bytes)) {}
 
-  TakeResult read() {
+  Take read() {
     if (without_spaces_around(text_.bytes).empty())
       throw Error::at_line(text_.name, 1, "the file is empty");
     read_keys();
     refuse_other_tables();
-    read_rows();
     clip_.unit = "mm";
-    clip_.is_position.assign(clip_.marker_count(), 1);
-    document_.names = clip_.names;
+    read_rows();
     document_.events = clip_.events;
-    document_.frame_rate_hz = clip_.frame_rate_hz;
-    document_.first_frame = clip_.first_frame;
-    document_.unit = clip_.unit;
-    return {std::move(clip_), std::move(diagnostics_)};
+    return std::move(clip_);
   }
 
  private:
@@ -74,11 +56,6 @@ class TsvReader {
     double number = std::nan("");
     std::size_t place = 0;
   };
-
-  void note(std::string_view kind, std::size_t place, std::string_view message,
-            std::size_t count = 1) {
-    if (count > 0) note_repair(text_, diagnostics_, kind, place, message, count);
-  }
 
   // Reads keys up to the first line without a key, which may be a row of labels.
   void read_keys() {
@@ -107,8 +84,7 @@ class TsvReader {
     const bool is_number =
         key != "MARKER_NAMES" && key != "DESCRIPTION" && key != "TRAJECTORY_TYPES";
     if (is_number && std::any_of(cells.begin(), cells.end(), is_not_finite)) {
-      document_.table.head_is_finite = false;
-      note("head_not_finite", lines_.place(), head_not_finite_text);
+      note_head_not_finite(text_, lines_.place(), document_.table);
     }
     if (key == "NO_OF_FRAMES") frames_ = {number_of(value), lines_.place()};
     if (key == "NO_OF_MARKERS") markers_ = {number_of(value), lines_.place()};
@@ -129,8 +105,8 @@ class TsvReader {
     if (std::isfinite(time_s)) {
       clip_.events.push_back({cells[1], "", time_s});
     } else {
-      note("event_time_not_finite", lines_.place(),
-           "the time of an event is not finite: the event is left out");
+      text_.note("event_time_not_finite", lines_.place(),
+                 "the time of an event is not finite: the event is left out");
     }
   }
 
@@ -149,7 +125,7 @@ class TsvReader {
     table.style.separator = '\t';
     table.style.commas = rows.find(',') != rows.npos ? CommaStyle::decimal : CommaStyle::none;
     if (table.style.commas == CommaStyle::decimal)
-      note("decimal_comma", table.begin, "numbers have decimal commas");
+      text_.note("decimal_comma", table.begin, "numbers have decimal commas");
     table.zeros_are_missing = true;
     const std::size_t leading = labels_.empty() ? leading_by_width(rows) : leading_by_labels();
     for (std::size_t m = 0; m < clip_.names.size(); ++m) {
@@ -159,8 +135,7 @@ class TsvReader {
     const auto declared = frames_.number >= 0 && frames_.number < 1e15
                               ? static_cast<std::size_t>(frames_.number)
                               : std::size_t{0};
-    const TableFinding found = read_marker_table(text_, diagnostics_, declared, table, clip_);
-    if (found.cut_row) document_.bytes.resize(*found.cut_row);
+    const TableFinding found = read_marker_table(text_, declared, document_, clip_);
     if (found.widest > 0) {
       throw text_.error_at(found.wide_row,
                            fmt::format("expected {} cells, found {}", table.width(), found.widest));
@@ -169,13 +144,13 @@ class TsvReader {
       throw text_.error_at(std::min(table.begin, text_.bytes.size()),
                            "expected a row for each frame, found none");
     }
-    name_the_unnamed(text_, diagnostics_, names_place_, clip_);
+    name_the_unnamed(text_, names_place_, clip_);
     check_counts();
     // FREQUENCY is a word if the cameras had an external trigger.
-    clip_.frame_rate_hz = table_rate(
-        text_, diagnostics_, check_row_labels(text_, diagnostics_, table, found.labels, clip_),
-        {rate_.number, rate_.place, table.begin, options_.frame_rate_hz, tsv_rate_when_unknown_hz,
-         "FREQUENCY", rate_.place, "the head has no usable FREQUENCY", true});
+    finish_markers(text_, found.labels,
+                   {rate_.number, rate_.place, options_.frame_rate_hz, tsv_rate_when_unknown_hz,
+                    "FREQUENCY", rate_.place, "the head has no usable FREQUENCY", true},
+                   document_, clip_);
   }
 
   // Counts the labels before the markers: `Frame`, `Time`, then three labels per marker.
@@ -220,8 +195,8 @@ class TsvReader {
     const auto compare = [&](const Value& stated, std::size_t found, std::string_view kind,
                              std::string_view what) {
       if (std::isnan(stated.number) || stated.number == static_cast<double>(found)) return;
-      note(kind, stated.place,
-           fmt::format("the head says {} {}, the file holds {}", stated.number, what, found));
+      text_.note(kind, stated.place,
+                 fmt::format("the head says {} {}, the file holds {}", stated.number, what, found));
     };
     compare(frames_, document_.table.frames, "frame_count_mismatch", "frames");
     compare(markers_, clip_.marker_count(), "marker_count_mismatch", "markers");
@@ -229,9 +204,8 @@ class TsvReader {
 
   TsvDocument& document_;
   const ReadOptions& options_;
-  SourceText text_;
+  const SourceText& text_;
   HeadLines lines_;
-  Diagnostics diagnostics_;
   Take clip_;
   Cells labels_;
   Value frames_, markers_, rate_;
@@ -259,15 +233,11 @@ TakeResult read_tsv(std::string bytes, std::string_view name, const ReadOptions&
 
 namespace {
 
-bool keeps_layout(const Take& clip, const TsvDocument& document) {
-  const auto same_event = [](const MarkerEvent& a, const MarkerEvent& b) {
-    return a.label == b.label && a.context == b.context && a.time_s == b.time_s;
-  };
-  return document.table.head_is_finite && clip.names == document.names &&
-         clip.unit == document.unit && clip.frame_count() == document.table.frames &&
-         clip.frame_rate_hz == document.frame_rate_hz && clip.first_frame == document.first_frame &&
-         std::equal(clip.events.begin(), clip.events.end(), document.events.begin(),
-                    document.events.end(), same_event);
+bool same_tsv_events(const std::vector<MarkerEvent>& a, const std::vector<MarkerEvent>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const MarkerEvent& x, const MarkerEvent& y) {
+                      return x.label == y.label && x.context == y.context && x.time_s == y.time_s;
+                    });
 }
 
 class TsvWriter {
@@ -276,7 +246,7 @@ class TsvWriter {
 
   std::string write() {
     write_head();
-    for (std::size_t f = 0; f < clip_.frame_count(); ++f) write_row(f);
+    append_marker_rows(out_, clip_, {});
     return std::move(out_).take();
   }
 
@@ -321,24 +291,6 @@ class TsvWriter {
     out_.append("Frame\tTime" + labels + "\n");
   }
 
-  void write_row(std::size_t frame) {
-    // Microseconds. Chosen by hand.
-    constexpr unsigned time_decimals = 6;
-    out_.append(std::to_string(clip_.first_frame + static_cast<std::int64_t>(frame)));
-    out_.append("\t");
-    out_.append_fixed(static_cast<double>(frame) / clip_.frame_rate_hz, time_decimals);
-    char room[fixed_number_room];
-    for (std::size_t m = 0; m < clip_.marker_count(); ++m) {
-      const Vec3 position = clip_.position(frame, m);
-      for (const double value : {position.x, position.y, position.z}) {
-        out_.append("\t");
-        if (clip_.is_observed(frame, m))
-          out_.append(coordinate_text(value, room, most_fixed_decimals));
-      }
-    }
-    out_.append("\n");
-  }
-
   const Take& clip_;
   TextBuffer out_;
 };
@@ -348,9 +300,8 @@ class TsvWriter {
 std::string write_tsv(const Take& clip) {
   clip.validate();
   const auto* const document = dynamic_cast<const TsvDocument*>(clip.source.document.get());
-  if (document != nullptr && keeps_layout(clip, *document)) {
-    if (auto bytes = rewrite_marker_table(clip, document->bytes, document->table))
-      return *std::move(bytes);
+  if (document != nullptr && same_tsv_events(clip.events, document->events)) {
+    if (auto bytes = rewrite_marker_table(clip, document)) return *std::move(bytes);
   }
   if (clip.names.empty()) throw Error(ErrorKind::usage, "TSV cannot hold a clip without markers");
   constexpr double millimetre = 0.001;

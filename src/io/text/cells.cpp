@@ -176,7 +176,7 @@ double CellRows::value_of(TokenSpan token, std::size_t column, CellRow& row) {
   const bool whole = number.end == token.end;
   if (whole && number.kind == TokenKind::number) return number.value;
   if (whole && number.kind == TokenKind::not_finite) {
-    if (not_finite_++ == 0) first_not_finite_ = place;
+    not_finite_.add(place);
   } else if (row.fault == nullptr) {
     row.fault = place;
   }

@@ -10,8 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "io/motion/motion_rows.hpp"
-#include "io/text/number.hpp"
 #include "io/text/text.hpp"
 
 namespace kinemend {
@@ -72,8 +70,7 @@ class CellRows {
   /// for an empty cell the place where its text would be, null if the row ends before it.
   CellRow read(double* values, std::size_t count, TokenSpan* tokens = nullptr);
 
-  std::size_t not_finite() const { return not_finite_; }  ///< cells such as `nan`
-  const char* first_not_finite() const { return first_not_finite_; }
+  const CountedRepair<const char*>& not_finite() const { return not_finite_; }  ///< such as `nan`
 
  private:
   struct Output;
@@ -94,8 +91,7 @@ class CellRows {
   const char* next_line_;
   PlainPlaces plain_places_;
   CellStyle style_;
-  std::size_t not_finite_ = 0;
-  const char* first_not_finite_ = nullptr;
+  CountedRepair<const char*> not_finite_;
 };
 
 /// More decimals than this are written as the fewest digits that read back as the same number.

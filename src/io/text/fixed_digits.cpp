@@ -17,13 +17,6 @@ namespace kinemend {
 
 namespace {
 
-// The library of LLVM writes numbers with a point from version 14 on.
-#if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 14000
-constexpr bool library_writes = false;
-#else
-constexpr bool library_writes = true;
-#endif
-
 char* put(char* out, const char* end, std::string_view text) {
   const auto room = static_cast<std::size_t>(end - out);
   return std::copy_n(text.data(), std::min(room, text.size()), out);
@@ -62,35 +55,30 @@ char* write_shortest_digits(char* out, char* end, Real value) {
   return put(out, end, text);
 }
 
-template <class Real>
-char* write_round_trip_of(char* out, char* end, Real value) {
-  if constexpr (library_writes) {
-    return std::to_chars(out, end, value, std::chars_format::fixed).ptr;
-  } else {
-    return write_shortest_digits(out, end, value);
-  }
-}
-
-template <class Real>
-char* write_decimals_of(char* out, char* end, Real value, unsigned decimals) {
-  if constexpr (library_writes) {
-    return std::to_chars(out, end, value, std::chars_format::fixed, static_cast<int>(decimals)).ptr;
-  } else {
-    return write_decimals_anywhere(out, end, value, decimals);
-  }
-}
-
 }  // namespace
 
+// The library of LLVM writes numbers with a point from version 14 on.
+#if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 14000
 char* write_decimals(char* out, char* end, double value, unsigned decimals) {
-  return write_decimals_of(out, end, value, decimals);
+  return write_decimals_anywhere(out, end, value, decimals);
 }
 char* write_round_trip(char* out, char* end, double value) {
-  return write_round_trip_of(out, end, value);
+  return write_round_trip_anywhere(out, end, value);
 }
 char* write_round_trip(char* out, char* end, float value) {
-  return write_round_trip_of(out, end, value);
+  return write_round_trip_anywhere(out, end, value);
 }
+#else
+char* write_decimals(char* out, char* end, double value, unsigned decimals) {
+  return std::to_chars(out, end, value, std::chars_format::fixed, static_cast<int>(decimals)).ptr;
+}
+char* write_round_trip(char* out, char* end, double value) {
+  return std::to_chars(out, end, value, std::chars_format::fixed).ptr;
+}
+char* write_round_trip(char* out, char* end, float value) {
+  return std::to_chars(out, end, value, std::chars_format::fixed).ptr;
+}
+#endif
 
 char* write_decimals_anywhere(char* out, char* end, double value, unsigned decimals) {
   constexpr std::size_t longest = 400;  // 309 digits, a sign, a point and the decimals

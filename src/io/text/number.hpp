@@ -39,9 +39,12 @@ struct NumberToken {
 };
 
 /// Reads any number in the notation of the C locale, whatever the locale is, correctly rounded.
-/// `begin` < `end` is the first byte of the token, which ends before white space (or before a comma
-/// that separates).
+/// `begin` is the first byte of the token, which ends before white space (or before a comma that
+/// separates); an empty token is `text`.
 NumberToken read_number(const char* begin, const char* end, CommaStyle commas = CommaStyle::none);
+inline NumberToken read_number(std::string_view word, CommaStyle commas = CommaStyle::none) {
+  return read_number(word.data(), word.data() + word.size(), commas);
+}
 
 /// Reads a position or an angle: a value beyond 1e100, whose square may overflow, is `not_finite`.
 NumberToken read_sample(const char* begin, const char* end, CommaStyle commas = CommaStyle::none);

@@ -8,8 +8,6 @@
 #include <cmath>
 #include <optional>
 
-#include "io/text/number.hpp"
-#include "kinemend/error.hpp"
 #include "kinemend/extend/text.hpp"
 
 namespace kinemend {
@@ -42,13 +40,19 @@ Error SourceText::error_at(std::size_t offset, std::string_view message) const {
   return Error::at_line(name, line_at(bytes, offset), message);
 }
 
-void note_repair(const SourceText& text, Diagnostics& diagnostics, std::string_view kind,
-                 std::size_t offset, std::string_view message, std::size_t count) {
-  const std::size_t line = diagnostics.count(kind) == 0 ? line_at(text.bytes, offset) : 0;
-  if (text.strict) {
-    throw Error(ErrorKind::quality_limit, fmt::format("{}:{}: {}", text.name, line, message));
-  }
-  for (std::size_t i = 0; i < count; ++i) diagnostics.add(kind, message, line);
+void SourceText::note(std::string_view kind, std::size_t offset, std::string_view message,
+                      std::size_t count) const {
+  if (count == 0 || (diagnostics == nullptr && !strict)) return;
+  const bool is_first = diagnostics == nullptr || diagnostics->count(kind) == 0;
+  const std::size_t line = is_first ? line_at(bytes, offset) : 0;
+  if (strict) throw Error(ErrorKind::quality_limit, fmt::format("{}:{}: {}", name, line, message));
+  for (std::size_t i = 0; i < count; ++i) diagnostics->add(kind, message, line);
+}
+
+std::string_view without_spaces_around(std::string_view text) {
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  return text;
 }
 
 std::size_t TextScanner::line_end(std::size_t from) const {
@@ -94,10 +98,9 @@ std::string_view TextScanner::rest_of_line() const {
 
 std::string_view TextScanner::name() {
   while (position_ < bytes_.size() && is_space(bytes_[position_])) ++position_;
-  std::string_view line = rest_of_line();
+  const std::string_view line = rest_of_line();
   position_ += line.size();
-  while (!line.empty() && is_space(line.back())) line.remove_suffix(1);
-  return line;
+  return without_spaces_around(line);
 }
 
 namespace {
@@ -167,31 +170,23 @@ bool last_number_may_be_cut(std::string_view rows, CommaStyle commas, char separ
   return compared >= least_lines_compared;
 }
 
-namespace {
-
 // Outputs never contain NaN or infinity.
-void check_finite(double value) {
+template <class Write>
+void TextBuffer::append_number(double value, CommaStyle commas, Write write) {
   if (!std::isfinite(value)) throw Error(ErrorKind::usage, "a value to write is not finite");
-}
-
-}  // namespace
-
-void TextBuffer::append_fixed(double value, unsigned decimals, CommaStyle commas) {
-  check_finite(value);
   make_room(fixed_number_room);
   char* const begin = text_.data() + used_;
-  char* const end = write_fixed(begin, value, decimals);
+  char* const end = write(begin);
   if (commas == CommaStyle::decimal) std::replace(begin, end, '.', ',');
   used_ += static_cast<std::size_t>(end - begin);
+}
+
+void TextBuffer::append_fixed(double value, unsigned decimals, CommaStyle commas) {
+  append_number(value, commas, [&](char* out) { return write_fixed(out, value, decimals); });
 }
 
 void TextBuffer::append_shortest(double value, CommaStyle commas) {
-  check_finite(value);
-  make_room(fixed_number_room);
-  char* const begin = text_.data() + used_;
-  char* const end = write_shortest(begin, value);
-  if (commas == CommaStyle::decimal) std::replace(begin, end, '.', ',');
-  used_ += static_cast<std::size_t>(end - begin);
+  append_number(value, commas, [&](char* out) { return write_shortest(out, value); });
 }
 
 }  // namespace kinemend

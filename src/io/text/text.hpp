@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -22,31 +23,56 @@ std::string_view line_ending_of(std::string_view text);
 
 bool equal_ignoring_case(std::string_view a, std::string_view b);
 
-/// A text with its name, for readers.
-struct SourceText {
-  std::string_view name;
-  std::string_view bytes;
-  bool strict = false;
-
-  Error error_at(std::size_t offset, std::string_view message) const;
-  Error error_at(const char* place, std::string_view message) const {
-    return error_at(static_cast<std::size_t>(place - bytes.data()), message);
-  }
-};
-
-/// How often a repair was made, and the place of the first one.
+/// How often a repair was made, and the place of the first one: an offset or a pointer.
+template <class Place>
 struct CountedRepair {
   std::size_t count = 0;
-  std::size_t first = 0;
+  Place first{};
 
-  void add(std::size_t place) {
+  void add(Place place) {
     if (count++ == 0) first = place;
   }
 };
 
-/// Notes a repair; throws `ErrorKind::quality_limit` when the reading is strict.
-void note_repair(const SourceText& text, Diagnostics& diagnostics, std::string_view kind,
-                 std::size_t offset, std::string_view message, std::size_t count = 1);
+/// The bytes of a word, a cell or a number.
+struct TokenSpan {
+  const char* begin = nullptr;
+  const char* end = nullptr;
+};
+
+/// A text with its name, for readers, and the list in which they note repairs.
+struct SourceText {
+  std::string_view name;
+  std::string_view bytes;
+  bool strict = false;
+  Diagnostics* diagnostics = nullptr;  ///< null: repairs are not listed
+
+  std::size_t offset_of(const char* place) const {
+    return static_cast<std::size_t>(place - bytes.data());
+  }
+
+  Error error_at(std::size_t offset, std::string_view message) const;
+  Error error_at(const char* place, std::string_view message) const {
+    return error_at(offset_of(place), message);
+  }
+
+  /// Notes a repair, unless `count` is 0; throws `ErrorKind::quality_limit` when the reading is
+  /// strict.
+  void note(std::string_view kind, std::size_t offset, std::string_view message,
+            std::size_t count = 1) const;
+  void note(std::string_view kind, const char* place, std::string_view message,
+            std::size_t count = 1) const {
+    if (count > 0) note(kind, offset_of(place), message, count);
+  }
+  template <class Place>
+  void note(std::string_view kind, const CountedRepair<Place>& repair,
+            std::string_view message) const {
+    note(kind, repair.first, message, repair.count);
+  }
+};
+
+/// Returns the text without white space at either end.
+std::string_view without_spaces_around(std::string_view text);
 
 /// Walks over the words of a text: runs of bytes between white space; each brace is a separate
 /// word. Comments (# or //, to the end of the line) between words are skipped and counted.
@@ -111,12 +137,21 @@ class TextBuffer {
   }
   void append_fixed(double value, unsigned decimals, CommaStyle commas = CommaStyle::none);
   void append_shortest(double value, CommaStyle commas = CommaStyle::none);
+  /// Appends `lead` and the shortest digits, for each value.
+  void append_each(std::string_view lead, std::initializer_list<double> values) {
+    for (const double value : values) {
+      append(lead);
+      append_shortest(value);
+    }
+  }
   std::string take() && {
     text_.resize(used_);
     return std::move(text_);
   }
 
  private:
+  template <class Write>
+  void append_number(double value, CommaStyle commas, Write write);
   void make_room(std::size_t count) {
     if (text_.size() - used_ < count) text_.resize(text_.size() + text_.size() / 2 + count);
   }

@@ -24,7 +24,7 @@ struct Padded {
 };
 
 NumberToken read(const std::string& token, CommaStyle commas = CommaStyle::none) {
-  return read_number(token.data(), token.data() + token.size(), commas);
+  return read_number(token, commas);
 }
 
 std::string fixed(double value, unsigned decimals) {
