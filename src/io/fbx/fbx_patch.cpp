@@ -149,12 +149,6 @@ bool is_same_float(double a, double b) {
 
 std::string float_text(double value) { return fmt::format("{}", static_cast<float>(value)); }
 
-template <class Word>
-void append_fbx_word(std::string& raw, Word word, bool big) {
-  raw.resize(raw.size() + sizeof(Word));
-  put_fbx_word(raw.data() + raw.size() - sizeof(Word), word, big);
-}
-
 void append_fbx_float(std::string& raw, double value, char type, bool big) {
   const auto rounded = static_cast<float>(value);
   if (type == 'f') return append_fbx_word(raw, bits_as<std::uint32_t>(rounded), big);

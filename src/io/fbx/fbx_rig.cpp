@@ -225,15 +225,14 @@ Quat fbx_turn(Vec3 degrees, RotationOrder factors) {
   return from_euler(angles, factors);
 }
 
-namespace {
-
-Vec3 fbx_angles(Quat rotation, RotationOrder order) {
-  const std::array<double, 3> angles = to_euler(rotation, order);
+Vec3 fbx_degrees(const std::array<double, 3>& angles, RotationOrder factors) {
   Vec3 degrees;
-  for (std::size_t i = 0; i < 3; ++i)
-    component_of(degrees, static_cast<std::size_t>(order.axes[i])) = degrees_per_radian * angles[i];
+  for (std::size_t i = 0; i < factors.count; ++i)
+    component_of(degrees, factors.axes[i]) = degrees_per_radian * angles[i];
   return degrees;
 }
+
+namespace {
 
 Quat fbx_share(Quat rotation, double weight) {
   const Quat near = rotation.w < 0 ? -rotation : rotation;
@@ -245,7 +244,7 @@ Vec3 mix_rotations(Vec3 below, Vec3 value, const FbxLayer& layer, RotationOrder 
   const Quat mixed = layer.is_override
                          ? under * fbx_share(normalized(conjugate(under) * over), layer.weight)
                          : under * fbx_share(over, layer.weight);
-  return fbx_angles(normalized(mixed), order);
+  return fbx_degrees(to_euler(normalized(mixed), order), order);
 }
 
 Vec3 mix_scales(Vec3 below, Vec3 value, double weight) {

@@ -23,44 +23,10 @@ constexpr std::uint32_t least_version = 6000;
 constexpr double new_ticks_per_second = 141120000;
 constexpr std::int64_t old_ticks_definition = 127, least_header_with_definition = 1004;
 
-// FBX SDK, FbxTime::EMode; 0 is the default, 14 is CustomFrameRate.
 double fbx_rate_of_mode(std::int64_t mode, double custom_hz) {
-  constexpr double ntsc = 1000.0 / 1001;
-  switch (mode) {
-    case 1:
-      return 120;
-    case 2:
-      return 100;
-    case 3:
-      return 60;
-    case 4:
-      return 50;
-    case 5:
-      return 48;
-    case 8:
-    case 9:
-      return 30 * ntsc;
-    case 10:
-      return 25;
-    case 11:
-      return 24;
-    case 12:
-      return 1000;
-    case 13:
-      return 24 * ntsc;
-    case 14:
-      return is_usable_frame_rate(custom_hz) ? custom_hz : 30;
-    case 15:
-      return 96;
-    case 16:
-      return 72;
-    case 17:
-      return 60 * ntsc;
-    case 18:
-      return 120 * ntsc;
-    default:
-      return 30;
-  }
+  if (mode == 14 && is_usable_frame_rate(custom_hz)) return custom_hz;
+  const bool is_known = mode >= 0 && mode < static_cast<std::int64_t>(fbx_mode_rates_hz.size());
+  return fbx_mode_rates_hz[is_known ? static_cast<std::size_t>(mode) : 0];
 }
 
 class FbxSceneReader {

@@ -67,6 +67,14 @@ struct FbxConnection {
   std::string_view property;
 };
 
+/// FBX SDK, FbxTime::EMode: the rate of each time mode; 0 is the default, and 14 a rate that the
+/// file states (30 Hz if it is unusable). NTSC runs at 1000 / 1001 of a whole rate.
+inline constexpr double ntsc_24 = 24000.0 / 1001, ntsc_30 = 30000.0 / 1001;
+inline constexpr double ntsc_60 = 60000.0 / 1001, ntsc_120 = 120000.0 / 1001;
+inline constexpr std::array<double, 19> fbx_mode_rates_hz{
+    30, 120, 100,  60,      50, 48, 30, 30,      ntsc_30, ntsc_30,
+    25, 24,  1000, ntsc_24, 30, 96, 72, ntsc_60, ntsc_120};
+
 struct FbxScene {
   std::vector<FbxModel> models;
   std::unordered_map<std::int64_t, std::int32_t> model_of_id;

@@ -125,6 +125,13 @@ void put_fbx_word(char* bytes, Word word, bool big_endian) {
   }
 }
 
+/// Appends an unsigned integer of sizeof(Word) bytes.
+template <class Word>
+void append_fbx_word(std::string& bytes, Word word, bool big_endian) {
+  bytes.resize(bytes.size() + sizeof(Word));
+  put_fbx_word(bytes.data() + bytes.size() - sizeof(Word), word, big_endian);
+}
+
 inline float fbx_float(const char* bytes, bool big_endian) {
   return bits_as<float>(fbx_word<std::uint32_t>(bytes, big_endian));
 }

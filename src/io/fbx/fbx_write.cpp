@@ -14,7 +14,6 @@
 #include "base/text.hpp"
 #include "io/fbx/fbx.hpp"
 #include "io/fbx/fbx_document.hpp"
-#include "io/fbx/fbx_new_file.hpp"
 #include "io/fbx/fbx_patch.hpp"
 #include "io/fbx/fbx_values.hpp"
 #include "io/first_error.hpp"
