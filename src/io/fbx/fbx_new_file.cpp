@@ -48,7 +48,7 @@ constexpr std::string_view last_bytes{
 class FbxBuilder {
  public:
   FbxBuilder() : bytes_("Kaydara FBX Binary  \0\x1A\0", 23) {
-    append_fbx_word(bytes_, built_version, false);
+    append_word(bytes_, built_version, false);
   }
 
   FbxBuilder& open(std::string_view name) {
@@ -69,7 +69,7 @@ class FbxBuilder {
     const Level level = open_.back();
     // A record without properties ends like a record with children.
     if (level.has_children || level.properties == 0) bytes_.append(built_header_bytes, '\0');
-    put_fbx_word(bytes_.data() + level.begin, std::uint64_t{bytes_.size()}, false);
+    put_word(bytes_.data() + level.begin, std::uint64_t{bytes_.size()}, false);
     open_.pop_back();
   }
 
@@ -92,12 +92,12 @@ class FbxBuilder {
     using Word = std::conditional_t<sizeof(Number) == 8, std::uint64_t, std::uint32_t>;
     std::string content;
     content.reserve(values.size_bytes());
-    for (const Number value : values) append_fbx_word(content, bits_as<Word>(value), false);
+    for (const Number value : values) append_word(content, bits_as<Word>(value), false);
     open(name).put(type, static_cast<std::uint32_t>(values.size()));
     const bool is_packed = content.size() >= least_packed_bytes;
     if (is_packed) content = fbx_zlib(content);
-    append_fbx_word(bytes_, std::uint32_t{is_packed ? 1u : 0u}, false);
-    append_fbx_word(bytes_, static_cast<std::uint32_t>(content.size()), false);
+    append_word(bytes_, std::uint32_t{is_packed ? 1u : 0u}, false);
+    append_word(bytes_, static_cast<std::uint32_t>(content.size()), false);
     bytes_ += content;
     close();
   }
@@ -130,7 +130,7 @@ class FbxBuilder {
     // One to sixteen zeros align the following bytes.
     bytes_.append(16 - bytes_.size() % 16, '\0');
     bytes_.append(4, '\0');
-    append_fbx_word(bytes_, built_version, false);
+    append_word(bytes_, built_version, false);
     bytes_.append(120, '\0');
     bytes_ += last_bytes;
     return std::move(bytes_);
@@ -147,16 +147,16 @@ class FbxBuilder {
   void end_properties() {
     if (open_.empty() || open_.back().has_children) return;
     const Level& level = open_.back();
-    put_fbx_word(bytes_.data() + level.begin + 8, level.properties, false);
-    put_fbx_word(bytes_.data() + level.begin + 16,
-                 std::uint64_t{bytes_.size() - level.properties_begin}, false);
+    put_word(bytes_.data() + level.begin + 8, level.properties, false);
+    put_word(bytes_.data() + level.begin + 16,
+             std::uint64_t{bytes_.size() - level.properties_begin}, false);
   }
 
   template <class Word>
   FbxBuilder& put(char type, Word word) {
     bytes_ += type;
     ++open_.back().properties;
-    append_fbx_word(bytes_, word, false);
+    append_word(bytes_, word, false);
     return *this;
   }
 

@@ -42,7 +42,7 @@ class FbxSceneReader {
     }
     if (objects == no_fbx_record) throw tree_.error_at(0, "the file has no record Objects");
     read_template();
-    for_each_child(objects, [&](std::uint32_t record) { read_object(record); });
+    tree_.for_each_child(objects, [&](std::uint32_t record) { read_object(record); });
     read_connections();
     read_takes();
     read_settings(objects);
@@ -50,14 +50,6 @@ class FbxSceneReader {
   }
 
  private:
-  template <class Visit>
-  void for_each_child(std::uint32_t parent, Visit&& visit) const {
-    if (parent == no_fbx_record) return;
-    for (std::uint32_t child = tree_.records[parent].first_child; child != no_fbx_record;
-         child = tree_.records[child].next_sibling)
-      visit(child);
-  }
-
   std::string_view name_of(std::uint32_t record) const {
     return tree_.name_of(tree_.records[record]);
   }
@@ -65,7 +57,7 @@ class FbxSceneReader {
   // Reads the default values of models, in Definitions of version 7.
   void read_template() {
     const std::uint32_t definitions = tree_.child(no_fbx_record, "Definitions");
-    for_each_child(definitions, [&](std::uint32_t type) {
+    tree_.for_each_child(definitions, [&](std::uint32_t type) {
       const FbxProperty* const of = tree_.property(tree_.records[type], 0);
       if (of == nullptr || fbx_text(tree_, *of) != "Model") return;
       const std::uint32_t found = tree_.child(type, "PropertyTemplate");
@@ -125,7 +117,7 @@ class FbxSceneReader {
 
   void read_connections() {
     const std::uint32_t connections = tree_.child(no_fbx_record, "Connections");
-    for_each_child(connections, [&](std::uint32_t index) {
+    tree_.for_each_child(connections, [&](std::uint32_t index) {
       const FbxRecord& record = tree_.records[index];
       if (record.property_count < 3) return;
       const FbxProperty* const p = &tree_.properties[record.first_property];
@@ -152,7 +144,7 @@ class FbxSceneReader {
       read_active_stack();
       return;
     }
-    for_each_child(takes, [&](std::uint32_t index) {
+    tree_.for_each_child(takes, [&](std::uint32_t index) {
       const FbxProperty* const name = tree_.property(tree_.records[index], 0);
       if (name_of(index) == "Take" && name != nullptr)
         scene_.stacks.push_back({std::string(fbx_text(tree_, *name)), 0, index});
@@ -161,7 +153,7 @@ class FbxSceneReader {
 
   void read_active_stack() {
     const std::uint32_t documents = tree_.child(no_fbx_record, "Documents");
-    for_each_child(documents, [&](std::uint32_t document) {
+    tree_.for_each_child(documents, [&](std::uint32_t document) {
       for_each_fbx_property(tree_, document, [&](const FbxNamedProperty& p) {
         if (p.name == "ActiveAnimStackName" && !p.text().empty())
           scene_.active_stack = std::string(p.text());
@@ -399,12 +391,11 @@ class FbxMotionReader6 {
  private:
   template <class Visit>
   void for_each_named(std::uint32_t parent, std::string_view type, Visit&& visit) const {
-    for (std::uint32_t child = tree_.records[parent].first_child; child != no_fbx_record;
-         child = tree_.records[child].next_sibling) {
+    tree_.for_each_child(parent, [&](std::uint32_t child) {
       const FbxRecord& record = tree_.records[child];
       const FbxProperty* const name = tree_.property(record, 0);
       if (name != nullptr && tree_.name_of(record) == type) visit(child, fbx_text(tree_, *name));
-    }
+    });
   }
 
   void read_model(std::uint32_t index, std::size_t model) {

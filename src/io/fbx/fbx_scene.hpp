@@ -46,6 +46,12 @@ struct FbxLayer {
   bool is_muted = false;
   /// The key is 3 * model + `FbxVector`.
   std::unordered_map<std::size_t, FbxAnimatedVector> vectors;
+
+  /// Returns how the layer animates a vector of a model; null if it does not.
+  const FbxAnimatedVector* find(std::size_t model, std::size_t vector) const {
+    const auto found = vectors.find(3 * model + vector);
+    return found == vectors.end() ? nullptr : &found->second;
+  }
 };
 
 /// The animation of one take, with its curves.

@@ -29,8 +29,8 @@ struct ArrayHead {
 ArrayHead array_head_of(const FbxTree& tree, const FbxProperty& array) {
   const char* const bytes = tree.bytes.data() + array.begin;
   const bool big = tree.is_big_endian;
-  return {fbx_word<std::uint32_t>(bytes, big), fbx_word<std::uint32_t>(bytes + 4, big),
-          fbx_word<std::uint32_t>(bytes + 8, big)};
+  return {read_word<std::uint32_t>(bytes, big), read_word<std::uint32_t>(bytes + 4, big),
+          read_word<std::uint32_t>(bytes + 8, big)};
 }
 
 std::size_t element_bytes(char type) {
@@ -61,16 +61,16 @@ double element(const char* bytes, char type, bool big) {
     case 'f':
       return static_cast<double>(fbx_float(bytes, big));
     case 'l':
-      return static_cast<double>(static_cast<std::int64_t>(fbx_word<std::uint64_t>(bytes, big)));
+      return static_cast<double>(static_cast<std::int64_t>(read_word<std::uint64_t>(bytes, big)));
     case 'i':
-      return static_cast<std::int32_t>(fbx_word<std::uint32_t>(bytes, big));
+      return static_cast<std::int32_t>(read_word<std::uint32_t>(bytes, big));
     default:
       return static_cast<unsigned char>(*bytes);
   }
 }
 
 std::int64_t integer_element(const char* bytes, char type, bool big) {
-  if (type == 'l') return static_cast<std::int64_t>(fbx_word<std::uint64_t>(bytes, big));
+  if (type == 'l') return static_cast<std::int64_t>(read_word<std::uint64_t>(bytes, big));
   const double value = element(bytes, type, big);
   return std::fabs(value) < 9e18 ? static_cast<std::int64_t>(value) : 0;
 }
@@ -134,11 +134,11 @@ std::optional<std::int64_t> fbx_integer(const FbxTree& tree, const FbxProperty& 
     case 'C':
       return static_cast<unsigned char>(*bytes);
     case 'Y':
-      return static_cast<std::int16_t>(fbx_word<std::uint16_t>(bytes, big));
+      return static_cast<std::int16_t>(read_word<std::uint16_t>(bytes, big));
     case 'I':
-      return static_cast<std::int32_t>(fbx_word<std::uint32_t>(bytes, big));
+      return static_cast<std::int32_t>(read_word<std::uint32_t>(bytes, big));
     case 'L':
-      return static_cast<std::int64_t>(fbx_word<std::uint64_t>(bytes, big));
+      return static_cast<std::int64_t>(read_word<std::uint64_t>(bytes, big));
     case 'N':
     case '*':
       return integer_in_text(tree.text_of(property));
@@ -235,9 +235,9 @@ std::string fbx_packed(const FbxTree& tree, const FbxProperty& array, const std:
   std::string bytes(array_head, '\0');
   const bool big = tree.is_big_endian;
   const auto count = static_cast<std::uint32_t>(raw.size() / element_bytes(array.type));
-  put_fbx_word(bytes.data(), count, big);
-  put_fbx_word(bytes.data() + 4, head.packing, big);
-  put_fbx_word(bytes.data() + 8, static_cast<std::uint32_t>(data.size()), big);
+  put_word(bytes.data(), count, big);
+  put_word(bytes.data() + 4, head.packing, big);
+  put_word(bytes.data() + 8, static_cast<std::uint32_t>(data.size()), big);
   return bytes + data;
 }
 

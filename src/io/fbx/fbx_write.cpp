@@ -24,40 +24,12 @@
 
 namespace kinemend {
 
-/// Whether the take has the joints, or the markers, of the document.
-bool fits_fbx_document(const Take& take, const FbxDocument& document, const Take& original);
-
-/// Returns the file with new keys in the curves of changed joints; `original` is
-/// `take_of_fbx(document)`. Changes that no curve can hold are left out: translations and rotations
-/// of axes without a curve. Errors: `usage` for a curve that moves several axes or models, and for
-/// a joint that several layers move.
-std::string rewrite_fbx(const Take& take, const FbxDocument& document, const Take& original);
-
-std::vector<std::string> lost_beside_fbx(const Take& take) {
-  const auto* const document = dynamic_cast<const FbxDocument*>(take.source.document.get());
-  if (document == nullptr) return {};
-  const bool joints =
-      take.has_joints() && !holds_fbx_markers(document->scene, document->motion, document->rig);
-  const Take original = joints ? skeleton_of_fbx(*document) : take_of_fbx(*document);
-  if (fits_fbx_document(take, *document, original)) return {};
-  std::vector<std::string> parts;
-  if (document->scene.models.size() > document->rig.joints.size())
-    parts.emplace_back("meshes and other models");
-  if (document->scene.stacks.size() > 1) parts.emplace_back("other takes");
-  parts.emplace_back("materials and properties");
-  return parts;
-}
-
-std::string write_fbx(const Take& take) {
-  const auto* const document = dynamic_cast<const FbxDocument*>(take.source.document.get());
-  if (document == nullptr) return new_fbx_file(take);
-  const Take original = take_of_fbx(*document);
-  if (!fits_fbx_document(take, *document, original)) return new_fbx_file(take);
-  return rewrite_fbx(take, *document, original);
-}
-
 namespace {
 
+// Writes the file with new keys in the curves of changed joints; `original` is
+// `take_of_fbx(document)`. Changes that no curve can hold are left out: translations and rotations
+// of axes without a curve. Errors: `usage` for a curve that moves several axes or models, and for a
+// joint that several layers move.
 class FbxRewriter {
  public:
   FbxRewriter(const Take& take, const FbxDocument& document, const Take& original)
@@ -171,10 +143,10 @@ class FbxRewriter {
     std::size_t layers = 0;
     bool is_plain = true;
     for (const FbxLayer& layer : document_.motion.layers) {
-      const auto entry = layer.vectors.find(3 * node(joint).model + vector);
-      if (entry == layer.vectors.end()) continue;
+      const FbxAnimatedVector* const entry = layer.find(node(joint).model, vector);
+      if (entry == nullptr) continue;
       ++layers;
-      found = &entry->second;
+      found = entry;
       is_plain = &layer == &document_.motion.layers.front() && !layer.is_muted;
     }
     if (layers > 1 || !is_plain) {
@@ -330,16 +302,14 @@ class FbxRewriter {
     for_each_fbx_property(tree, document_.stack.record, [&](const FbxNamedProperty& p) {
       if (p.name == "LocalStop" || p.name == "ReferenceStop") set_time(p.value(0));
     });
-    const std::uint32_t takes = tree.child(no_fbx_record, "Takes");
-    for (std::uint32_t take = takes == no_fbx_record ? takes : tree.records[takes].first_child;
-         take != no_fbx_record; take = tree.records[take].next_sibling) {
+    tree.for_each_child(tree.child(no_fbx_record, "Takes"), [&](std::uint32_t take) {
       const FbxProperty* const name = tree.property(tree.records[take], 0);
-      if (name == nullptr || fbx_text(tree, *name) != document_.stack.name) continue;
+      if (name == nullptr || fbx_text(tree, *name) != document_.stack.name) return;
       for (const std::string_view range : {"LocalTime", "ReferenceTime"}) {
         const std::uint32_t record = tree.child(take, range);
         if (record != no_fbx_record) set_time(tree.property(tree.records[record], 1));
       }
-    }
+    });
   }
 
   const Take& take_;
@@ -355,19 +325,33 @@ class FbxRewriter {
   std::vector<FbxPatch> patches_;
 };
 
-}  // namespace
-
 bool fits_fbx_document(const Take& take, const FbxDocument& document, const Take& original) {
-  if (take.frame_count() == 0 || document.rig.joints.empty()) return false;
-  if (take.has_joints() != original.has_joints()) return false;
-  if (!take.has_joints()) return take.names == original.names && take.unit == original.unit;
-  return take.metres_per_unit == original.metres_per_unit &&
-         same_skeleton(take.skeleton, original.skeleton) &&
-         take.translated_joints == original.translated_joints;
+  return take.frame_count() > 0 && !document.rig.joints.empty() && same_parts(take, original);
 }
 
-std::string rewrite_fbx(const Take& take, const FbxDocument& document, const Take& original) {
-  return FbxRewriter(take, document, original).write();
+}  // namespace
+
+std::vector<std::string> lost_beside_fbx(const Take& take) {
+  const auto* const document = dynamic_cast<const FbxDocument*>(take.source.document.get());
+  if (document == nullptr) return {};
+  const bool joints =
+      take.has_joints() && !holds_fbx_markers(document->scene, document->motion, document->rig);
+  const Take original = joints ? skeleton_of_fbx(*document) : take_of_fbx(*document);
+  if (fits_fbx_document(take, *document, original)) return {};
+  std::vector<std::string> parts;
+  if (document->scene.models.size() > document->rig.joints.size())
+    parts.emplace_back("meshes and other models");
+  if (document->scene.stacks.size() > 1) parts.emplace_back("other takes");
+  parts.emplace_back("materials and properties");
+  return parts;
+}
+
+std::string write_fbx(const Take& take) {
+  const auto* const document = dynamic_cast<const FbxDocument*>(take.source.document.get());
+  if (document == nullptr) return new_fbx_file(take);
+  const Take original = take_of_fbx(*document);
+  if (!fits_fbx_document(take, *document, original)) return new_fbx_file(take);
+  return FbxRewriter(take, *document, original).write();
 }
 
 }  // namespace kinemend

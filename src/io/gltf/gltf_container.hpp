@@ -51,7 +51,6 @@ std::string new_glb(std::string_view json, std::string_view binary);
 bool is_data_uri(std::string_view uri);
 /// Returns the base64 content of such a URI; empty if it is not base64 or is damaged.
 std::optional<std::string> bytes_of_data_uri(std::string_view uri);
-std::string base64_of(std::string_view bytes);
 
 /// Returns the relative path of a URI, percent-decoded; empty for a URI outside the folder of the
 /// file: absolute paths, schemes, drives, `..`.

@@ -177,10 +177,8 @@ TakeResult read_gltf_file(std::string bytes, std::string_view name, const ReadOp
   document->model = parse_gltf(document->file);
   document->rate_hz = options.frame_rate_hz;
   document->animation = chosen_animation(document->file, document->model, options.animation);
-  document->has_markers = !gltf_markers(document->model, document->animation).empty();
-  const auto decode = document->has_markers ? &decode_gltf_markers : &decode_gltf_joints;
-  GltfMotion motion = decode(document->file, document->model, document->buffers,
-                             document->animation, document->rate_hz);
+  GltfMotion motion = decode_gltf(document->file, document->model, document->buffers,
+                                  document->animation, document->rate_hz);
   check_joint_depth(document->file, motion.take.skeleton, options.max_depth);
   GltfNotes(*document, options.strict, result.diagnostics).about(motion);
   motion.take.source = {std::string(name), format, document, facts_of(*document)};

@@ -10,87 +10,17 @@
 #include <utility>
 #include <vector>
 
+#include "base/bytes.hpp"
 #include "io/gltf/gltf.hpp"
 #include "io/gltf/gltf_container.hpp"
 #include "io/gltf/gltf_json.hpp"
 #include "io/gltf/gltf_motion.hpp"
-#include "io/gltf/gltf_new.hpp"
 #include "io/gltf/gltf_rewrite.hpp"
+#include "io/motion/motion_write.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
 
 namespace kinemend {
-
-/// The files of a take: the main file, and the separate files that it needs.
-struct GltfFiles {
-  std::string bytes;
-  std::vector<SideFile> beside;
-};
-
-/// Returns the file with its changes, binary or as text. A file without changes keeps its bytes if
-/// its container is the same. `output`: its path; empty: unknown, so that changed buffers are
-/// stored in the text. If the path is known, changed buffers in separate files get the name of the
-/// output, and other separate files are copied to its folder if needed.
-GltfFiles packed_gltf(const GltfDocument& document, const GltfChanges& changes, bool as_binary,
-                      const std::filesystem::path& output);
-
-namespace {
-
-const GltfDocument* gltf_document_of(const Take& take) {
-  return dynamic_cast<const GltfDocument*>(take.source.document.get());
-}
-
-// Converts a new binary file to text, with its chunk inline.
-std::string text_of_glb(std::string bytes) {
-  GltfDocument document;
-  Diagnostics none;
-  document.file = open_gltf(std::move(bytes), "new file", false, none);
-  document.model = parse_gltf(document.file);
-  return packed_gltf(document, {}, false, {}).bytes;
-}
-
-std::string new_glb_of(const Take& take) {
-  return take.has_joints() ? new_glb_of_joints(take) : new_glb_of_markers(take);
-}
-
-TakeFiles files_in_container(const Take& take, bool as_binary,
-                             const std::filesystem::path& output) {
-  take.validate();
-  if (const GltfDocument* const document = gltf_document_of(take)) {
-    const GltfMotion motion = document->motion();
-    if (belongs_to(take, *document, motion)) {
-      const GltfChanges changes = changes_of_gltf(take, *document, motion);
-      GltfFiles files = packed_gltf(*document, changes, as_binary, output);
-      return {std::move(files.bytes), std::move(files.beside)};
-    }
-  }
-  std::string bytes = new_glb_of(take);
-  return {as_binary ? std::move(bytes) : text_of_glb(std::move(bytes)), {}};
-}
-
-}  // namespace
-
-TakeFiles glb_files_of_take(const Take& take, const std::filesystem::path& output) {
-  return files_in_container(take, true, output);
-}
-
-TakeFiles gltf_files_of_take(const Take& take, const std::filesystem::path& output) {
-  return files_in_container(take, false, output);
-}
-
-std::vector<std::string> lost_beside_gltf(const Take& take) {
-  const GltfDocument* const document = gltf_document_of(take);
-  if (document == nullptr || belongs_to(take, *document, document->motion())) return {};
-  std::vector<std::string> parts;
-  if (document->model.meshes > 0) parts.emplace_back("meshes");
-  if (!document->model.skins.empty()) parts.emplace_back("skins");
-  if (document->model.animations.size() > 1) parts.emplace_back("other animations");
-  parts.emplace_back("other nodes and properties");
-  return parts;
-}
-
-std::string write_glb(const Take& take) { return glb_files_of_take(take, {}).bytes; }
-std::string write_gltf(const Take& take) { return gltf_files_of_take(take, {}).bytes; }
 
 namespace {
 
@@ -106,6 +36,10 @@ bool is_same_place(const fs::path& a, const fs::path& b) {
   return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
 }
 
+// Makes the file with its changes, binary or as text. A file without changes keeps its bytes if its
+// container is the same. `output`: its path; empty: unknown, so that changed buffers are stored in
+// the text. If the path is known, changed buffers in separate files get the name of the output, and
+// other separate files are copied to its folder if needed.
 class GltfPacker {
  public:
   GltfPacker(const GltfDocument& document, const GltfChanges& changes, bool as_binary,
@@ -117,10 +51,10 @@ class GltfPacker {
         output_(output),
         edits_(changes.edits) {}
 
-  GltfFiles pack() {
+  TakeFiles pack() {
     place_buffers();
     copy_beside();
-    GltfFiles files;
+    TakeFiles files;
     files.beside = std::move(beside_);
     const bool same_container = as_binary_ == file_.is_binary;
     if (same_container && edits_.empty() && changes_.buffers.empty()) {
@@ -179,7 +113,7 @@ class GltfPacker {
     const std::string_view old = uri ? text.substr(uri->begin + 1, uri->size - 2) : "";
     const std::string_view head = is_data_uri(old) ? old.substr(0, old.find(',') + 1)
                                                    : "data:application/octet-stream;base64,";
-    return std::string(head) + base64_of(content(buffer));
+    return std::string(head) + base64(content(buffer));
   }
 
   void place_changed(std::size_t buffer) {
@@ -236,12 +170,8 @@ class GltfPacker {
     }
   }
 
-  std::optional<ByteSpan> buffer_object(std::size_t buffer) const {
-    return json_element(file_.json_text(), "buffers", buffer);
-  }
-
   void set_uri(std::size_t buffer, const std::string& uri) {
-    const auto object = buffer_object(buffer);
+    const auto object = json_element(file_.json_text(), "buffers", buffer);
     if (!object) return;
     const auto old = json_member(file_.json_text(), *object, "uri");
     if (old) {
@@ -254,7 +184,7 @@ class GltfPacker {
   // Removes the member with its comma.
   bool remove_uri(std::size_t buffer) {
     const std::string_view text = file_.json_text();
-    const auto object = buffer_object(buffer);
+    const auto object = json_element(file_.json_text(), "buffers", buffer);
     const auto member = object ? json_named_member(text, *object, "uri") : std::nullopt;
     if (!member) return false;
     constexpr std::string_view blanks = " \t\r\n";
@@ -281,11 +211,55 @@ class GltfPacker {
   bool first_moves_ = false;  // whether buffer 0 becomes the chunk of a binary file
 };
 
+const GltfDocument* gltf_document_of(const Take& take) {
+  return dynamic_cast<const GltfDocument*>(take.source.document.get());
+}
+
+// Converts a new binary file to text, with its chunk inline.
+std::string text_of_glb(std::string bytes) {
+  GltfDocument document;
+  Diagnostics none;
+  document.file = open_gltf(std::move(bytes), "new file", false, none);
+  document.model = parse_gltf(document.file);
+  return GltfPacker(document, {}, false, {}).pack().bytes;
+}
+
+TakeFiles files_in_container(const Take& take, bool as_binary,
+                             const std::filesystem::path& output) {
+  take.validate();
+  if (const GltfDocument* const document = gltf_document_of(take)) {
+    const GltfMotion motion = document->motion();
+    if (same_parts(take, motion.take)) {
+      const GltfChanges changes = changes_of_gltf(take, *document, motion);
+      return GltfPacker(*document, changes, as_binary, output).pack();
+    }
+  }
+  std::string bytes = new_glb_of(take);
+  return {as_binary ? std::move(bytes) : text_of_glb(std::move(bytes)), {}};
+}
+
 }  // namespace
 
-GltfFiles packed_gltf(const GltfDocument& document, const GltfChanges& changes, bool as_binary,
-                      const std::filesystem::path& output) {
-  return GltfPacker(document, changes, as_binary, output).pack();
+TakeFiles glb_files_of_take(const Take& take, const std::filesystem::path& output) {
+  return files_in_container(take, true, output);
 }
+
+TakeFiles gltf_files_of_take(const Take& take, const std::filesystem::path& output) {
+  return files_in_container(take, false, output);
+}
+
+std::vector<std::string> lost_beside_gltf(const Take& take) {
+  const GltfDocument* const document = gltf_document_of(take);
+  if (document == nullptr || same_parts(take, document->motion().take)) return {};
+  std::vector<std::string> parts;
+  if (document->model.meshes > 0) parts.emplace_back("meshes");
+  if (!document->model.skins.empty()) parts.emplace_back("skins");
+  if (document->model.animations.size() > 1) parts.emplace_back("other animations");
+  parts.emplace_back("other nodes and properties");
+  return parts;
+}
+
+std::string write_glb(const Take& take) { return glb_files_of_take(take, {}).bytes; }
+std::string write_gltf(const Take& take) { return gltf_files_of_take(take, {}).bytes; }
 
 }  // namespace kinemend

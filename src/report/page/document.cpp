@@ -8,6 +8,7 @@
 #include <array>
 #include <filesystem>
 
+#include "base/bytes.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/page.hpp"
 #include "kinemend/experimental/svg.hpp"
