@@ -13,17 +13,10 @@ const T* column(const std::vector<T>& values, std::size_t offset) {
   return values.empty() ? nullptr : values.data() + offset;
 }
 
-bool has_gap(const Track& track) {
-  if (track.observed == nullptr) return false;
+// Whether a sample of the track was observed, or was not.
+bool has_sample(const Track& track, bool observed) {
   for (std::size_t f = 0; f < track.frames; ++f) {
-    if (!track.is_observed(f)) return true;
-  }
-  return false;
-}
-
-bool is_seen(const Track& track) {
-  for (std::size_t f = 0; f < track.frames; ++f) {
-    if (track.is_observed(f)) return true;
+    if (track.is_observed(f) == observed) return true;
   }
   return false;
 }
@@ -126,7 +119,7 @@ std::vector<std::size_t> changeable_tracks(const TakeView& take) {
   std::vector<std::size_t> tracks;
   for (std::size_t n = 0; n < take.tracks.size(); ++n) {
     const Track& track = take.tracks[n];
-    if (track.selected && moves(track) && is_seen(track)) tracks.push_back(n);
+    if (track.selected && moves(track) && has_sample(track, true)) tracks.push_back(n);
   }
   return tracks;
 }
@@ -145,7 +138,7 @@ std::vector<Vec3> positions_of(const Track& track) {
 
 std::vector<std::uint8_t> observed_of(const Track& track) {
   std::vector<std::uint8_t> observed;
-  if (!has_gap(track)) return observed;
+  if (!has_sample(track, false)) return observed;
   observed.resize(track.frames);
   for (std::size_t f = 0; f < track.frames; ++f) observed[f] = track.is_observed(f) ? 1 : 0;
   return observed;
@@ -162,14 +155,12 @@ void set_track(Take& take, std::size_t track, std::span<const Vec3> samples, std
 
 double typical_bone_length(const Skeleton& skeleton) {
   double sum = 0, count = 0;
-  for (const Vec3& offset : skeleton.offsets) {
+  const auto add = [&](Vec3 offset) {
     const double length = norm(offset);
     if (length > 0) sum += length, count += 1;
-  }
-  for (const EndSite& site : skeleton.end_sites) {
-    const double length = norm(site.offset);
-    if (length > 0) sum += length, count += 1;
-  }
+  };
+  for (const Vec3& offset : skeleton.offsets) add(offset);
+  for (const EndSite& site : skeleton.end_sites) add(site.offset);
   return count > 0 ? sum / count : 1.0;
 }
 
