@@ -176,13 +176,17 @@ void FrameWriter::append(double value, unsigned decimals) {
   line_.append(text.data(), write_fixed(text.data(), finite, decimals));
 }
 
-void FrameWriter::append_json(Vec3 v) {
-  append("[");
+void FrameWriter::append(Vec3 v) {
   append(v.x, value_decimals);
   append(",");
   append(v.y, value_decimals);
   append(",");
   append(v.z, value_decimals);
+}
+
+void FrameWriter::append_json(Vec3 v) {
+  append("[");
+  append(v);
   append("]");
 }
 
@@ -313,11 +317,7 @@ void MarkerWriter::append_frame(const Frame& frame, std::int64_t number) {
     } else if (json) {
       append_json(v);
     } else {
-      append(v.x, value_decimals);
-      append(",");
-      append(v.y, value_decimals);
-      append(",");
-      append(v.z, value_decimals);
+      append(v);
     }
   }
   if (json) append("]}");

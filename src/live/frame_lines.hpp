@@ -103,6 +103,7 @@ class FrameWriter {
   virtual void append_frame(const Frame& frame, std::int64_t number) = 0;
   void append(std::string_view text) { line_ += text; }
   void append(double value, unsigned decimals);
+  void append(Vec3 v);
   void append_json(Vec3 v);
 
  private:
