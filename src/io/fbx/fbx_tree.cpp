@@ -38,6 +38,20 @@ std::uint32_t FbxTree::child(std::uint32_t parent, std::string_view child_name) 
   return record;
 }
 
+std::size_t fbx_number_bytes(char type) {
+  constexpr std::string_view codes = "BCbcZYIFifDLdl";
+  constexpr std::size_t bytes[] = {1, 1, 1, 1, 1, 2, 4, 4, 4, 4, 8, 8, 8, 8};
+  const std::size_t found = codes.find(type);
+  return found == codes.npos ? 0 : bytes[found];
+}
+
+FbxArrayHead fbx_array_head(const FbxTree& tree, std::size_t place) {
+  const auto word = [&](std::size_t offset) {
+    return read_word<std::uint32_t>(tree.bytes.data() + place + offset, tree.is_big_endian);
+  };
+  return {word(0), word(4), word(8)};
+}
+
 Error FbxTree::error_at(std::size_t place, std::string_view message) const {
   return is_text ? Error::at_line(name, line_at(bytes, place), message)
                  : Error::at_byte(name, place, message);
@@ -81,33 +95,6 @@ class FbxRecordBuilder {
 };
 
 constexpr std::size_t version_place = 23, first_record_place = 27;
-constexpr std::size_t array_head_bytes = 12;
-
-// Returns the bytes of one number by its type code, for properties and arrays; 0 for another code.
-std::size_t fbx_number_bytes(char type) {
-  switch (type) {
-    case 'B':
-    case 'C':
-    case 'b':
-    case 'c':
-    case 'Z':
-      return 1;
-    case 'Y':
-      return 2;
-    case 'I':
-    case 'F':
-    case 'i':
-    case 'f':
-      return 4;
-    case 'D':
-    case 'L':
-    case 'd':
-    case 'l':
-      return 8;
-    default:
-      return 0;
-  }
-}
 
 class BinaryFbxReader {
  public:
@@ -231,21 +218,19 @@ class BinaryFbxReader {
 
   // Returns the size of a property, including the head of a string or array.
   std::size_t property_bytes(char type, std::size_t room) const {
-    const char* const bytes = tree_.bytes.data() + place_;
-    const bool big = tree_.is_big_endian;
-    if (type == 'S' || type == 'R')
-      return room < 4 ? 4 : std::size_t{4} + read_word<std::uint32_t>(bytes, big);
+    if (type == 'S' || type == 'R') {
+      const char* const bytes = tree_.bytes.data() + place_;
+      return room < 4 ? 4 : std::size_t{4} + read_word<std::uint32_t>(bytes, tree_.is_big_endian);
+    }
     const std::size_t number = fbx_number_bytes(type);
     if (number == 0) {
       throw tree_.error_at(place_ - 1, fmt::format("unknown type of property: code {}",
                                                    static_cast<unsigned char>(type)));
     }
     if (type < 'a') return number;
-    if (room < array_head_bytes) return array_head_bytes;
-    const std::size_t count = read_word<std::uint32_t>(bytes, big);
-    const std::uint32_t encoding = read_word<std::uint32_t>(bytes + 4, big);
-    const std::size_t packed = read_word<std::uint32_t>(bytes + 8, big);
-    return array_head_bytes + (encoding == 0 ? count * number : packed);
+    if (room < fbx_array_head_bytes) return fbx_array_head_bytes;
+    const FbxArrayHead head = fbx_array_head(tree_, place_);
+    return fbx_array_head_bytes + (head.packing == 0 ? head.count * number : head.packed_bytes);
   }
 
   FbxTree& tree_;

@@ -81,6 +81,19 @@ struct FbxTree {
   Error error_at(std::size_t place, std::string_view message) const;
 };
 
+/// Returns the bytes of one number by its type code, for properties and arrays; 0 for another code.
+std::size_t fbx_number_bytes(char type);
+
+/// The head of a packed array in a binary file.
+struct FbxArrayHead {
+  std::size_t count = 0;
+  std::uint32_t packing = 0;  ///< 0 none, 1 zlib
+  std::size_t packed_bytes = 0;
+};
+inline constexpr std::size_t fbx_array_head_bytes = 12;
+/// Reads the head at `place`; all its bytes must be in the file.
+FbxArrayHead fbx_array_head(const FbxTree& tree, std::size_t place);
+
 /// Reads the records of any FBX file, version 3 to 8. `max_depth`: deeper nesting is an error.
 /// Errors: `unreadable_input` with the byte or the line.
 FbxTree read_fbx_tree(std::string bytes, std::string_view name, std::size_t max_depth);
