@@ -33,13 +33,14 @@ Track rotation_track(const Take& clip, std::size_t joint) {
   return track;
 }
 
-// `number` is a point as in `Take::is_position_observed`.
-Track track_of_positions(const Take& clip, std::size_t number) {
+// `number` is a point as in `Take::position`. `owner`: see `Track`; `observed`: F x P, or empty.
+Track track_of_positions(const Take& clip, std::size_t number, std::int32_t owner,
+                         const std::vector<std::uint8_t>& observed) {
   Track track;
   track.frames = clip.frame_count();
-  track.owner = number == 0 ? -1 : clip.translated_joints[number - 1];
+  track.owner = owner;
   track.positions = column(clip.positions, number);
-  track.observed = column(clip.observed_positions, number);
+  track.observed = column(observed, number);
   track.stride = track.observed_stride = clip.point_count();
   return track;
 }
@@ -60,7 +61,8 @@ void add_joints(const Take& clip, const Selection& selection, TakeView& take) {
   }
   const double bone = typical_bone_length(clip.skeleton);
   for (std::size_t p = 0; p <= clip.translated_joints.size(); ++p) {
-    Track track = track_of_positions(clip, p);
+    Track track = track_of_positions(clip, p, p == 0 ? -1 : clip.translated_joints[p - 1],
+                                     clip.observed_positions);
     track.radian = bone;
     track.selected = p == 0 ? selection.root_position
                             : selection.translations &&
@@ -75,12 +77,7 @@ void add_markers(const Take& clip, const Selection& selection, TakeView& take) {
   take.gaps = GapTreatment::cut;
   take.body_height = selection.body_height > 0 ? selection.body_height : body_height(clip);
   for (std::size_t m = 0; m < take.owners; ++m) {
-    Track track;
-    track.frames = take.frames;
-    track.owner = static_cast<std::int32_t>(m);
-    track.positions = column(clip.positions, m);
-    track.observed = column(clip.observed, m);
-    track.stride = track.observed_stride = take.owners;
+    Track track = track_of_positions(clip, m, static_cast<std::int32_t>(m), clip.observed);
     track.radian = take.body_height / 4;
     track.selected = selection.includes(m) && clip.holds_positions(m);
     take.tracks.push_back(track);

@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "io/fbx/fbx.hpp"
 #include "io/fbx/fbx_document.hpp"
 #include "io/fbx/fbx_values.hpp"
+#include "io/held_samples.hpp"
 #include "io/reading_limits.hpp"
 #include "kinemend/experimental/text.hpp"
 
@@ -111,16 +111,10 @@ class FbxReader {
   void mend_curves() {
     for (std::size_t c = 0; c < document_.motion.curves.size(); ++c) {
       std::vector<double>& values = document_.motion.curves[c].values;
-      const auto known = std::find_if(values.begin(), values.end(),
-                                      [](double value) { return !std::isnan(value); });
-      double last = known == values.end() ? 0 : *known;
       for (std::size_t k = 0; k < values.size(); ++k) {
-        if (std::isnan(values[k])) {
-          document_.mended.push_back({c, k});
-          values[k] = last;
-        }
-        last = values[k];
+        if (is_missing(values[k])) document_.mended.push_back({c, k});
       }
+      hold_missing(values, 0, 1, 0.0);
     }
   }
 

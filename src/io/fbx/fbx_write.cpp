@@ -213,14 +213,14 @@ class FbxRewriter {
     return take_.has_joints() ? point_of_joint(take_, joint) : joint;
   }
 
-  Vec3 position(const Take& take, std::size_t frame, std::size_t point) const {
-    if (take.has_joints() || take.is_observed(frame, point)) return take.position(frame, point);
+  Vec3 position(std::size_t frame, std::size_t point) const {
+    if (take_.has_joints() || take_.is_observed(frame, point)) return take_.position(frame, point);
     // A missing sample has the last known position of its marker, or the first.
     for (std::size_t f = frame; f-- > 0;) {
-      if (take.is_observed(f, point)) return take.position(f, point);
+      if (take_.is_observed(f, point)) return take_.position(f, point);
     }
-    for (std::size_t f = frame; f < take.frame_count(); ++f) {
-      if (take.is_observed(f, point)) return take.position(f, point);
+    for (std::size_t f = frame; f < frames(); ++f) {
+      if (take_.is_observed(f, point)) return take_.position(f, point);
     }
     return original_.position(0, point);
   }
@@ -232,7 +232,7 @@ class FbxRewriter {
     if (vector == nullptr) return;
     for (std::size_t f = 0; f < frames(); ++f) {
       const std::size_t from = same_frames_ ? f : 0;
-      const Vec3 step = position(take_, f, *point) - original_.position(from, *point);
+      const Vec3 step = position(f, *point) - original_.position(from, *point);
       const Vec3 source = source_translation(f, joint);
       const Vec3 moved = source + bases_[joint] * step;
       // Below a model with a scale near zero, no translation reaches the position.
@@ -245,7 +245,7 @@ class FbxRewriter {
   bool moves_differ(std::size_t point) const {
     if (!same_frames_) return true;
     for (std::size_t f = 0; f < frames(); ++f) {
-      if (!(position(take_, f, point) == original_.position(f, point))) return true;
+      if (!(position(f, point) == original_.position(f, point))) return true;
     }
     return false;
   }

@@ -252,45 +252,37 @@ std::size_t GltfNumbers::sparse_index(std::size_t i) const {
   return static_cast<std::size_t>(read_component(bytes, sparse.index_component, false));
 }
 
+template <class Visit>
+void GltfNumbers::for_each_stored(const Visit& visit) const {
+  const GltfAccessor& a = accessor();
+  const auto place_in = [&](std::size_t view, std::size_t offset) {
+    return GltfPlace{model_.views[view].buffer, model_.views[view].offset + offset};
+  };
+  for (std::size_t i = 0, step = a.view ? stride() : 0; a.view && i < a.count; ++i)
+    visit(i, place_in(*a.view, a.offset + i * step));
+  for (std::size_t i = 0; a.sparse && i < a.sparse->count; ++i) {
+    visit(sparse_index(i),
+          place_in(a.sparse->value_view, a.sparse->value_offset + i * element_size()));
+  }
+}
+
 std::vector<double> GltfNumbers::values() const {
   const GltfAccessor& a = accessor();
   const std::size_t component = size_of_component(a.component);
   std::vector<double> values(a.count * width_);
-  const auto bytes_at = [&](std::size_t view, std::size_t offset) {
-    return buffers_.bytes(file_, model_.views[view].buffer).data() + model_.views[view].offset +
-           offset;
-  };
-  const auto read = [&](std::size_t element, const char* bytes) {
+  for_each_stored([&](std::size_t element, GltfPlace place) {
+    const char* const bytes = buffers_.bytes(file_, place.buffer).data() + place.at;
     for (std::size_t c = 0; c < width_; ++c) {
       values[element * width_ + c] =
           read_component(bytes + c * component, a.component, a.normalized);
     }
-  };
-  if (a.view) {
-    const char* const begin = bytes_at(*a.view, a.offset);
-    const std::size_t step = stride();
-    for (std::size_t i = 0; i < a.count; ++i) read(i, begin + i * step);
-  }
-  for (std::size_t i = 0; a.sparse && i < a.sparse->count; ++i)
-    read(sparse_index(i),
-         bytes_at(a.sparse->value_view, a.sparse->value_offset + i * element_size()));
+  });
   return values;
 }
 
 std::vector<std::optional<GltfPlace>> GltfNumbers::places() const {
-  const GltfAccessor& a = accessor();
-  std::vector<std::optional<GltfPlace>> places(a.count);
-  if (a.view) {
-    const GltfView& view = model_.views[*a.view];
-    const std::size_t step = stride();
-    for (std::size_t i = 0; i < a.count; ++i)
-      places[i] = GltfPlace{view.buffer, view.offset + a.offset + i * step};
-  }
-  for (std::size_t i = 0; a.sparse && i < a.sparse->count; ++i) {
-    const GltfView& view = model_.views[a.sparse->value_view];
-    places[sparse_index(i)] =
-        GltfPlace{view.buffer, view.offset + a.sparse->value_offset + i * element_size()};
-  }
+  std::vector<std::optional<GltfPlace>> places(count());
+  for_each_stored([&](std::size_t element, GltfPlace place) { places[element] = place; });
   return places;
 }
 
