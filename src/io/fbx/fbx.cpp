@@ -25,6 +25,7 @@
 #include "io/held_samples.hpp"
 #include "io/motion/motion_write.hpp"
 #include "io/reading_limits.hpp"
+#include "io/text/text.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/take.hpp"
 #include "motion/rotation.hpp"
@@ -68,11 +69,7 @@ class FbxReader {
   }
 
   void note(std::string_view kind, std::string_view message, std::size_t count) {
-    if (count == 0) return;
-    if (options_.strict) {
-      throw Error(ErrorKind::quality_limit, fmt::format("{}: {}", tree().name, message));
-    }
-    for (std::size_t i = 0; i < count; ++i) diagnostics_->add(kind, message);
+    note_repair(tree().name, options_.strict, *diagnostics_, kind, message, count);
   }
 
   std::vector<std::string> stack_names() const {

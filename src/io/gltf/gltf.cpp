@@ -22,6 +22,7 @@
 #include "io/gltf/gltf_motion.hpp"
 #include "io/gltf/gltf_rewrite.hpp"
 #include "io/motion/motion_write.hpp"
+#include "io/text/text.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "kinemend/io.hpp"
@@ -96,57 +97,36 @@ std::string first_names(const std::vector<std::string>& names) {
   return text;
 }
 
-class GltfNotes {
- public:
-  GltfNotes(const GltfDocument& document, bool strict, Diagnostics& diagnostics)
-      : document_(document), strict_(strict), diagnostics_(diagnostics) {}
-
-  void about(const GltfMotion& motion) {
-    if (!motion.sheared.empty())
-      note("matrix_sheared", fmt::format("{}: the matrix shears, which no joint can: left out",
-                                         first_names(motion.sheared)));
-    if (!motion.odd_scales.empty()) {
-      note("scale_not_uniform",
-           fmt::format("{}: turned below axes of different scales, which no joint can be: their "
-                       "mean is used for the positions below",
-                       first_names(motion.odd_scales)));
-    }
-    if (!motion.repeated.empty())
-      note("channel_repeated", fmt::format("{}: two channels for one thing: the first is read",
-                                           first_names(motion.repeated)));
-    about_keys(motion);
-  }
-
- private:
-  void note(std::string_view kind, const std::string& message) {
-    note_gltf_repair(document_.file.name, strict_, diagnostics_, kind, message);
-  }
-
-  void about_keys(const GltfMotion& motion) {
-    const double rate = motion.take.frame_rate_hz;
-    if (motion.held_keys > 0) {
-      for (std::size_t i = 0; i < motion.held_keys; ++i)
-        note("value_not_finite", "a key is not finite: held from a neighbouring key");
-    }
-    if (!motion.grid.is_of_keys) {
-      note("keys_resampled",
-           fmt::format("the keys lie on no common frames: read at {:.6g} Hz; a joint that changes "
-                       "is written with a key in each frame",
-                       rate));
-    } else if (motion.interpolated > 0) {
-      note("keys_interpolated",
-           fmt::format("{} moving channels have no key in some frames: interpolated; a joint that "
-                       "changes is written with a key in each frame",
-                       motion.interpolated));
-    }
-    if (motion.grid.is_assumed && motion.take.frame_count() > 0 && document_.rate_hz == 0)
-      note("frame_rate_assumed", fmt::format("a single key tells no rate: {:.6g} Hz", rate));
-  }
-
-  const GltfDocument& document_;
-  bool strict_;
-  Diagnostics& diagnostics_;
-};
+void note_gltf_repairs(const GltfDocument& document, const GltfMotion& motion, bool strict,
+                       Diagnostics& diagnostics) {
+  const auto note = [&](std::string_view kind, std::size_t count, const std::string& message) {
+    note_repair(document.file.name, strict, diagnostics, kind, message, count);
+  };
+  const double rate = motion.take.frame_rate_hz;
+  note("matrix_sheared", motion.sheared.empty() ? 0 : 1,
+       fmt::format("{}: the matrix shears, which no joint can: left out",
+                   first_names(motion.sheared)));
+  note(
+      "scale_not_uniform", motion.odd_scales.empty() ? 0 : 1,
+      fmt::format("{}: turned below axes of different scales, which no joint can be: their mean is "
+                  "used for the positions below",
+                  first_names(motion.odd_scales)));
+  note("channel_repeated", motion.repeated.empty() ? 0 : 1,
+       fmt::format("{}: two channels for one thing: the first is read",
+                   first_names(motion.repeated)));
+  note("value_not_finite", motion.held_keys, "a key is not finite: held from a neighbouring key");
+  note("keys_resampled", motion.grid.is_of_keys ? 0 : 1,
+       fmt::format("the keys lie on no common frames: read at {:.6g} Hz; a joint that changes is "
+                   "written with a key in each frame",
+                   rate));
+  note("keys_interpolated", motion.grid.is_of_keys && motion.interpolated > 0 ? 1 : 0,
+       fmt::format("{} moving channels have no key in some frames: interpolated; a joint that "
+                   "changes is written with a key in each frame",
+                   motion.interpolated));
+  const bool is_assumed = motion.grid.is_assumed && motion.take.frame_count() > 0;
+  note("frame_rate_assumed", is_assumed && document.rate_hz == 0 ? 1 : 0,
+       fmt::format("a single key tells no rate: {:.6g} Hz", rate));
+}
 
 std::vector<SourceFact> facts_of(const GltfDocument& document) {
   const GltfModel& model = document.model;
@@ -194,7 +174,7 @@ TakeResult read_gltf_file(std::string bytes, std::string_view name, const ReadOp
   GltfMotion motion = decode_gltf(document->file, document->model, document->buffers,
                                   document->animation, document->rate_hz);
   check_joint_depth(document->file, motion.take.skeleton, options.max_depth);
-  GltfNotes(*document, options.strict, result.diagnostics).about(motion);
+  note_gltf_repairs(*document, motion, options.strict, result.diagnostics);
   motion.take.source = {std::string(name), format, document, facts_of(*document)};
   name_animations(*document, motion.take.source);
   result.take = std::move(motion.take);

@@ -10,6 +10,7 @@
 
 #include "base/bytes.hpp"
 #include "io/gltf/gltf_json.hpp"
+#include "io/text/text.hpp"
 #include "kinemend/error.hpp"
 
 namespace kinemend {
@@ -79,12 +80,6 @@ void find_glb_chunks(GltfFile& file, std::size_t end) {
 
 }  // namespace
 
-void note_gltf_repair(std::string_view file, bool strict, Diagnostics& diagnostics,
-                      std::string_view kind, std::string_view message) {
-  if (strict) throw Error(ErrorKind::quality_limit, fmt::format("{}: {}", file, message));
-  diagnostics.add(kind, message);
-}
-
 GltfFile open_gltf(std::string bytes, std::string_view name, bool strict,
                    Diagnostics& diagnostics) {
   GltfFile file;
@@ -98,9 +93,9 @@ GltfFile open_gltf(std::string bytes, std::string_view name, bool strict,
   const std::size_t end = stated_glb_end(file);
   find_glb_chunks(file, end);
   if (end < file.bytes.size()) {
-    note_gltf_repair(name, strict, diagnostics, "bytes_after_end",
-                     fmt::format("{} bytes after the end that the header states: kept",
-                                 file.bytes.size() - end));
+    note_repair(name, strict, diagnostics, "bytes_after_end",
+                fmt::format("{} bytes after the end that the header states: kept",
+                            file.bytes.size() - end));
   }
   return file;
 }

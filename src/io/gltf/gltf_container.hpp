@@ -31,10 +31,6 @@ struct GltfFile {
 /// 2, or has no JSON.
 GltfFile open_gltf(std::string bytes, std::string_view name, bool strict, Diagnostics& diagnostics);
 
-/// Notes a repair; throws `ErrorKind::quality_limit` when the reading is strict.
-void note_gltf_repair(std::string_view file, bool strict, Diagnostics& diagnostics,
-                      std::string_view kind, std::string_view message);
-
 /// Returns an error about an element of an array of the root (for example `accessors`, 3), with the
 /// byte of the element.
 Error gltf_error(const GltfFile& file, const char* section, std::size_t index,

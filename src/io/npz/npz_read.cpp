@@ -14,6 +14,7 @@
 #include "io/npz/npz_document.hpp"
 #include "io/npz/zip_archive.hpp"
 #include "io/reading_limits.hpp"
+#include "io/text/text.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 
@@ -454,10 +455,8 @@ TakeResult read_npz(std::string bytes, std::string_view name, const ReadOptions&
   NpzTake decoded = take_of_npz(*document);
   TakeResult result{std::move(decoded.take), {}};
   for (const NpzRepair& repair : decoded.repairs) {
-    if (options.strict)
-      throw Error(ErrorKind::quality_limit, fmt::format("{}: {}", name, repair.message));
-    for (std::size_t i = 0; i < repair.count; ++i)
-      result.diagnostics.add(repair.kind, repair.message);
+    note_repair(name, options.strict, result.diagnostics, repair.kind, repair.message,
+                repair.count);
   }
   SourceInfo& source = result.take.source;
   source.name = name;

@@ -47,6 +47,10 @@ struct CountedRepair {
 /// Notes a repair; throws `ErrorKind::quality_limit` when the reading is strict.
 void note_repair(const SourceText& text, Diagnostics& diagnostics, std::string_view kind,
                  std::size_t offset, std::string_view message, std::size_t count = 1);
+/// Notes a repair of a file without lines, `count` times. With `strict` it throws instead, as
+/// above.
+void note_repair(std::string_view file, bool strict, Diagnostics& diagnostics,
+                 std::string_view kind, std::string_view message, std::size_t count = 1);
 
 /// Walks over the words of a text: runs of bytes between white space; each brace is a separate
 /// word. Comments (# or //, to the end of the line) between words are skipped and counted.
