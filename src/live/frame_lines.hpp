@@ -118,8 +118,6 @@ class JointWriter final : public FrameWriter {
   void start_near(const std::vector<double>& values) override;
 
  private:
-  std::string bvh_header() const;
-  std::string json_header(std::size_t latency_frames) const;
   void append_frame(const Frame& frame, std::int64_t number) override;
   void append_values(const Frame& frame);
   void append_json_frame(const Frame& frame, std::int64_t number);

@@ -20,18 +20,14 @@ namespace {
 
 struct NamedSource {
   Source source;
-  std::string name;
+  std::string_view name;
 };
-
-const std::array<NamedSource, 6>& named_sources() {
-  static const std::array<NamedSource, 6> list = {{{Source::optical, "optical"},
-                                                   {Source::suit, "suit"},
-                                                   {Source::video, "video"},
-                                                   {Source::depth, "depth"},
-                                                   {Source::keyframed, "keyframed"},
-                                                   {Source::unknown, "unknown"}}};
-  return list;
-}
+constexpr std::array<NamedSource, 6> named_sources{{{Source::optical, "optical"},
+                                                    {Source::suit, "suit"},
+                                                    {Source::video, "video"},
+                                                    {Source::depth, "depth"},
+                                                    {Source::keyframed, "keyframed"},
+                                                    {Source::unknown, "unknown"}}};
 
 // Makers and programs that record with one kind of system only, in lower case. Editors (Blender,
 // Maya, MotionBuilder) and programs for several kinds of system are left out: their names are not
@@ -84,17 +80,16 @@ std::optional<Source> source_named_in(std::string_view text) {
 }  // namespace
 
 std::string_view to_string(Source source) {
-  const auto& list = named_sources();
-  return std::find_if(list.begin(), list.end(),
+  return std::find_if(named_sources.begin(), named_sources.end(),
                       [&](const NamedSource& entry) { return entry.source == source; })
       ->name;
 }
 
 Source parse_source(std::string_view name) {
-  return find_named(named_sources(), name, "unknown source").source;
+  return find_named(named_sources, name, "unknown source").source;
 }
 
-std::vector<std::string> source_names() { return names_of(named_sources()); }
+std::vector<std::string> source_names() { return names_of(named_sources); }
 
 bool expects_slow_noise(Source source) noexcept {
   return source == Source::video || source == Source::depth || source == Source::suit;

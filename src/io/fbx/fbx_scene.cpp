@@ -421,7 +421,7 @@ class FbxMotionReader6 {
           component_of(animated.constant, a) = *number;
       }
       if (tree_.child(index, "Key") == no_fbx_record) return;
-      FbxCurve curve = keys_.read(index);
+      FbxCurve curve = keys_.begin(index);
       if (curve.values.empty()) return;
       animated.curves[a] = static_cast<std::int32_t>(motion_.curves.size());
       motion_.curves.push_back(std::move(curve));

@@ -32,7 +32,7 @@ std::uint32_t stated_version(const FbxTree& tree) {
 bool is_binary_fbx(std::string_view bytes) { return bytes.substr(0, 21) == binary_magic; }
 
 std::uint32_t FbxTree::child(std::uint32_t parent, std::string_view child_name) const {
-  std::uint32_t record = first_child_of(parent);
+  std::uint32_t record = parent == no_fbx_record ? first_root : records[parent].first_child;
   while (record != no_fbx_record && name_of(records[record]) != child_name)
     record = records[record].next_sibling;
   return record;

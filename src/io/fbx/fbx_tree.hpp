@@ -66,9 +66,6 @@ struct FbxTree {
   /// The first child of that name, or `no_fbx_record` if the record has no such child. With
   /// `no_fbx_record` as the parent it searches the top level.
   std::uint32_t child(std::uint32_t parent, std::string_view child_name) const;
-  std::uint32_t first_child_of(std::uint32_t parent) const {
-    return parent == no_fbx_record ? first_root : records[parent].first_child;
-  }
   /// Calls `visit` with each child of a record, if there is one.
   template <class Visit>
   void for_each_child(std::uint32_t parent, Visit&& visit) const {
