@@ -8,8 +8,8 @@
 #include "base/cells.hpp"
 #include "base/frame_span.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/gaps.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/take.hpp"
 #include "motion/names.hpp"
 #include "motion/take.hpp"
 

@@ -26,7 +26,7 @@
 #include "io/motion/motion_write.hpp"
 #include "io/reading_limits.hpp"
 #include "io/text/text.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/take.hpp"
 #include "motion/rotation.hpp"
 #include "motion/take.hpp"

@@ -18,8 +18,7 @@
 #include "io/fbx/fbx_tree.hpp"
 #include "io/fbx/fbx_values.hpp"
 #include "io/held_samples.hpp"
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/skeleton.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/take.hpp"
 #include "motion/rotation.hpp"
 

@@ -1,8 +1,8 @@
-#include "gltf_support.hpp"
 #include "base/bytes.hpp"
+#include "gltf_support.hpp"
 #include "io/gltf/gltf_container.hpp"
 #include "io/gltf/gltf_json.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend {
 namespace {

@@ -1,13 +1,13 @@
 // Tests of the motion codec of pages: samples are restored within half a quantum.
-#include "base/bytes.hpp"
 #include "report/page/codec.hpp"
+#include "base/bytes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "report/page/page_parts.hpp"
 
 namespace kinemend::test {
