@@ -50,13 +50,8 @@ std::optional<Number> parse_whole(std::string_view text) {
 }  // namespace
 
 std::string to_string(const OptionValue& value) {
-  struct Visitor {
-    std::string operator()(double v) const { return fmt::format("{}", v); }
-    std::string operator()(std::int64_t v) const { return fmt::format("{}", v); }
-    std::string operator()(bool v) const { return v ? "true" : "false"; }
-    std::string operator()(const std::string& v) const { return v; }
-  };
-  return std::visit(Visitor{}, value);
+  const auto text = [](const auto& v) { return fmt::format("{}", v); };
+  return std::visit(text, value);
 }
 
 OptionValue parse_option(const OptionSpec& spec, std::string_view text) {

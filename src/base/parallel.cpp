@@ -71,14 +71,16 @@ class Pool {
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
 
+  // Returns the number of threads under the current limits, including the caller.
   std::size_t thread_count() {
     const std::lock_guard lock(mutex_);
     return limit();
   }
 
+  // Sets the number without limits; 0: the number of hardware threads. Returns the previous number.
   std::size_t set_thread_count(std::size_t count) {
     const std::lock_guard lock(mutex_);
-    return std::exchange(most_, count);
+    return std::exchange(most_, count == 0 ? hardware_threads() : count);
   }
 
   void add_limit(std::size_t most) {
@@ -173,21 +175,10 @@ Pool& the_pool() {
   return pool;
 }
 
-// Returns the number of threads under the current limits, including the caller.
-std::size_t thread_count() { return the_pool().thread_count(); }
-// Sets the number without limits; 0: the number of hardware threads. Returns the previous number.
-std::size_t set_thread_count(std::size_t count) {
-  return the_pool().set_thread_count(count == 0 ? hardware_threads() : count);
-}
-void add_limit(std::size_t most) { the_pool().add_limit(most); }
-void remove_limit(std::size_t most) { the_pool().remove_limit(most); }
-// Works like `work_is_cancelled`.
-bool is_cancelled() { return is_cancelled_around(current_job); }
-
 // Works like `kinemend::for_each_index`. A thread that waits for the rest of its own work does no
 // other.
 void for_each_index(std::size_t count, const IndexWork& work) {
-  if (count < 2 || thread_count() < 2) {
+  if (count < 2 || the_pool().thread_count() < 2) {
     for (std::size_t i = 0; i < count; ++i) work(i);
     return;
   }
@@ -261,7 +252,8 @@ void for_each_range_in_pool(std::size_t first, std::size_t last, std::size_t lea
   if (first >= last) return;
   const std::size_t count = last - first;
   const std::size_t most_parts = std::max<std::size_t>(1, count / std::max<std::size_t>(1, least));
-  const std::size_t parts = std::min(most_parts, parts_per_thread * pool::thread_count());
+  const std::size_t parts =
+      std::min(most_parts, parts_per_thread * pool::the_pool().thread_count());
   pool::for_each_index(parts, [&](std::size_t i) {
     work(first + count * i / parts, first + count * (i + 1) / parts);
   });
@@ -325,8 +317,8 @@ void add_halves(std::size_t first, std::size_t last, std::size_t most,
 }  // namespace
 
 struct ThreadLimit::Held {
-  explicit Held(std::size_t limit) : most(limit) { pool::add_limit(most); }
-  ~Held() { pool::remove_limit(most); }
+  explicit Held(std::size_t limit) : most(limit) { pool::the_pool().add_limit(most); }
+  ~Held() { pool::the_pool().remove_limit(most); }
   Held(const Held&) = delete;
   Held& operator=(const Held&) = delete;
 
@@ -343,7 +335,7 @@ std::size_t thread_count() {
 #ifdef KINEMEND_TBB
   if (!uses_pool) return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
 #endif
-  return pool::thread_count();
+  return pool::the_pool().thread_count();
 }
 
 StopWatch::StopWatch(const std::atomic<bool>& stop) : before_(std::exchange(watched_stop, &stop)) {}
@@ -396,7 +388,7 @@ bool work_is_cancelled() {
 #ifdef KINEMEND_TBB
   if (!uses_pool) return tbb::is_current_task_group_canceling();
 #endif
-  return pool::is_cancelled();
+  return pool::is_cancelled_around(pool::current_job);
 }
 
 void for_each_piece(std::size_t slots, const std::function<bool(std::size_t slot)>& read,
@@ -425,7 +417,7 @@ void run_isolated(const std::function<void()>& work) {
 }
 
 StandardThreads::StandardThreads(std::size_t threads)
-    : threads_before_(pool::set_thread_count(threads)), used_before_(uses_pool) {
+    : threads_before_(pool::the_pool().set_thread_count(threads)), used_before_(uses_pool) {
 #ifdef KINEMEND_TBB
   uses_pool = true;
 #endif
@@ -435,7 +427,7 @@ StandardThreads::~StandardThreads() {
 #ifdef KINEMEND_TBB
   uses_pool = used_before_;
 #endif
-  pool::set_thread_count(threads_before_);
+  pool::the_pool().set_thread_count(threads_before_);
 }
 
 }  // namespace kinemend

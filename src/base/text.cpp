@@ -12,29 +12,11 @@
 
 namespace kinemend {
 
-namespace {
-
-std::string_view code_of(Paint paint) {
-  switch (paint) {
-    case Paint::bold:
-      return "1";
-    case Paint::dim:
-      return "2";
-    case Paint::red:
-      return "1;31";
-    case Paint::green:
-      return "32";
-    case Paint::yellow:
-      return "33";
-  }
-  return "0";
-}
-
-}  // namespace
-
 std::string painted(Paint paint, std::string_view text, bool on) {
+  // In the order of `Paint`.
+  constexpr std::string_view codes[] = {"1", "2", "1;31", "32", "33"};
   if (!on || text.empty()) return std::string(text);
-  return fmt::format("\033[{}m{}\033[0m", code_of(paint), text);
+  return fmt::format("\033[{}m{}\033[0m", codes[static_cast<std::size_t>(paint)], text);
 }
 
 std::size_t byte_order_mark_size(std::string_view text) {

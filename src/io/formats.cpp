@@ -64,8 +64,7 @@ void note_extension(const Format& format, std::string_view name, bool strict,
   const std::string message =
       fmt::format("the name ends in {}, but the content is {} ({}): read as {}",
                   path.extension().string(), format.name, format.description, format.name);
-  if (strict) throw Error(ErrorKind::quality_limit, fmt::format("{}: {}", name, message));
-  diagnostics.add("extension_mismatch", message);
+  note_repair(name, strict, diagnostics, "extension_mismatch", message);
 }
 
 // Lists the contents of a C3D file that a format for points only cannot store.

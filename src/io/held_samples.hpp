@@ -12,6 +12,7 @@
 
 namespace kinemend {
 
+inline bool is_missing(double value) { return std::isnan(value); }
 inline bool is_missing(Vec3 v) { return std::isnan(v.x + v.y + v.z); }
 inline bool is_missing(Quat q) { return std::isnan(q.w); }
 

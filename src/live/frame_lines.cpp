@@ -162,6 +162,17 @@ namespace {
 // Chosen by hand (docs/live.md).
 constexpr unsigned value_decimals = 6, quaternion_decimals = 8;
 
+nlohmann::ordered_json begun_header(const LiveHeader& header, std::size_t latency_frames) {
+  return {{"kinemend", "live/1"},
+          {"frame_rate_hz", header.frame_rate_hz},
+          {"delay_frames", latency_frames}};
+}
+
+// Bytes of names that are not UTF-8 are replaced.
+std::string line_of(const nlohmann::ordered_json& json) {
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace
 
 std::string_view FrameWriter::write(const Frame& frame, std::int64_t number) {
@@ -177,13 +188,17 @@ void FrameWriter::append(double value, unsigned decimals) {
   line_.append(text.data(), write_fixed(text.data(), finite, decimals));
 }
 
-void FrameWriter::append_json(Vec3 v) {
-  append("[");
+void FrameWriter::append(Vec3 v) {
   append(v.x, value_decimals);
   append(",");
   append(v.y, value_decimals);
   append(",");
   append(v.z, value_decimals);
+}
+
+void FrameWriter::append_json(Vec3 v) {
+  append("[");
+  append(v);
   append("]");
 }
 
@@ -195,29 +210,20 @@ JointWriter::JointWriter(const LiveHeader& header, LiveFormat format)
       row_(columns_.count()) {}
 
 std::string JointWriter::header_text(std::size_t latency_frames) const {
-  return format_ == LiveFormat::bvh ? bvh_header() : json_header(latency_frames);
-}
-
-std::string JointWriter::bvh_header() const {
-  const std::string frame_time =
-      header_.frame_time.empty() ? frame_time_text(header_.frame_rate_hz) : header_.frame_time;
-  return fmt::format("{}\nMOTION\nFrames: {}\nFrame Time: {}\n", header_.hierarchy, header_.frames,
-                     frame_time);
-}
-
-std::string JointWriter::json_header(std::size_t latency_frames) const {
+  if (format_ == LiveFormat::bvh) {
+    return fmt::format(
+        "{}\nMOTION\nFrames: {}\nFrame Time: {}\n", header_.hierarchy, header_.frames,
+        header_.frame_time.empty() ? frame_time_text(header_.frame_rate_hz) : header_.frame_time);
+  }
   const Skeleton& skeleton = header_.skeleton;
-  nlohmann::ordered_json json = {{"kinemend", "live/1"},
-                                 {"frame_rate_hz", header_.frame_rate_hz},
-                                 {"delay_frames", latency_frames},
-                                 {"joints", skeleton.names},
-                                 {"parents", skeleton.parents}};
+  nlohmann::ordered_json json = begun_header(header_, latency_frames);
+  json["joints"] = skeleton.names;
+  json["parents"] = skeleton.parents;
   for (const Vec3& offset : skeleton.offsets)
     json["offsets"].push_back({offset.x, offset.y, offset.z});
   json["translated"] = nlohmann::ordered_json::array();
   for (const std::int32_t joint : columns_.translated_joints()) json["translated"].push_back(joint);
-  // Bytes of names that are not UTF-8 are replaced.
-  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return line_of(json);
 }
 
 void JointWriter::start_near(const std::vector<double>& values) {
@@ -291,11 +297,9 @@ std::string MarkerWriter::header_text(std::size_t latency_frames) const {
   if (format_ == LiveFormat::bvh) {
     return fmt::format("MARKERS {} {}\n", header_.frame_rate_hz, fmt::join(header_.markers, ","));
   }
-  const nlohmann::ordered_json json = {{"kinemend", "live/1"},
-                                       {"frame_rate_hz", header_.frame_rate_hz},
-                                       {"delay_frames", latency_frames},
-                                       {"markers", header_.markers}};
-  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  nlohmann::ordered_json json = begun_header(header_, latency_frames);
+  json["markers"] = header_.markers;
+  return line_of(json);
 }
 
 void MarkerWriter::append_frame(const Frame& frame, std::int64_t number) {
@@ -314,11 +318,7 @@ void MarkerWriter::append_frame(const Frame& frame, std::int64_t number) {
     } else if (json) {
       append_json(v);
     } else {
-      append(v.x, value_decimals);
-      append(",");
-      append(v.y, value_decimals);
-      append(",");
-      append(v.z, value_decimals);
+      append(v);
     }
   }
   if (json) append("]}");

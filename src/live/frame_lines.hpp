@@ -103,6 +103,7 @@ class FrameWriter {
   virtual void append_frame(const Frame& frame, std::int64_t number) = 0;
   void append(std::string_view text) { line_ += text; }
   void append(double value, unsigned decimals);
+  void append(Vec3 v);
   void append_json(Vec3 v);
 
  private:
@@ -117,8 +118,6 @@ class JointWriter final : public FrameWriter {
   void start_near(const std::vector<double>& values) override;
 
  private:
-  std::string bvh_header() const;
-  std::string json_header(std::size_t latency_frames) const;
   void append_frame(const Frame& frame, std::int64_t number) override;
   void append_values(const Frame& frame);
   void append_json_frame(const Frame& frame, std::int64_t number);

@@ -210,9 +210,7 @@ class NeuronHierarchy {
   void open(std::string_view name, Vec3 offset) {
     const bool is_root = depth_ == 0;
     line("{} {}", is_root ? "ROOT" : "JOINT", name);
-    line("{{");
-    ++depth_;
-    line("OFFSET {:.2f} {:.2f} {:.2f}", offset.x, offset.y, offset.z);
+    begin(offset);
     line("CHANNELS {}Yrotation Xrotation Zrotation",
          is_root || displaced_ ? "6 Xposition Yposition Zposition " : "3 ");
   }
@@ -222,14 +220,18 @@ class NeuronHierarchy {
   }
   void end_site(Vec3 offset) {
     line("End Site");
-    line("{{");
-    ++depth_;
-    line("OFFSET {:.2f} {:.2f} {:.2f}", offset.x, offset.y, offset.z);
+    begin(offset);
     close();
   }
   std::string text;
 
  private:
+  void begin(Vec3 offset) {
+    line("{{");
+    ++depth_;
+    line("OFFSET {:.2f} {:.2f} {:.2f}", offset.x, offset.y, offset.z);
+  }
+
   template <class... Values>
   void line(fmt::format_string<Values...> format, Values&&... values) {
     text.append(2 * depth_, ' ');

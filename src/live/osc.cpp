@@ -1,9 +1,10 @@
 // Walks the elements of a packet, and checks every size before it is used.
 #include "live/osc.hpp"
 
-#include <array>
 #include <cstdint>
-#include <cstring>
+
+#include "base/bytes.hpp"
+#include "base/portable.hpp"
 
 namespace kinemend {
 
@@ -13,13 +14,6 @@ constexpr std::size_t word = 4;
 // "#bundle" with its terminating zero, followed by the time tag.
 constexpr std::string_view bundle_begin{"#bundle\0", 8};
 constexpr std::size_t bundle_head = 16;
-
-std::uint32_t osc_word(std::string_view packet, std::size_t place) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < word; ++i)
-    value = value << 8 | static_cast<std::uint8_t>(packet[place + i]);
-  return value;
-}
 
 // Reads the message in [begin, end).
 bool read_osc_message(std::string_view packet, std::size_t begin, std::size_t end,
@@ -44,7 +38,7 @@ bool read_osc_element(std::string_view packet, std::size_t begin, std::size_t en
   if (end - begin < bundle_head || depth == most_osc_depth) return false;
   for (std::size_t place = begin + bundle_head; place < end;) {
     if (end - place < word) return false;
-    const std::size_t size = osc_word(packet, place);
+    const std::size_t size = read_word<std::uint32_t>(packet.data() + place, true);
     place += word;
     if (size == 0 || size % word != 0 || size > end - place) return false;
     if (!read_osc_element(packet, place, place + size, depth + 1, messages)) return false;
@@ -74,17 +68,11 @@ std::optional<std::string_view> osc_string(std::string_view packet, std::size_t 
 }
 
 float osc_float(std::string_view packet, std::size_t place) {
-  const std::uint32_t bits = osc_word(packet, place);
-  float value = 0;
-  std::memcpy(&value, &bits, sizeof value);
-  return value;
+  return bits_as<float>(read_word<std::uint32_t>(packet.data() + place, true));
 }
 
 void set_osc_float(std::string& packet, std::size_t place, float value) {
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, &value, sizeof bits);
-  for (std::size_t i = 0; i < word; ++i)
-    packet[place + i] = static_cast<char>(bits >> (8 * (word - 1 - i)) & 0xFF);
+  put_word(packet.data() + place, bits_as<std::uint32_t>(value), true);
 }
 
 }  // namespace kinemend

@@ -115,7 +115,88 @@ void check_vmc_options(const VmcOptions& options) {
     throw Error(ErrorKind::usage, "strength: expected 0 to 1");
 }
 
+// A frame that is later than this share of a frame has missing frames before it.
+constexpr double late_share = 0.75;
+// The share of a frame's lateness that the clock follows: a tenth suppresses most jitter. All of
+// these are chosen by hand, not swept.
+constexpr double following = 0.1;
+// The time over which the rate is measured.
+constexpr double clock_window_s = 2;
+// The relative difference between measured and expected rate from which a message is written.
+constexpr double other_rate = 0.1;
+constexpr std::size_t most_clock_notes = 5;
+
 }  // namespace
+
+// Measures a stream as it runs: how many frames were lost between two, by their arrival times, and
+// their rate. It follows the sender's clock slowly, so that network jitter is not taken for losses.
+class FrameClock {
+ public:
+  // `longest_gap_s`: after a longer gap no frame counts as lost.
+  FrameClock(double frame_rate_hz, double longest_gap_s)
+      : frame_rate_hz_(frame_rate_hz), longest_gap_s_(longest_gap_s) {}
+
+  // Returns the number of frames missing before the one that arrived at `now_s`, which becomes the
+  // last one.
+  std::size_t frames_before(double now_s) {
+    const double period_s = 1 / frame_rate_hz_;
+    double late_s = now_s - expected_s_;
+    if (!runs_ || late_s > longest_gap_s_ || late_s < -period_s) {
+      if (!runs_ || late_s > 0) window_frames_ = 0;
+      runs_ = true;
+      late_s = 0;
+      expected_s_ = now_s;
+    }
+    measure(now_s);
+    const auto missing =
+        late_s < late_share * period_s
+            ? std::size_t{0}
+            : static_cast<std::size_t>(std::floor(late_s / period_s + (1 - late_share)));
+    late_s -= static_cast<double>(missing) * period_s;
+    expected_s_ += static_cast<double>(missing + 1) * period_s + following * late_s;
+    return missing;
+  }
+
+  // Announces a silence: no frame before the next one counts as lost.
+  void pause() { runs_ = false; }
+  // Returns the frames per second over the last seconds without a silence; 0: not measured yet.
+  double measured_hz() const { return measured_hz_; }
+  // Returns a message if the measured rate differs from the expected one, once for each rate; else
+  // empty.
+  std::string take_note(std::size_t latency_frames) {
+    const double reference_hz = told_hz_ > 0 ? told_hz_ : frame_rate_hz_;
+    if (measured_hz_ == 0 || notes_ == most_clock_notes ||
+        std::fabs(measured_hz_ - reference_hz) <= other_rate * reference_hz)
+      return {};
+    told_hz_ = measured_hz_;
+    ++notes_;
+    return fmt::format(
+        "{:.3g} frames per second arrive, and {:.6g} are expected (--fps): {}", measured_hz_,
+        frame_rate_hz_,
+        measured_hz_ < frame_rate_hz_
+            ? std::string("missing ones are interpolated")
+            : fmt::format("the delay is {:.3g} ms",
+                          1000 * static_cast<double>(latency_frames) / measured_hz_));
+  }
+
+ private:
+  void measure(double now_s) {
+    if (window_frames_++ == 0) window_begin_s_ = now_s;
+    if (now_s - window_begin_s_ < clock_window_s) return;
+    measured_hz_ = static_cast<double>(window_frames_ - 1) / (now_s - window_begin_s_);
+    window_begin_s_ = now_s;
+    window_frames_ = 1;
+  }
+
+  double frame_rate_hz_, longest_gap_s_;
+  bool runs_ = false;
+  double expected_s_ = 0;  // when the next frame is due
+  double window_begin_s_ = 0;
+  std::size_t window_frames_ = 0;
+  double measured_hz_ = 0;
+  double told_hz_ = 0;
+  std::size_t notes_ = 0;
+};
 
 class VmcSession::Work {
  public:

@@ -6,7 +6,9 @@
 #include <string>
 
 #include "base/cells.hpp"
+#include "base/frame_span.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/take.hpp"
 #include "motion/names.hpp"
 #include "motion/take.hpp"
@@ -16,19 +18,10 @@ namespace kinemend {
 namespace {
 
 template <class IsMissing>
-void append_gaps(std::size_t track, std::size_t frames, IsMissing is_missing,
+void append_gaps(std::size_t track, std::size_t frames, const IsMissing& is_missing,
                  std::vector<Gap>& gaps) {
-  bool open = false;
-  for (std::size_t f = 0; f < frames; ++f) {
-    if (!is_missing(f)) {
-      open = false;
-    } else if (open) {
-      gaps.back().last_frame = f;
-    } else {
-      gaps.push_back({track, f, f});
-      open = true;
-    }
-  }
+  for (const FrameSpan& run : runs_where(frames, is_missing))
+    gaps.push_back({track, run.first, run.last});
 }
 
 // Calls `mark(track, first, last)` for every track of each gap.
@@ -36,9 +29,7 @@ template <class Mark>
 void for_each_named(std::span<const NamedGap> gaps, const std::vector<std::string>& names,
                     std::size_t frames, std::int64_t first_number, std::string_view kind,
                     Mark mark) {
-  const auto number = [&](std::size_t frame) {
-    return static_cast<std::int64_t>(frame) + first_number;
-  };
+  const auto number = [&](std::size_t frame) { return frame_number(frame, first_number); };
   for (const NamedGap& gap : gaps) {
     if (gap.first_frame > gap.last_frame || gap.last_frame >= frames) {
       throw Error(
@@ -176,9 +167,8 @@ std::vector<NamedGap> parse_gaps(std::string_view text, std::string_view name,
 std::string gaps_text(std::span<const NamedGap> gaps, std::int64_t first_frame) {
   std::string text = fmt::format("{}\n", heading);
   for (const NamedGap& gap : gaps) {
-    text += fmt::format("{},{},{}\n", cell_of(gap.name),
-                        static_cast<std::int64_t>(gap.first_frame) + first_frame,
-                        static_cast<std::int64_t>(gap.last_frame) + first_frame);
+    text += fmt::format("{},{},{}\n", cell_of(gap.name), frame_number(gap.first_frame, first_frame),
+                        frame_number(gap.last_frame, first_frame));
   }
   return text;
 }

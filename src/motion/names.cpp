@@ -141,12 +141,9 @@ Subject largest_subject(const Take& clip) {
 
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
 // Returns the name in lower case, without the number at its end.
 std::string stem_of(std::string_view name) {
-  while (!name.empty() && is_digit(name.back())) name.remove_suffix(1);
-  return lower_case(name);
+  return lower_case(name.substr(0, name.find_last_not_of("0123456789") + 1));
 }
 
 }  // namespace

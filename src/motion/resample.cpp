@@ -67,8 +67,8 @@ Neighbours neighbours_of(std::size_t before, std::size_t frames, IsObserved is_o
 }
 
 template <class At>
-Vec3 interpolate_position(const Neighbours& n, double u, At at) {
-  const Vec3 p0 = at(n.before), p1 = at(n.after);
+Vec3 interpolate(const Neighbours& n, double u, Vec3 p0, At at) {
+  const Vec3 p1 = at(n.after);
   const Vec3 earlier = n.has_outer_before ? at(n.outer_before) : p0 - (p1 - p0);
   const Vec3 later = n.has_outer_after ? at(n.outer_after) : p1 + (p1 - p0);
   const auto w = cubic_weights(u);
@@ -76,8 +76,7 @@ Vec3 interpolate_position(const Neighbours& n, double u, At at) {
 }
 
 template <class At>
-Quat interpolate_rotation(const Neighbours& n, double u, At at) {
-  const Quat base = at(n.before);
+Quat interpolate(const Neighbours& n, double u, Quat base, At at) {
   const auto vector_to = [&](std::size_t frame) { return log(conjugate(base) * at(frame)); };
   const Vec3 next = vector_to(n.after);
   const Vec3 earlier = n.has_outer_before ? vector_to(n.outer_before) : -next;
@@ -86,7 +85,13 @@ Quat interpolate_rotation(const Neighbours& n, double u, At at) {
   return normalized(base * exp(w[0] * earlier + w[2] * next + w[3] * later));
 }
 
-bool always(std::size_t) { return true; }
+// Returns the sample at a place. `at` and `is_observed` take an old frame.
+template <class At, class IsObserved>
+auto sample_at(Place place, std::size_t frames, At at, IsObserved is_observed) {
+  const auto here = at(place.before);
+  if (place.share == 0) return here;
+  return interpolate(neighbours_of(place.before, frames, is_observed), place.share, here, at);
+}
 
 // Compares two rates to six digits.
 bool is_own_rate(double own, double rate) { return std::fabs(rate - own) <= 5e-6 * own; }
@@ -111,12 +116,8 @@ void resample_rotations(const Take& clip, const std::vector<Place>& at, Take& re
     const auto [before, share] = at[i];
     for (std::size_t j = 0; j < joints; ++j) {
       const auto seen = [&](std::size_t f) { return clip.is_observed(f, j); };
-      Quat& rotation = result.rotations[i * joints + j];
-      rotation = clip.rotation(before, j);
-      if (share > 0) {
-        rotation = interpolate_rotation(neighbours_of(before, frames, seen), share,
-                                        [&](std::size_t f) { return clip.rotation(f, j); });
-      }
+      const auto rotation = [&](std::size_t f) { return clip.rotation(f, j); };
+      result.rotations[i * joints + j] = sample_at(at[i], frames, rotation, seen);
       if (!clip.observed.empty()) {
         result.observed[i * joints + j] = seen(before) && (share == 0 || seen(before + 1));
       }
@@ -128,12 +129,9 @@ std::vector<Vec3> resample_positions(const std::vector<Vec3>& values, std::size_
                                      std::size_t frames, const std::vector<Place>& at) {
   std::vector<Vec3> result(at.size() * width);
   for (std::size_t i = 0; i < at.size(); ++i) {
-    const auto [before, share] = at[i];
     for (std::size_t k = 0; k < width; ++k) {
-      result[i * width + k] =
-          share == 0 ? values[before * width + k]
-                     : interpolate_position(neighbours_of(before, frames, always), share,
-                                            [&](std::size_t f) { return values[f * width + k]; });
+      const auto value = [&](std::size_t f) { return values[f * width + k]; };
+      result[i * width + k] = sample_at(at[i], frames, value, [](std::size_t) { return true; });
     }
   }
   return result;
@@ -171,12 +169,8 @@ Take resample_markers(const Take& clip, double frame_rate_hz) {
       if (!seen(before) || (share > 0 && !seen(before + 1))) continue;
       const std::size_t sample = i * markers + m;
       result.observed[sample] = 1;
-      result.positions[sample] = clip.position(before, m);
-      if (share > 0) {
-        result.positions[sample] =
-            interpolate_position(neighbours_of(before, frames, seen), share,
-                                 [&](std::size_t f) { return clip.position(f, m); });
-      }
+      const auto position = [&](std::size_t f) { return clip.position(f, m); };
+      result.positions[sample] = sample_at(at[i], frames, position, seen);
       if (!clip.residuals.empty()) result.residuals[sample] = clip.residuals[before * markers + m];
     }
   }

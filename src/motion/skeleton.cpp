@@ -20,6 +20,11 @@ namespace kinemend {
 
 namespace {
 
+Error joint_error(const Skeleton& skeleton, std::size_t joint, std::string_view what) {
+  return Error(ErrorKind::usage,
+               fmt::format("joint {} \"{}\": {}", joint, skeleton.names[joint], what));
+}
+
 void check_channels(const Skeleton& skeleton, std::size_t joint) {
   const auto& channels = skeleton.channels[joint];
   std::vector<Axis> turns;
@@ -27,21 +32,16 @@ void check_channels(const Skeleton& skeleton, std::size_t joint) {
   for (const Channel channel : channels) {
     const auto axis = static_cast<std::size_t>(axis_of(channel));
     if (is_rotation(channel)) {
-      if (!turns.empty() && turns.back() == axis_of(channel)) {
-        throw Error(ErrorKind::usage,
-                    fmt::format("joint {} \"{}\": a rotation channel follows itself", joint,
-                                skeleton.names[joint]));
-      }
+      if (!turns.empty() && turns.back() == axis_of(channel))
+        throw joint_error(skeleton, joint, "a rotation channel follows itself");
       turns.push_back(axis_of(channel));
     } else if (std::exchange(seen_position[axis], true)) {
-      throw Error(ErrorKind::usage, fmt::format("joint {} \"{}\": a position channel occurs twice",
-                                                joint, skeleton.names[joint]));
+      throw joint_error(skeleton, joint, "a position channel occurs twice");
     }
   }
   if (turns.size() > 3) {
-    throw Error(ErrorKind::usage,
-                fmt::format("joint {} \"{}\": {} rotation channels, at most 3 are possible", joint,
-                            skeleton.names[joint], turns.size()));
+    throw joint_error(skeleton, joint,
+                      fmt::format("{} rotation channels, at most 3 are possible", turns.size()));
   }
 }
 
@@ -84,19 +84,11 @@ void Skeleton::validate() const {
   }
   if (parents[0] != -1) throw Error(ErrorKind::usage, "joint 0 is not a root");
   for (std::size_t j = 0; j < count; ++j) {
-    if (parents[j] < -1 || parents[j] >= static_cast<std::int32_t>(j)) {
-      throw Error(ErrorKind::usage, fmt::format("joint {} \"{}\": parent {} does not precede it", j,
-                                                names[j], parents[j]));
-    }
-    if (!is_finite(offsets[j])) {
-      throw Error(ErrorKind::usage,
-                  fmt::format("joint {} \"{}\": offset is not finite", j, names[j]));
-    }
-    if (!(std::fabs(norm(rest_rotations[j]) - 1) <= 1e-9)) {
-      throw Error(
-          ErrorKind::usage,
-          fmt::format("joint {} \"{}\": rest rotation is not a unit quaternion", j, names[j]));
-    }
+    if (parents[j] < -1 || parents[j] >= static_cast<std::int32_t>(j))
+      throw joint_error(*this, j, fmt::format("parent {} does not precede it", parents[j]));
+    if (!is_finite(offsets[j])) throw joint_error(*this, j, "offset is not finite");
+    if (!(std::fabs(norm(rest_rotations[j]) - 1) <= 1e-9))
+      throw joint_error(*this, j, "rest rotation is not a unit quaternion");
     check_channels(*this, j);
   }
   for (const EndSite& site : end_sites) {

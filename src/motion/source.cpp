@@ -7,7 +7,7 @@
 #include <array>
 #include <cctype>
 #include <optional>
-#include <utility>
+#include <span>
 
 #include "base/options.hpp"
 #include "kinemend/extend/text.hpp"
@@ -18,57 +18,37 @@ namespace {
 
 struct NamedSource {
   Source source;
-  std::string name;
+  std::string_view name;
 };
-
-const std::array<NamedSource, 6>& named_sources() {
-  static const std::array<NamedSource, 6> list = {{{Source::optical, "optical"},
-                                                   {Source::suit, "suit"},
-                                                   {Source::video, "video"},
-                                                   {Source::depth, "depth"},
-                                                   {Source::keyframed, "keyframed"},
-                                                   {Source::unknown, "unknown"}}};
-  return list;
-}
+constexpr std::array<NamedSource, 6> named_sources{{{Source::optical, "optical"},
+                                                    {Source::suit, "suit"},
+                                                    {Source::video, "video"},
+                                                    {Source::depth, "depth"},
+                                                    {Source::keyframed, "keyframed"},
+                                                    {Source::unknown, "unknown"}}};
 
 // Makers and programs that record with one kind of system only, in lower case. Editors (Blender,
 // Maya, MotionBuilder) and programs for several kinds of system are left out: their names are not
 // certain evidence.
-constexpr std::array<std::pair<std::string_view, Source>, 33> recorders = {{
-    {"vicon", Source::optical},
-    {"oxford metrics", Source::optical},
-    {"qualisys", Source::optical},
-    {"optitrack", Source::optical},
-    {"naturalpoint", Source::optical},
-    {"motion analysis", Source::optical},
-    {"phasespace", Source::optical},
-    {"codamotion", Source::optical},
-    {"charnwood dynamics", Source::optical},
-    {"northern digital", Source::optical},
-    {"optotrak", Source::optical},
-    {"xsens", Source::suit},
-    {"mvn", Source::suit},
-    {"movella", Source::suit},
-    {"noitom", Source::suit},
-    {"perception neuron", Source::suit},
-    {"axis neuron", Source::suit},
-    {"axis studio", Source::suit},
-    {"rokoko", Source::suit},
-    {"smartsuit", Source::suit},
-    {"motion workshop", Source::suit},
-    {"nansense", Source::suit},
-    {"synertial", Source::suit},
-    {"theia", Source::video},
-    {"theia3d", Source::video},
-    {"opencap", Source::video},
-    {"openpose", Source::video},
-    {"mediapipe", Source::video},
-    {"captury", Source::video},
-    {"kinatrax", Source::video},
-    {"deepmotion", Source::video},
-    {"kinect", Source::depth},
-    {"nuitrack", Source::depth},
-}};
+constexpr std::string_view optical_recorders[] = {
+    "vicon",           "oxford metrics", "qualisys",   "optitrack",          "naturalpoint",
+    "motion analysis", "phasespace",     "codamotion", "charnwood dynamics", "northern digital",
+    "optotrak"};
+constexpr std::string_view suit_recorders[] = {
+    "xsens",       "mvn",    "movella",   "noitom",          "perception neuron", "axis neuron",
+    "axis studio", "rokoko", "smartsuit", "motion workshop", "nansense",          "synertial"};
+constexpr std::string_view video_recorders[] = {"theia",     "theia3d", "opencap",  "openpose",
+                                                "mediapipe", "captury", "kinatrax", "deepmotion"};
+constexpr std::string_view depth_recorders[] = {"kinect", "nuitrack"};
+
+struct Recorders {
+  Source source;
+  std::span<const std::string_view> words;
+};
+constexpr Recorders recorders[] = {{Source::optical, optical_recorders},
+                                   {Source::suit, suit_recorders},
+                                   {Source::video, video_recorders},
+                                   {Source::depth, depth_recorders}};
 
 // Whether a text contains these words, not as parts of longer words.
 bool has_words(std::string_view text, std::string_view words) {
@@ -86,9 +66,10 @@ bool has_words(std::string_view text, std::string_view words) {
 std::optional<Source> source_named_in(std::string_view text) {
   const std::string lower = lower_case(text);
   std::optional<Source> found;
-  for (const auto& [words, source] : recorders) {
-    if (!has_words(lower, words)) continue;
-    if (found && *found != source) return std::nullopt;
+  for (const auto& [source, list] : recorders) {
+    const auto is_named = [&](std::string_view words) { return has_words(lower, words); };
+    if (std::none_of(list.begin(), list.end(), is_named)) continue;
+    if (found) return std::nullopt;
     found = source;
   }
   return found;
@@ -97,17 +78,16 @@ std::optional<Source> source_named_in(std::string_view text) {
 }  // namespace
 
 std::string_view to_string(Source source) {
-  const auto& list = named_sources();
-  return std::find_if(list.begin(), list.end(),
+  return std::find_if(named_sources.begin(), named_sources.end(),
                       [&](const NamedSource& entry) { return entry.source == source; })
       ->name;
 }
 
 Source parse_source(std::string_view name) {
-  return find_named(named_sources(), name, "unknown source").source;
+  return find_named(named_sources, name, "unknown source").source;
 }
 
-std::vector<std::string> source_names() { return names_of(named_sources()); }
+std::vector<std::string> source_names() { return names_of(named_sources); }
 
 bool expects_slow_noise(Source source) noexcept {
   return source == Source::video || source == Source::depth || source == Source::suit;

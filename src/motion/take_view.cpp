@@ -13,17 +13,10 @@ const T* column(const std::vector<T>& values, std::size_t offset) {
   return values.empty() ? nullptr : values.data() + offset;
 }
 
-bool has_gap(const Track& track) {
-  if (track.observed == nullptr) return false;
+// Whether a sample of the track was observed, or was not.
+bool has_sample(const Track& track, bool observed) {
   for (std::size_t f = 0; f < track.frames; ++f) {
-    if (!track.is_observed(f)) return true;
-  }
-  return false;
-}
-
-bool is_seen(const Track& track) {
-  for (std::size_t f = 0; f < track.frames; ++f) {
-    if (track.is_observed(f)) return true;
+    if (track.is_observed(f) == observed) return true;
   }
   return false;
 }
@@ -40,13 +33,14 @@ Track rotation_track(const Take& clip, std::size_t joint) {
   return track;
 }
 
-// `number` is a point as in `Take::is_position_observed`.
-Track track_of_positions(const Take& clip, std::size_t number) {
+// `number` is a point as in `Take::position`. `owner`: see `Track`; `observed`: F x P, or empty.
+Track track_of_positions(const Take& clip, std::size_t number, std::int32_t owner,
+                         const std::vector<std::uint8_t>& observed) {
   Track track;
   track.frames = clip.frame_count();
-  track.owner = number == 0 ? -1 : clip.translated_joints[number - 1];
+  track.owner = owner;
   track.positions = column(clip.positions, number);
-  track.observed = column(clip.observed_positions, number);
+  track.observed = column(observed, number);
   track.stride = track.observed_stride = clip.point_count();
   return track;
 }
@@ -67,7 +61,8 @@ void add_joints(const Take& clip, const Selection& selection, TakeView& take) {
   }
   const double bone = typical_bone_length(clip.skeleton);
   for (std::size_t p = 0; p <= clip.translated_joints.size(); ++p) {
-    Track track = track_of_positions(clip, p);
+    Track track = track_of_positions(clip, p, p == 0 ? -1 : clip.translated_joints[p - 1],
+                                     clip.observed_positions);
     track.radian = bone;
     track.selected = p == 0 ? selection.root_position
                             : selection.translations &&
@@ -82,12 +77,7 @@ void add_markers(const Take& clip, const Selection& selection, TakeView& take) {
   take.gaps = GapTreatment::cut;
   take.body_height = selection.body_height > 0 ? selection.body_height : body_height(clip);
   for (std::size_t m = 0; m < take.owners; ++m) {
-    Track track;
-    track.frames = take.frames;
-    track.owner = static_cast<std::int32_t>(m);
-    track.positions = column(clip.positions, m);
-    track.observed = column(clip.observed, m);
-    track.stride = track.observed_stride = take.owners;
+    Track track = track_of_positions(clip, m, static_cast<std::int32_t>(m), clip.observed);
     track.radian = take.body_height / 4;
     track.selected = selection.includes(m) && clip.holds_positions(m);
     take.tracks.push_back(track);
@@ -126,7 +116,7 @@ std::vector<std::size_t> changeable_tracks(const TakeView& take) {
   std::vector<std::size_t> tracks;
   for (std::size_t n = 0; n < take.tracks.size(); ++n) {
     const Track& track = take.tracks[n];
-    if (track.selected && moves(track) && is_seen(track)) tracks.push_back(n);
+    if (track.selected && moves(track) && has_sample(track, true)) tracks.push_back(n);
   }
   return tracks;
 }
@@ -145,7 +135,7 @@ std::vector<Vec3> positions_of(const Track& track) {
 
 std::vector<std::uint8_t> observed_of(const Track& track) {
   std::vector<std::uint8_t> observed;
-  if (!has_gap(track)) return observed;
+  if (!has_sample(track, false)) return observed;
   observed.resize(track.frames);
   for (std::size_t f = 0; f < track.frames; ++f) observed[f] = track.is_observed(f) ? 1 : 0;
   return observed;
@@ -162,14 +152,12 @@ void set_track(Take& take, std::size_t track, std::span<const Vec3> samples, std
 
 double typical_bone_length(const Skeleton& skeleton) {
   double sum = 0, count = 0;
-  for (const Vec3& offset : skeleton.offsets) {
+  const auto add = [&](Vec3 offset) {
     const double length = norm(offset);
     if (length > 0) sum += length, count += 1;
-  }
-  for (const EndSite& site : skeleton.end_sites) {
-    const double length = norm(site.offset);
-    if (length > 0) sum += length, count += 1;
-  }
+  };
+  for (const Vec3& offset : skeleton.offsets) add(offset);
+  for (const EndSite& site : skeleton.end_sites) add(site.offset);
   return count > 0 ? sum / count : 1.0;
 }
 

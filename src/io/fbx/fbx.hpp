@@ -21,6 +21,9 @@ TakeResult read_fbx(std::string bytes, std::string_view name, const ReadOptions&
 /// the file cannot hold the change: the joint's curves also move other joints, or several layers
 /// move it.
 std::string write_fbx(const Take& take);
+/// Writes a take as a new binary file of version 7.5: limbs or nulls, one animation of one layer, a
+/// key per frame. Errors: `usage` for an invalid take.
+std::string new_fbx_file(const Take& take);
 /// Lists the data besides the motion that is lost if the take needs a new file; empty if its source
 /// is rewritten or is of another format.
 std::vector<std::string> lost_beside_fbx(const Take& take);

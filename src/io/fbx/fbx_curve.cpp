@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/portable.hpp"
 #include "base/text.hpp"
@@ -276,19 +277,8 @@ class KeyLetters {
   std::uint32_t next() const { return next_; }
   bool at_end() const { return next_ >= record_.property_count; }
 
-  std::int64_t integer() {
-    const FbxProperty& property = take();
-    const auto value = fbx_integer(tree_, property);
-    if (!value) throw tree_.error_at(property.begin, "expected the time of a key");
-    return *value;
-  }
-
-  double number() {
-    const FbxProperty& property = take();
-    const auto value = fbx_number(tree_, property);
-    if (!value) throw tree_.error_at(property.begin, "expected a number of a key");
-    return *value;
-  }
+  std::int64_t integer() { return value(fbx_integer, "expected the time of a key"); }
+  double number() { return value(fbx_number, "expected a number of a key"); }
 
   char letter() {
     const FbxProperty& property = take();
@@ -325,6 +315,15 @@ class KeyLetters {
   }
 
  private:
+  template <class Number>
+  Number value(std::optional<Number> (*read)(const FbxTree&, const FbxProperty&),
+               std::string_view otherwise) {
+    const FbxProperty& property = take();
+    const std::optional<Number> found = read(tree_, property);
+    if (!found) throw tree_.error_at(property.begin, otherwise);
+    return *found;
+  }
+
   const FbxProperty& take() {
     if (at_end()) throw tree_.error_at(record_.properties_end, "the list of keys ends in a key");
     return tree_.properties[record_.first_property + next_++];
@@ -347,12 +346,6 @@ std::vector<std::uint32_t> fbx_value_places(const FbxTree& tree, const FbxRecord
     letters.shape();
   }
   return places;
-}
-
-FbxCurve FbxKeyReader::read(std::uint32_t record) {
-  FbxCurve curve = begin(record);
-  finish(curve);
-  return curve;
 }
 
 FbxCurve FbxKeyReader::begin(std::uint32_t record) {

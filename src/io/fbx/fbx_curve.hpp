@@ -78,12 +78,11 @@ class FbxKeyReader {
  public:
   explicit FbxKeyReader(const FbxTree& tree) : tree_(tree) {}
 
-  /// Reads the curve of an `AnimationCurve` (version 7), or of a `Channel` with keys (version 6). A
-  /// curve without keys has no values. Errors: `unreadable_input` for key times that do not ascend,
-  /// counts that disagree, an unknown letter, or more keys than the file's bytes can hold.
-  FbxCurve read(std::uint32_t record);
-  /// Reads a curve in two steps. `begin` reads the key times, which show whether the curve has
-  /// keys. `finish`, which may run for several curves in parallel, fills in values and shapes.
+  /// Reads the curve of an `AnimationCurve` (version 7), or of a `Channel` with keys (version 6),
+  /// in two steps. `begin` reads the key times, which show whether the curve has keys, and all of a
+  /// `Channel`. `finish`, which may run for several curves in parallel, fills in values and shapes.
+  /// A curve without keys has no values. Errors: `unreadable_input` for key times that do not
+  /// ascend, counts that disagree, an unknown letter, or more keys than the file's bytes can hold.
   FbxCurve begin(std::uint32_t record);
   void finish(FbxCurve& curve) const;
 

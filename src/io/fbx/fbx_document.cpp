@@ -16,6 +16,7 @@
 #include "io/motion/motion_columns.hpp"
 #include "kinemend/extend/frames.hpp"
 #include "motion/rotation.hpp"
+#include "motion/take.hpp"
 
 namespace kinemend {
 
@@ -27,16 +28,11 @@ constexpr double same_scale = 1e-6;
 // Chosen by hand, not swept.
 constexpr double rigid = 1e-5;
 
-Channel fbx_rotation_channel(Axis axis) {
-  return static_cast<Channel>(static_cast<int>(Channel::x_rotation) + static_cast<int>(axis));
-}
-
 std::vector<Channel> channels_of(const FbxRigNode& node, bool is_translated) {
-  std::vector<Channel> channels;
-  if (is_translated) channels = {Channel::x_position, Channel::y_position, Channel::z_position};
+  RotationOrder turns;
   for (std::size_t i = node.first_turn; i < node.end_turn; ++i)
-    channels.push_back(fbx_rotation_channel(node.order.axes[i]));
-  return channels;
+    turns.axes[turns.count++] = node.order.axes[i];
+  return make_channels(is_translated, turns);
 }
 
 bool is_uniform(Vec3 s) {
@@ -112,14 +108,13 @@ class FbxTakeBuilder {
     Vec3 spread, size = document_.scene.models[each.model].local[fbx_translation];
     std::size_t layers = 0;
     for (const FbxLayer& layer : document_.motion.layers) {
-      const auto found = layer.vectors.find(3 * each.model + fbx_translation);
-      if (found == layer.vectors.end()) continue;
+      const FbxAnimatedVector* const found = layer.find(each.model, fbx_translation);
+      if (found == nullptr) continue;
       ++layers;
-      size = found->second.constant;
+      size = found->constant;
       for (std::size_t a = 0; a < 3; ++a) {
-        if (found->second.curves[a] < 0) continue;
-        const FbxCurve& curve =
-            document_.motion.curves[static_cast<std::size_t>(found->second.curves[a])];
+        if (found->curves[a] < 0) continue;
+        const FbxCurve& curve = document_.motion.curves[static_cast<std::size_t>(found->curves[a])];
         const auto [least, most] = std::minmax_element(curve.values.begin(), curve.values.end());
         component_of(size, a) = curve.values.front();
         component_of(spread, a) = *most - *least;
@@ -132,8 +127,8 @@ class FbxTakeBuilder {
     for (const FbxRigNode& each : rig_.nodes) {
       if (!is_uniform(document_.scene.models[each.model].local[fbx_scaling])) return true;
       for (const FbxLayer& layer : document_.motion.layers) {
-        const auto found = layer.vectors.find(3 * each.model + fbx_scaling);
-        if (found != layer.vectors.end() && changes_scale(found->second)) return true;
+        const FbxAnimatedVector* const scale = layer.find(each.model, fbx_scaling);
+        if (scale != nullptr && changes_scale(*scale)) return true;
       }
     }
     return false;
@@ -167,7 +162,7 @@ class FbxTakeBuilder {
   static Quat rest_of_turns(const FbxRigNode& each, Vec3 rotation) {
     Vec3 before;
     for (std::size_t i = 0; i < each.first_turn; ++i) {
-      const auto axis = static_cast<std::size_t>(each.order.axes[i]);
+      const Axis axis = each.order.axes[i];
       component_of(before, axis) = component(rotation, axis);
     }
     return each.pre * fbx_turn(before, each.order);
@@ -237,7 +232,7 @@ class FbxTakeBuilder {
     const std::size_t frames = range.local.size();
     for (auto* angles : {&range.degrees, &range.sines, &range.cosines}) angles->resize(3 * frames);
     for (std::size_t i = each.first_turn; i < each.end_turn; ++i) {
-      const auto axis = static_cast<std::size_t>(each.order.axes[i]);
+      const Axis axis = each.order.axes[i];
       for (std::size_t f = 0; f < frames; ++f)
         range.degrees[i * frames + f] = component(range.local[f], axis);
     }
@@ -273,10 +268,10 @@ class FbxTakeBuilder {
 
   void mark(std::size_t curve, std::size_t frame, std::size_t joint) {
     for (const FbxLayer& layer : document_.motion.layers) {
-      const auto found = layer.vectors.find(3 * node(joint).model + fbx_rotation);
-      if (found == layer.vectors.end()) continue;
-      const auto& curves = found->second.curves;
-      if (std::count(curves.begin(), curves.end(), static_cast<std::int32_t>(curve)) == 0) continue;
+      const FbxAnimatedVector* const found = layer.find(node(joint).model, fbx_rotation);
+      if (found == nullptr || std::count(found->curves.begin(), found->curves.end(),
+                                         static_cast<std::int32_t>(curve)) == 0)
+        continue;
       take_.observed.resize(take_.rotations.size(), 1);
       take_.observed[frame * rig_.joints.size() + joint] = 0;
     }
@@ -309,16 +304,10 @@ Take fbx_markers(const FbxDocument& document, Take joints) {
               : document.scene.unit_cm == 100 ? "m"
               : document.scene.unit_cm == 1   ? "cm"
                                               : "";
-  std::vector<std::int32_t> point_of(count, -1);
-  point_of[0] = 0;
-  for (std::size_t k = 0; k < joints.translated_joints.size(); ++k)
-    point_of[static_cast<std::size_t>(joints.translated_joints[k])] =
-        static_cast<std::int32_t>(k) + 1;
   for (std::size_t f = 0; f < frames; ++f) {
     for (std::size_t m = 0; m < count; ++m) {
-      take.positions.push_back(point_of[m] < 0
-                                   ? joints.skeleton.offsets[m]
-                                   : joints.position(f, static_cast<std::size_t>(point_of[m])));
+      const auto point = point_of_joint(joints, m);
+      take.positions.push_back(point ? joints.position(f, *point) : joints.skeleton.offsets[m]);
     }
   }
   take.observed.assign(frames * count, 1);
@@ -332,9 +321,9 @@ std::vector<std::size_t> fbx_joint_curves(const FbxMotion& motion, const FbxRig&
   for (const FbxRigNode& node : rig.nodes) {
     for (std::size_t v = 0; v < 3; ++v) {
       for (const FbxLayer& layer : motion.layers) {
-        const auto found = layer.vectors.find(3 * node.model + v);
-        if (found == layer.vectors.end()) continue;
-        for (const std::int32_t curve : found->second.curves) {
+        const FbxAnimatedVector* const found = layer.find(node.model, v);
+        if (found == nullptr) continue;
+        for (const std::int32_t curve : found->curves) {
           if (curve >= 0) curves.push_back(static_cast<std::size_t>(curve));
         }
       }
@@ -358,7 +347,7 @@ bool holds_fbx_markers(const FbxScene& scene, const FbxMotion& motion, const Fbx
         !node.has_translation_curves || node.first_turn != node.end_turn)
       return false;
     for (const FbxLayer& layer : motion.layers) {
-      if (layer.vectors.contains(3 * node.model + fbx_scaling)) return false;
+      if (layer.find(node.model, fbx_scaling) != nullptr) return false;
     }
   }
   return true;
@@ -391,15 +380,14 @@ std::vector<double> FbxDocument::channel_values() const {
         values.insert(values.end(), {p.x, p.y, p.z});
       }
       for (std::size_t i = node.first_turn; i < node.end_turn; ++i)
-        values.push_back(component(poses[rig.joints[j]].local[fbx_rotation],
-                                   static_cast<std::size_t>(node.order.axes[i])));
+        values.push_back(component(poses[rig.joints[j]].local[fbx_rotation], node.order.axes[i]));
     }
   }
   return values;
 }
 
 void check_fbx_take(const FbxDocument& document, const Take& take) {
-  const auto is_finite = [](Vec3 v) { return std::isfinite(norm(v)) && norm(v) < 1e100; };
+  const auto is_near = [](Vec3 v) { return norm(v) < 1e100; };
   const auto refuse = [&](std::size_t joint) {
     const FbxModel& model =
         document.scene.models[document.rig.nodes[document.rig.joints[joint]].model];
@@ -408,10 +396,10 @@ void check_fbx_take(const FbxDocument& document, const Take& take) {
         fmt::format("{} is nowhere: its scales or distances overflow", quote(model.name)));
   };
   for (std::size_t j = 0; j < take.joint_count(); ++j) {
-    if (!is_finite(take.skeleton.offsets[j])) throw refuse(j);
+    if (!is_near(take.skeleton.offsets[j])) throw refuse(j);
   }
   for (std::size_t i = 0; i < take.positions.size(); ++i) {
-    if (is_finite(take.positions[i])) continue;
+    if (is_near(take.positions[i])) continue;
     const std::size_t point = i % take.point_count();
     const bool is_translated = take.has_joints() && point > 0;
     throw refuse(is_translated ? static_cast<std::size_t>(take.translated_joints[point - 1])

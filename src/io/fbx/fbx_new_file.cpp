@@ -1,14 +1,22 @@
-// Lays out the records of a new FBX file: settings, definitions, models, curves and connections.
-#include "io/fbx/fbx_new_file.hpp"
-
+// Writes a take as a new binary FBX file of version 7.5: builds records, and lays out settings,
+// definitions, models, curves and connections.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "base/portable.hpp"
-#include "io/fbx/fbx_builder.hpp"
+#include "io/fbx/fbx.hpp"
 #include "io/fbx/fbx_rig.hpp"
+#include "io/fbx/fbx_tree.hpp"
+#include "io/fbx/fbx_values.hpp"
 #include "io/held_samples.hpp"
 #include "kinemend/extend/motion.hpp"
 #include "kinemend/take.hpp"
@@ -18,20 +26,149 @@ namespace kinemend {
 
 namespace {
 
+constexpr std::size_t built_header_bytes = 25;
+constexpr std::uint32_t built_version = 7500;
+// Shorter arrays are not packed, as in the files of Autodesk's programs.
+constexpr std::size_t least_packed_bytes = 128;
 constexpr double new_file_ticks = 46186158000.0;
 constexpr std::string_view animation_name = "Take 001";
-// These three values must match the footer. They do not contain the time of writing, so that the
-// same take gives the same bytes.
+// The first three values must match each other. They do not contain the time of writing, so that
+// the same take gives the same bytes.
 constexpr std::string_view creation_time = "1970-01-01 10:00:00:000";
 constexpr std::string_view file_id{
     "\x28\xB3\x2A\xEB\xB6\x24\xCC\xC2\xBF\xC8\xB0\x2A\xA9\x2B\xFC\xF1", 16};
+constexpr std::string_view footer_id{
+    "\xFA\xBC\xAB\x09\xD0\xC8\xD4\x66\xB1\x76\xFB\x83\x1C\xF7\x26\x7E", 16};
+constexpr std::string_view last_bytes{
+    "\xF8\x5A\x8C\x6A\xDE\xF5\xD9\x7E\xEC\xE9\x0C\xE3\x75\x8F\x29\x0B", 16};
+
+// A binary FBX file under construction. Records nest: `open` begins one with its properties, which
+// come before its children, and `close` ends it.
+class FbxBuilder {
+ public:
+  FbxBuilder() : bytes_("Kaydara FBX Binary  \0\x1A\0", 23) {
+    append_word(bytes_, built_version, false);
+  }
+
+  FbxBuilder& open(std::string_view name) {
+    end_properties();
+    if (!open_.empty()) open_.back().has_children = true;
+    Level level;
+    level.begin = bytes_.size();
+    bytes_.append(built_header_bytes - 1, '\0');
+    bytes_ += static_cast<char>(name.size());
+    bytes_ += name;
+    level.properties_begin = bytes_.size();
+    open_.push_back(level);
+    return *this;
+  }
+
+  void close() {
+    end_properties();
+    const Level level = open_.back();
+    // A record without properties ends like a record with children.
+    if (level.has_children || level.properties == 0) bytes_.append(built_header_bytes, '\0');
+    put_word(bytes_.data() + level.begin, std::uint64_t{bytes_.size()}, false);
+    open_.pop_back();
+  }
+
+  FbxBuilder& integer(std::int32_t value) { return put('I', static_cast<std::uint32_t>(value)); }
+  FbxBuilder& id(std::int64_t value) { return put('L', static_cast<std::uint64_t>(value)); }
+  FbxBuilder& number(double value) { return put('D', bits_as<std::uint64_t>(value)); }
+  FbxBuilder& string(std::string_view value, char type = 'S') {
+    put(type, static_cast<std::uint32_t>(value.size()));
+    bytes_ += value;
+    return *this;
+  }
+
+  // Adds a record with one value.
+  void add(std::string_view name, std::int32_t value) { open(name).integer(value).close(); }
+  void add(std::string_view name, std::string_view value) { open(name).string(value).close(); }
+
+  // Adds a record with an array. `type`: the code of its numbers (l, i or f).
+  template <class Number, std::size_t N>
+  void add_array(std::string_view name, char type, std::span<const Number, N> values) {
+    using Word = std::conditional_t<sizeof(Number) == 8, std::uint64_t, std::uint32_t>;
+    std::string content;
+    content.reserve(values.size_bytes());
+    for (const Number value : values) append_word(content, bits_as<Word>(value), false);
+    open(name).put(type, static_cast<std::uint32_t>(values.size()));
+    const bool is_packed = content.size() >= least_packed_bytes;
+    if (is_packed) content = fbx_zlib(content);
+    append_word(bytes_, std::uint32_t{is_packed ? 1u : 0u}, false);
+    append_word(bytes_, static_cast<std::uint32_t>(content.size()), false);
+    bytes_ += content;
+    close();
+  }
+
+  // Begins a line of Properties70: name, type, label and flags, before its values.
+  FbxBuilder& property(std::string_view name, std::string_view type, std::string_view label,
+                       std::string_view flags) {
+    return open("P").string(name).string(type).string(label).string(flags);
+  }
+  void set_integer(std::string_view name, std::string_view type, std::int32_t value) {
+    property(name, type, type == "int" ? "Integer" : "", "").integer(value).close();
+  }
+  void set_number(std::string_view name, double value) {
+    property(name, "double", "Number", "").number(value).close();
+  }
+  void set_animated(std::string_view name, double value) {
+    property(name, "Number", "", "A").number(value).close();
+  }
+  void set_animated(std::string_view name, Vec3 value) {
+    property(name, name, "", "A").number(value.x).number(value.y).number(value.z).close();
+  }
+  void set_time(std::string_view name, std::int64_t ticks) {
+    property(name, "KTime", "Time", "").id(ticks).close();
+  }
+
+  // Returns the file's bytes.
+  std::string finish() && {
+    bytes_.append(built_header_bytes, '\0');
+    bytes_ += footer_id;
+    // One to sixteen zeros align the following bytes.
+    bytes_.append(16 - bytes_.size() % 16, '\0');
+    bytes_.append(4, '\0');
+    append_word(bytes_, built_version, false);
+    bytes_.append(120, '\0');
+    bytes_ += last_bytes;
+    return std::move(bytes_);
+  }
+
+ private:
+  struct Level {
+    std::size_t begin = 0;
+    std::size_t properties_begin = 0;
+    std::uint64_t properties = 0;
+    bool has_children = false;
+  };
+
+  void end_properties() {
+    if (open_.empty() || open_.back().has_children) return;
+    const Level& level = open_.back();
+    put_word(bytes_.data() + level.begin + 8, level.properties, false);
+    put_word(bytes_.data() + level.begin + 16,
+             std::uint64_t{bytes_.size() - level.properties_begin}, false);
+  }
+
+  template <class Word>
+  FbxBuilder& put(char type, Word word) {
+    bytes_ += type;
+    ++open_.back().properties;
+    append_word(bytes_, word, false);
+    return *this;
+  }
+
+  std::string bytes_;
+  std::vector<Level> open_;
+};
 
 // A model with its animated vectors: F values each, or empty.
 struct NewFbxModel {
   std::string name;
   std::int32_t parent = -1;
   bool is_limb = true;
-  Vec3 translation, rotation, pre_rotation;
+  Vec3 translation, pre_rotation;
   std::int32_t order = 0;
   std::vector<Vec3> translations, rotations;
 };
@@ -66,19 +203,12 @@ std::optional<std::int32_t> order_with(RotationOrder turns) {
   return std::nullopt;
 }
 
-Vec3 degrees_of(const std::array<double, 3>& angles, RotationOrder order) {
-  Vec3 degrees;
-  for (std::size_t i = 0; i < order.count; ++i)
-    component_of(degrees, static_cast<std::size_t>(order.axes[i])) = degrees_per_radian * angles[i];
-  return degrees;
-}
-
 std::vector<Vec3> angles_of(const Take& take, std::size_t joint, RotationOrder order) {
   std::vector<Vec3> track;
   std::array<double, 3> near{};
   for (std::size_t f = 0; f < take.frame_count(); ++f) {
     near = to_euler_near(take.rotation(f, joint), order, near);
-    track.push_back(degrees_of(near, order));
+    track.push_back(fbx_degrees(near, order));
   }
   return track;
 }
@@ -90,7 +220,7 @@ NewFbxModel model_of_joint(const Take& take, std::size_t joint) {
   model.parent = skeleton.parents[joint];
   model.translation = skeleton.offsets[joint];
   model.pre_rotation =
-      degrees_of(to_euler(skeleton.rest_rotations[joint], fbx_factors(0)), fbx_factors(0));
+      fbx_degrees(to_euler(skeleton.rest_rotations[joint], fbx_factors(0)), fbx_factors(0));
   const RotationOrder turns = skeleton.rotation_order(joint);
   model.order = turns.count == 0 ? 0 : order_with(turns).value_or(0);
   bool is_fixed = true;
@@ -103,12 +233,6 @@ NewFbxModel model_of_joint(const Take& take, std::size_t joint) {
       model.translations.push_back(take.root_position(f));
   }
   return model;
-}
-
-double unit_cm_of(const Take& take) {
-  if (take.metres_per_unit > 0) return 100 * take.metres_per_unit;
-  const auto unit = guess_length_unit(take.skeleton);
-  return unit ? 100 * unit->metres : 1;
 }
 
 void add_end_sites(const Skeleton& skeleton, NewFbxScene& scene) {
@@ -131,7 +255,8 @@ void add_joints(const Take& take, NewFbxScene& scene) {
       model.translations.push_back(take.position(f, k + 1));
   }
   add_end_sites(take.skeleton, scene);
-  scene.unit_cm = unit_cm_of(take);
+  const double metres = likely_metres_per_unit(take);
+  scene.unit_cm = metres > 0 ? 100 * metres : 1;
 }
 
 void add_markers(const Take& take, NewFbxScene& scene) {
@@ -165,23 +290,11 @@ NewFbxScene scene_of(const Take& take) {
   return scene;
 }
 
-// FBX SDK, FbxTime::EMode, of the standard rates; 14 is a custom rate.
+// Returns the time mode of a whole standard rate; 14, a custom rate, for all others.
 std::int32_t mode_of_rate(double rate_hz) {
-  constexpr std::array<std::pair<double, std::int32_t>, 11> modes{{{120, 1},
-                                                                   {100, 2},
-                                                                   {60, 3},
-                                                                   {50, 4},
-                                                                   {48, 5},
-                                                                   {30, 6},
-                                                                   {25, 10},
-                                                                   {24, 11},
-                                                                   {1000, 12},
-                                                                   {96, 15},
-                                                                   {72, 16}}};
-  for (const auto& [rate, mode] : modes) {
-    if (rate == rate_hz) return mode;
-  }
-  return 14;
+  const auto found = std::find(fbx_mode_rates_hz.begin() + 1, fbx_mode_rates_hz.end(), rate_hz);
+  const bool is_standard = found != fbx_mode_rates_hz.end() && rate_hz == std::floor(rate_hz);
+  return is_standard ? static_cast<std::int32_t>(found - fbx_mode_rates_hz.begin()) : 14;
 }
 
 class NewFbxWriter {
@@ -242,7 +355,7 @@ class NewFbxWriter {
     file_.close();
     file_.add("Creator", "Kinemend");
     file_.close();
-    file_.open("FileId").raw(file_id).close();
+    file_.open("FileId").string(file_id, 'R').close();
     file_.add("CreationTime", creation_time);
     file_.add("Creator", "Kinemend");
   }
@@ -257,12 +370,12 @@ class NewFbxWriter {
     file_.set_integer("FrontAxisSign", "int", scene_.z_up ? -1 : 1);
     file_.set_integer("CoordAxis", "int", 0);
     file_.set_integer("CoordAxisSign", "int", 1);
-    file_.set_number("UnitScaleFactor", "double", "Number", "", scene_.unit_cm);
-    file_.set_number("OriginalUnitScaleFactor", "double", "Number", "", scene_.unit_cm);
+    file_.set_number("UnitScaleFactor", scene_.unit_cm);
+    file_.set_number("OriginalUnitScaleFactor", scene_.unit_cm);
     file_.set_time("TimeSpanStart", 0);
     file_.set_time("TimeSpanStop", stop());
     file_.set_integer("TimeMode", "enum", mode_of_rate(scene_.rate_hz));
-    file_.set_number("CustomFrameRate", "double", "Number", "", scene_.rate_hz);
+    file_.set_number("CustomFrameRate", scene_.rate_hz);
     file_.close();
     file_.close();
   }
@@ -329,11 +442,16 @@ class NewFbxWriter {
     file_.open("Properties70");
     file_.set_integer("RotationActive", "bool", 1);
     file_.set_integer("RotationOrder", "enum", model.order);
-    file_.set_vector("PreRotation", "Vector3D", "Vector", "", model.pre_rotation);
+    const Vec3 pre = model.pre_rotation;
+    file_.property("PreRotation", "Vector3D", "Vector", "")
+        .number(pre.x)
+        .number(pre.y)
+        .number(pre.z);
+    file_.close();
     file_.set_integer("InheritType", "enum", 1);
-    file_.set_vector("Lcl Translation", "Lcl Translation", "", "A", model.translation);
-    file_.set_vector("Lcl Rotation", "Lcl Rotation", "", "A", model.rotation);
-    file_.set_vector("Lcl Scaling", "Lcl Scaling", "", "A", {1, 1, 1});
+    file_.set_animated("Lcl Translation", model.translation);
+    file_.set_animated("Lcl Rotation", Vec3{});
+    file_.set_animated("Lcl Scaling", Vec3{1, 1, 1});
     file_.close();
     file_.add("Culling", "CullingOff");
     file_.close();
@@ -350,7 +468,7 @@ class NewFbxWriter {
     file_.open("AnimationLayer").id(layer).string(object_name("BaseLayer", "AnimLayer"));
     // Readers expect a record within a layer.
     file_.string("").open("Properties70");
-    file_.set_number("Weight", "Number", "", "A", 100);
+    file_.set_animated("Weight", 100);
     file_.close();
     file_.close();
     links_.push_back({layer, stack, {}});
@@ -368,8 +486,7 @@ class NewFbxWriter {
     const std::int64_t node = next_id();
     file_.open("AnimationCurveNode").id(node).string(object_name(letter, "AnimCurveNode"));
     file_.string("").open("Properties70");
-    for (std::size_t a = 0; a < 3; ++a)
-      file_.set_number(axes[a], "Number", "", "A", component(track.front(), a));
+    for (std::size_t a = 0; a < 3; ++a) file_.set_animated(axes[a], component(track.front(), a));
     file_.close();
     file_.close();
     links_.push_back({node, layer, {}});
@@ -388,14 +505,14 @@ class NewFbxWriter {
     file_.open("AnimationCurve").id(id).string(object_name("", "AnimCurve")).string("");
     file_.open("Default").number(component(track.front(), axis)).close();
     file_.add("KeyVer", 4008);
-    file_.open("KeyTime").array(std::span<const std::int64_t>(scene_.times)).close();
-    file_.open("KeyValueFloat").array(std::span<const float>(values)).close();
+    file_.add_array("KeyTime", 'l', std::span(scene_.times));
+    file_.add_array("KeyValueFloat", 'f', std::span(std::as_const(values)));
     const std::array<std::int32_t, 1> flags{linear_flags};
     const std::array<std::int32_t, 1> uses{static_cast<std::int32_t>(values.size())};
     const std::array<float, 4> data{0, 0, third_weights, 0};
-    file_.open("KeyAttrFlags").array(std::span<const std::int32_t>(flags)).close();
-    file_.open("KeyAttrDataFloat").array(std::span<const float>(data)).close();
-    file_.open("KeyAttrRefCount").array(std::span<const std::int32_t>(uses)).close();
+    file_.add_array("KeyAttrFlags", 'i', std::span(flags));
+    file_.add_array("KeyAttrDataFloat", 'f', std::span(data));
+    file_.add_array("KeyAttrRefCount", 'i', std::span(uses));
     file_.close();
     return id;
   }

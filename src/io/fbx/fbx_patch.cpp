@@ -72,7 +72,7 @@ class FbxPatcher {
 
   template <class Word>
   void put(std::string& out, std::size_t place, std::size_t value) const {
-    put_fbx_word(out.data() + place, static_cast<Word>(value), tree_.is_big_endian);
+    put_word(out.data() + place, static_cast<Word>(value), tree_.is_big_endian);
   }
 
   void mend_header(const FbxRecord& record, std::string& out) const {
@@ -114,7 +114,7 @@ class FbxPatcher {
     for (std::size_t i = 0; i <= most_zeros && zeros_begin + i + 4 <= bytes.size(); ++i) {
       const std::size_t place = zeros_begin + i;
       const std::size_t phase = place % footer_alignment;
-      const auto word = fbx_word<std::uint32_t>(bytes.data() + place, tree_.is_big_endian);
+      const auto word = read_word<std::uint32_t>(bytes.data() + place, tree_.is_big_endian);
       if (word == tree_.version && (phase == 0 || phase == zeros_after_padding)) return place;
       if (bytes[place] != 0) return 0;
     }
@@ -149,16 +149,10 @@ bool is_same_float(double a, double b) {
 
 std::string float_text(double value) { return fmt::format("{}", static_cast<float>(value)); }
 
-template <class Word>
-void append_fbx_word(std::string& raw, Word word, bool big) {
-  raw.resize(raw.size() + sizeof(Word));
-  put_fbx_word(raw.data() + raw.size() - sizeof(Word), word, big);
-}
-
 void append_fbx_float(std::string& raw, double value, char type, bool big) {
   const auto rounded = static_cast<float>(value);
-  if (type == 'f') return append_fbx_word(raw, bits_as<std::uint32_t>(rounded), big);
-  append_fbx_word(raw, bits_as<std::uint64_t>(static_cast<double>(rounded)), big);
+  if (type == 'f') return append_word(raw, bits_as<std::uint32_t>(rounded), big);
+  append_word(raw, bits_as<std::uint64_t>(static_cast<double>(rounded)), big);
 }
 
 class FbxCurvePatcher {
@@ -263,7 +257,7 @@ class FbxCurvePatcher {
         continue;
       }
       list += 'L';
-      append_fbx_word(list, static_cast<std::uint64_t>(times[k]), tree_.is_big_endian);
+      append_word(list, static_cast<std::uint64_t>(times[k]), tree_.is_big_endian);
       list += 'D';
       append_fbx_float(list, values[k], 'd', tree_.is_big_endian);
       list += "CL";
@@ -312,9 +306,9 @@ class FbxCurvePatcher {
       if (tree_.is_text) {
         content += fmt::format("{}{}", i == 0 ? "" : ",", value);
       } else if (array->type == 'l' || array->type == 'd') {
-        append_fbx_word(content, static_cast<std::uint64_t>(value), tree_.is_big_endian);
+        append_word(content, static_cast<std::uint64_t>(value), tree_.is_big_endian);
       } else {
-        append_fbx_word(content, static_cast<std::uint32_t>(value), tree_.is_big_endian);
+        append_word(content, static_cast<std::uint32_t>(value), tree_.is_big_endian);
       }
     }
     replace_array(tree_.records[record], *array, count, content);
@@ -371,9 +365,9 @@ FbxPatch fbx_integer_patch(const FbxTree& tree, const FbxProperty& property, std
   if (tree.is_text) {
     patch.bytes = std::to_string(value);
   } else if (property.size == 8) {
-    append_fbx_word(patch.bytes, static_cast<std::uint64_t>(value), tree.is_big_endian);
+    append_word(patch.bytes, static_cast<std::uint64_t>(value), tree.is_big_endian);
   } else if (property.size == 4) {
-    append_fbx_word(patch.bytes, static_cast<std::uint32_t>(value), tree.is_big_endian);
+    append_word(patch.bytes, static_cast<std::uint32_t>(value), tree.is_big_endian);
   } else {
     patch.bytes = std::string(tree.text_of(property));
   }

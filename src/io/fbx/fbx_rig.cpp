@@ -151,15 +151,13 @@ class FbxRigBuilder {
     Vec3 constant = scene_.models[node.model].local[fbx_rotation];
     std::size_t layers = 0;
     for (const FbxLayer& layer : motion_.layers) {
-      const auto moved = layer.vectors.find(3 * node.model + fbx_translation);
-      if (moved != layer.vectors.end() && has_curves(moved->second))
-        node.has_translation_curves = true;
-      const auto turned = layer.vectors.find(3 * node.model + fbx_rotation);
-      if (turned == layer.vectors.end()) continue;
+      const FbxAnimatedVector* const moved = layer.find(node.model, fbx_translation);
+      if (moved != nullptr && has_curves(*moved)) node.has_translation_curves = true;
+      const FbxAnimatedVector* const turned = layer.find(node.model, fbx_rotation);
+      if (turned == nullptr) continue;
       ++layers;
-      constant = turned->second.constant;
-      for (std::size_t a = 0; a < 3; ++a)
-        has_curve[a] = has_curve[a] || turned->second.curves[a] >= 0;
+      constant = turned->constant;
+      for (std::size_t a = 0; a < 3; ++a) has_curve[a] = has_curve[a] || turned->curves[a] >= 0;
     }
     node.first_turn = 0;
     node.end_turn = 3;
@@ -169,7 +167,7 @@ class FbxRigBuilder {
     const bool any = has_curve[0] || has_curve[1] || has_curve[2];
     // The result of several layers is not a rotation about single axes.
     const bool is_first = !motion_.layers.empty() && !motion_.layers.front().is_muted &&
-                          motion_.layers.front().vectors.contains(3 * node.model + fbx_rotation);
+                          motion_.layers.front().find(node.model, fbx_rotation) != nullptr;
     if (any && !(layers == 1 && is_first)) {
       node.tail = conjugate(node.post);
       return;
@@ -179,7 +177,7 @@ class FbxRigBuilder {
     if (!any) node.first_turn = node.end_turn = 3;
     Vec3 behind;
     for (std::size_t i = node.end_turn; i < 3; ++i) {
-      const auto axis = static_cast<std::size_t>(node.order.axes[i]);
+      const Axis axis = node.order.axes[i];
       component_of(behind, axis) = component(constant, axis);
     }
     node.tail = fbx_turn(behind, node.order) * conjugate(node.post);
@@ -221,19 +219,18 @@ RotationOrder fbx_factors(std::int64_t rotation_order) {
 Quat fbx_turn(Vec3 degrees, RotationOrder factors) {
   std::array<double, 3> angles{};
   for (std::size_t i = 0; i < 3; ++i)
-    angles[i] = radians_per_degree * component(degrees, static_cast<std::size_t>(factors.axes[i]));
+    angles[i] = radians_per_degree * component(degrees, factors.axes[i]);
   return from_euler(angles, factors);
 }
 
-namespace {
-
-Vec3 fbx_angles(Quat rotation, RotationOrder order) {
-  const std::array<double, 3> angles = to_euler(rotation, order);
+Vec3 fbx_degrees(const std::array<double, 3>& angles, RotationOrder factors) {
   Vec3 degrees;
-  for (std::size_t i = 0; i < 3; ++i)
-    component_of(degrees, static_cast<std::size_t>(order.axes[i])) = degrees_per_radian * angles[i];
+  for (std::size_t i = 0; i < factors.count; ++i)
+    component_of(degrees, factors.axes[i]) = degrees_per_radian * angles[i];
   return degrees;
 }
+
+namespace {
 
 Quat fbx_share(Quat rotation, double weight) {
   const Quat near = rotation.w < 0 ? -rotation : rotation;
@@ -245,7 +242,7 @@ Vec3 mix_rotations(Vec3 below, Vec3 value, const FbxLayer& layer, RotationOrder 
   const Quat mixed = layer.is_override
                          ? under * fbx_share(normalized(conjugate(under) * over), layer.weight)
                          : under * fbx_share(over, layer.weight);
-  return fbx_angles(normalized(mixed), order);
+  return fbx_degrees(to_euler(normalized(mixed), order), order);
 }
 
 Vec3 mix_scales(Vec3 below, Vec3 value, double weight) {
@@ -323,10 +320,10 @@ FbxPoser::FbxPoser(const FbxScene& scene, const FbxMotion& motion, const FbxRig&
     poses_[n].local = scene.models[rig.nodes[n].model].local;
     for (std::size_t v = 0; v < 3; ++v) {
       for (const FbxLayer& layer : motion.layers) {
-        const auto found = layer.vectors.find(3 * rig.nodes[n].model + v);
-        const bool counts = found != layer.vectors.end() && !layer.is_muted;
-        animated_[n][v].push_back(counts ? &found->second : nullptr);
-        is_animated_[3 * n + v] = is_animated_[3 * n + v] || counts;
+        const FbxAnimatedVector* const found =
+            layer.is_muted ? nullptr : layer.find(rig.nodes[n].model, v);
+        animated_[n][v].push_back(found);
+        is_animated_[3 * n + v] = is_animated_[3 * n + v] || found != nullptr;
       }
     }
   }

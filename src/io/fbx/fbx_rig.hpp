@@ -41,10 +41,11 @@ struct FbxRig {
 FbxRig choose_fbx_rig(const FbxTree& tree, const FbxScene& scene, const FbxMotion& motion,
                       std::size_t max_depth);
 
-/// Return the rotation order of a model as factors of a product, and the rotation of angles in
-/// degrees.
+/// Return the rotation order of a model as factors of a product, the rotation of angles in degrees,
+/// and angles in radians, in that order, as degrees by axis.
 RotationOrder fbx_factors(std::int64_t rotation_order);
 Quat fbx_turn(Vec3 degrees, RotationOrder factors);
+Vec3 fbx_degrees(const std::array<double, 3>& angles, RotationOrder factors);
 
 /// The least number of frames for a thread, so that the cost of its own poser is negligible.
 inline constexpr std::size_t fbx_frames_a_range = 512;

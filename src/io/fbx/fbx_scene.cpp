@@ -23,44 +23,10 @@ constexpr std::uint32_t least_version = 6000;
 constexpr double new_ticks_per_second = 141120000;
 constexpr std::int64_t old_ticks_definition = 127, least_header_with_definition = 1004;
 
-// FBX SDK, FbxTime::EMode; 0 is the default, 14 is CustomFrameRate.
 double fbx_rate_of_mode(std::int64_t mode, double custom_hz) {
-  constexpr double ntsc = 1000.0 / 1001;
-  switch (mode) {
-    case 1:
-      return 120;
-    case 2:
-      return 100;
-    case 3:
-      return 60;
-    case 4:
-      return 50;
-    case 5:
-      return 48;
-    case 8:
-    case 9:
-      return 30 * ntsc;
-    case 10:
-      return 25;
-    case 11:
-      return 24;
-    case 12:
-      return 1000;
-    case 13:
-      return 24 * ntsc;
-    case 14:
-      return is_usable_frame_rate(custom_hz) ? custom_hz : 30;
-    case 15:
-      return 96;
-    case 16:
-      return 72;
-    case 17:
-      return 60 * ntsc;
-    case 18:
-      return 120 * ntsc;
-    default:
-      return 30;
-  }
+  if (mode == 14 && is_usable_frame_rate(custom_hz)) return custom_hz;
+  const bool is_known = mode >= 0 && mode < static_cast<std::int64_t>(fbx_mode_rates_hz.size());
+  return fbx_mode_rates_hz[is_known ? static_cast<std::size_t>(mode) : 0];
 }
 
 class FbxSceneReader {
@@ -76,7 +42,7 @@ class FbxSceneReader {
     }
     if (objects == no_fbx_record) throw tree_.error_at(0, "the file has no record Objects");
     read_template();
-    for_each_child(objects, [&](std::uint32_t record) { read_object(record); });
+    tree_.for_each_child(objects, [&](std::uint32_t record) { read_object(record); });
     read_connections();
     read_takes();
     read_settings(objects);
@@ -84,14 +50,6 @@ class FbxSceneReader {
   }
 
  private:
-  template <class Visit>
-  void for_each_child(std::uint32_t parent, Visit&& visit) const {
-    if (parent == no_fbx_record) return;
-    for (std::uint32_t child = tree_.records[parent].first_child; child != no_fbx_record;
-         child = tree_.records[child].next_sibling)
-      visit(child);
-  }
-
   std::string_view name_of(std::uint32_t record) const {
     return tree_.name_of(tree_.records[record]);
   }
@@ -99,7 +57,7 @@ class FbxSceneReader {
   // Reads the default values of models, in Definitions of version 7.
   void read_template() {
     const std::uint32_t definitions = tree_.child(no_fbx_record, "Definitions");
-    for_each_child(definitions, [&](std::uint32_t type) {
+    tree_.for_each_child(definitions, [&](std::uint32_t type) {
       const FbxProperty* const of = tree_.property(tree_.records[type], 0);
       if (of == nullptr || fbx_text(tree_, *of) != "Model") return;
       const std::uint32_t found = tree_.child(type, "PropertyTemplate");
@@ -159,7 +117,7 @@ class FbxSceneReader {
 
   void read_connections() {
     const std::uint32_t connections = tree_.child(no_fbx_record, "Connections");
-    for_each_child(connections, [&](std::uint32_t index) {
+    tree_.for_each_child(connections, [&](std::uint32_t index) {
       const FbxRecord& record = tree_.records[index];
       if (record.property_count < 3) return;
       const FbxProperty* const p = &tree_.properties[record.first_property];
@@ -186,7 +144,7 @@ class FbxSceneReader {
       read_active_stack();
       return;
     }
-    for_each_child(takes, [&](std::uint32_t index) {
+    tree_.for_each_child(takes, [&](std::uint32_t index) {
       const FbxProperty* const name = tree_.property(tree_.records[index], 0);
       if (name_of(index) == "Take" && name != nullptr)
         scene_.stacks.push_back({std::string(fbx_text(tree_, *name)), 0, index});
@@ -195,7 +153,7 @@ class FbxSceneReader {
 
   void read_active_stack() {
     const std::uint32_t documents = tree_.child(no_fbx_record, "Documents");
-    for_each_child(documents, [&](std::uint32_t document) {
+    tree_.for_each_child(documents, [&](std::uint32_t document) {
       for_each_fbx_property(tree_, document, [&](const FbxNamedProperty& p) {
         if (p.name == "ActiveAnimStackName" && !p.text().empty())
           scene_.active_stack = std::string(p.text());
@@ -433,12 +391,11 @@ class FbxMotionReader6 {
  private:
   template <class Visit>
   void for_each_named(std::uint32_t parent, std::string_view type, Visit&& visit) const {
-    for (std::uint32_t child = tree_.records[parent].first_child; child != no_fbx_record;
-         child = tree_.records[child].next_sibling) {
+    tree_.for_each_child(parent, [&](std::uint32_t child) {
       const FbxRecord& record = tree_.records[child];
       const FbxProperty* const name = tree_.property(record, 0);
       if (name != nullptr && tree_.name_of(record) == type) visit(child, fbx_text(tree_, *name));
-    }
+    });
   }
 
   void read_model(std::uint32_t index, std::size_t model) {
@@ -464,7 +421,7 @@ class FbxMotionReader6 {
           component_of(animated.constant, a) = *number;
       }
       if (tree_.child(index, "Key") == no_fbx_record) return;
-      FbxCurve curve = keys_.read(index);
+      FbxCurve curve = keys_.begin(index);
       if (curve.values.empty()) return;
       animated.curves[a] = static_cast<std::int32_t>(motion_.curves.size());
       motion_.curves.push_back(std::move(curve));

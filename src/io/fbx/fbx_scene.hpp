@@ -46,6 +46,12 @@ struct FbxLayer {
   bool is_muted = false;
   /// The key is 3 * model + `FbxVector`.
   std::unordered_map<std::size_t, FbxAnimatedVector> vectors;
+
+  /// Returns how the layer animates a vector of a model; null if it does not.
+  const FbxAnimatedVector* find(std::size_t model, std::size_t vector) const {
+    const auto found = vectors.find(3 * model + vector);
+    return found == vectors.end() ? nullptr : &found->second;
+  }
 };
 
 /// The animation of one take, with its curves.
@@ -66,6 +72,14 @@ struct FbxConnection {
   std::int64_t to = 0;    ///< parent, or the animated object
   std::string_view property;
 };
+
+/// FBX SDK, FbxTime::EMode: the rate of each time mode; 0 is the default, and 14 a rate that the
+/// file states (30 Hz if it is unusable). NTSC runs at 1000 / 1001 of a whole rate.
+inline constexpr double ntsc_24 = 24000.0 / 1001, ntsc_30 = 30000.0 / 1001;
+inline constexpr double ntsc_60 = 60000.0 / 1001, ntsc_120 = 120000.0 / 1001;
+inline constexpr std::array<double, 19> fbx_mode_rates_hz{
+    30, 120, 100,  60,      50, 48, 30, 30,      ntsc_30, ntsc_30,
+    25, 24,  1000, ntsc_24, 30, 96, 72, ntsc_60, ntsc_120};
 
 struct FbxScene {
   std::vector<FbxModel> models;

@@ -32,10 +32,24 @@ std::uint32_t stated_version(const FbxTree& tree) {
 bool is_binary_fbx(std::string_view bytes) { return bytes.substr(0, 21) == binary_magic; }
 
 std::uint32_t FbxTree::child(std::uint32_t parent, std::string_view child_name) const {
-  std::uint32_t record = first_child_of(parent);
+  std::uint32_t record = parent == no_fbx_record ? first_root : records[parent].first_child;
   while (record != no_fbx_record && name_of(records[record]) != child_name)
     record = records[record].next_sibling;
   return record;
+}
+
+std::size_t fbx_number_bytes(char type) {
+  constexpr std::string_view codes = "BCbcZYIFifDLdl";
+  constexpr std::size_t bytes[] = {1, 1, 1, 1, 1, 2, 4, 4, 4, 4, 8, 8, 8, 8};
+  const std::size_t found = codes.find(type);
+  return found == codes.npos ? 0 : bytes[found];
+}
+
+FbxArrayHead fbx_array_head(const FbxTree& tree, std::size_t place) {
+  const auto word = [&](std::size_t offset) {
+    return read_word<std::uint32_t>(tree.bytes.data() + place + offset, tree.is_big_endian);
+  };
+  return {word(0), word(4), word(8)};
 }
 
 Error FbxTree::error_at(std::size_t place, std::string_view message) const {
@@ -43,66 +57,44 @@ Error FbxTree::error_at(std::size_t place, std::string_view message) const {
                  : Error::at_byte(name, place, message);
 }
 
-FbxTree read_fbx_tree(std::string bytes, std::string_view name, std::size_t max_depth) {
-  FbxTree tree;
-  tree.name = std::string(name);
-  tree.bytes = std::move(bytes);
-  tree.is_text = !is_binary_fbx(tree.bytes);
-  if (tree.is_text) {
-    read_text_fbx_records(tree, max_depth);
-    if (tree.version == 0) tree.version = stated_version(tree);
-  } else {
-    read_binary_fbx_records(tree, max_depth);
-  }
-  return tree;
-}
-
-void FbxRecordBuilder::open(const FbxRecord& record) {
-  const auto index = static_cast<std::uint32_t>(tree_.records.size());
-  std::uint32_t& last = open_.empty() ? last_root_ : open_.back().last_child;
-  if (last != no_fbx_record) {
-    tree_.records[last].next_sibling = index;
-  } else if (open_.empty()) {
-    tree_.first_root = index;
-  } else {
-    tree_.records[open_.back().record].first_child = index;
-  }
-  last = index;
-  tree_.records.push_back(record);
-  if (!open_.empty()) tree_.records.back().parent = open_.back().record;
-  open_.push_back({index});
-}
-
 namespace {
 
-constexpr std::size_t version_place = 23, first_record_place = 27;
-constexpr std::size_t array_head_bytes = 12;
+// Appends records with the links between them, in the order in which they begin.
+class FbxRecordBuilder {
+ public:
+  explicit FbxRecordBuilder(FbxTree& tree) : tree_(tree) {}
 
-// Returns the bytes of one number by its type code, for properties and arrays; 0 for another code.
-std::size_t fbx_number_bytes(char type) {
-  switch (type) {
-    case 'B':
-    case 'C':
-    case 'b':
-    case 'c':
-    case 'Z':
-      return 1;
-    case 'Y':
-      return 2;
-    case 'I':
-    case 'F':
-    case 'i':
-    case 'f':
-      return 4;
-    case 'D':
-    case 'L':
-    case 'd':
-    case 'l':
-      return 8;
-    default:
-      return 0;
+  std::size_t depth() const { return open_.size(); }
+  FbxRecord& top() { return tree_.records[open_.back().record]; }
+  // Opens a record within the open one.
+  void open(const FbxRecord& record) {
+    const auto index = static_cast<std::uint32_t>(tree_.records.size());
+    std::uint32_t& last = open_.empty() ? last_root_ : open_.back().last_child;
+    if (last != no_fbx_record) {
+      tree_.records[last].next_sibling = index;
+    } else if (open_.empty()) {
+      tree_.first_root = index;
+    } else {
+      tree_.records[open_.back().record].first_child = index;
+    }
+    last = index;
+    tree_.records.push_back(record);
+    if (!open_.empty()) tree_.records.back().parent = open_.back().record;
+    open_.push_back({index});
   }
-}
+  void close() { open_.pop_back(); }
+
+ private:
+  struct Level {
+    std::uint32_t record;
+    std::uint32_t last_child = no_fbx_record;
+  };
+  FbxTree& tree_;
+  std::vector<Level> open_;
+  std::uint32_t last_root_ = no_fbx_record;
+};
+
+constexpr std::size_t version_place = 23, first_record_place = 27;
 
 class BinaryFbxReader {
  public:
@@ -135,7 +127,7 @@ class BinaryFbxReader {
       throw tree_.error_at(tree_.bytes.size(), "the file ends in its head");
     tree_.is_big_endian = tree_.bytes[version_place - 1] == 1;
     tree_.version =
-        fbx_word<std::uint32_t>(tree_.bytes.data() + version_place, tree_.is_big_endian);
+        read_word<std::uint32_t>(tree_.bytes.data() + version_place, tree_.is_big_endian);
   }
 
   std::size_t header_bytes() const { return tree_.has_wide_headers() ? 25 : 13; }
@@ -147,11 +139,11 @@ class BinaryFbxReader {
     const char* const bytes = tree_.bytes.data() + place;
     const bool big = tree_.is_big_endian;
     if (tree_.has_wide_headers()) {
-      return {fbx_word<std::uint64_t>(bytes, big), fbx_word<std::uint64_t>(bytes + 8, big),
-              fbx_word<std::uint64_t>(bytes + 16, big), static_cast<std::uint8_t>(bytes[24])};
+      return {read_word<std::uint64_t>(bytes, big), read_word<std::uint64_t>(bytes + 8, big),
+              read_word<std::uint64_t>(bytes + 16, big), static_cast<std::uint8_t>(bytes[24])};
     }
-    return {fbx_word<std::uint32_t>(bytes, big), fbx_word<std::uint32_t>(bytes + 4, big),
-            fbx_word<std::uint32_t>(bytes + 8, big), static_cast<std::uint8_t>(bytes[12])};
+    return {read_word<std::uint32_t>(bytes, big), read_word<std::uint32_t>(bytes + 4, big),
+            read_word<std::uint32_t>(bytes + 8, big), static_cast<std::uint8_t>(bytes[12])};
   }
 
   void close_full_records() {
@@ -226,21 +218,19 @@ class BinaryFbxReader {
 
   // Returns the size of a property, including the head of a string or array.
   std::size_t property_bytes(char type, std::size_t room) const {
-    const char* const bytes = tree_.bytes.data() + place_;
-    const bool big = tree_.is_big_endian;
-    if (type == 'S' || type == 'R')
-      return room < 4 ? 4 : std::size_t{4} + fbx_word<std::uint32_t>(bytes, big);
+    if (type == 'S' || type == 'R') {
+      const char* const bytes = tree_.bytes.data() + place_;
+      return room < 4 ? 4 : std::size_t{4} + read_word<std::uint32_t>(bytes, tree_.is_big_endian);
+    }
     const std::size_t number = fbx_number_bytes(type);
     if (number == 0) {
       throw tree_.error_at(place_ - 1, fmt::format("unknown type of property: code {}",
                                                    static_cast<unsigned char>(type)));
     }
     if (type < 'a') return number;
-    if (room < array_head_bytes) return array_head_bytes;
-    const std::size_t count = fbx_word<std::uint32_t>(bytes, big);
-    const std::uint32_t encoding = fbx_word<std::uint32_t>(bytes + 4, big);
-    const std::size_t packed = fbx_word<std::uint32_t>(bytes + 8, big);
-    return array_head_bytes + (encoding == 0 ? count * number : packed);
+    if (room < fbx_array_head_bytes) return fbx_array_head_bytes;
+    const FbxArrayHead head = fbx_array_head(tree_, place_);
+    return fbx_array_head_bytes + (head.packing == 0 ? head.count * number : head.packed_bytes);
   }
 
   FbxTree& tree_;
@@ -248,14 +238,6 @@ class BinaryFbxReader {
   std::size_t max_depth_;
   std::size_t place_ = 0;
 };
-
-}  // namespace
-
-void read_binary_fbx_records(FbxTree& tree, std::size_t max_depth) {
-  BinaryFbxReader(tree, max_depth).read();
-}
-
-namespace {
 
 bool is_fbx_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\0'; }
 
@@ -448,8 +430,18 @@ class TextFbxReader {
 
 }  // namespace
 
-void read_text_fbx_records(FbxTree& tree, std::size_t max_depth) {
-  TextFbxReader(tree, max_depth).read();
+FbxTree read_fbx_tree(std::string bytes, std::string_view name, std::size_t max_depth) {
+  FbxTree tree;
+  tree.name = std::string(name);
+  tree.bytes = std::move(bytes);
+  tree.is_text = !is_binary_fbx(tree.bytes);
+  if (tree.is_text) {
+    TextFbxReader(tree, max_depth).read();
+    if (tree.version == 0) tree.version = stated_version(tree);
+  } else {
+    BinaryFbxReader(tree, max_depth).read();
+  }
+  return tree;
 }
 
 }  // namespace kinemend

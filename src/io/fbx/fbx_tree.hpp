@@ -1,5 +1,4 @@
-// Holds the records of an FBX file, binary or text, with their offsets in the bytes, and reads and
-// writes numbers in the byte order of a binary file.
+// Holds the records of an FBX file, binary or text, with their offsets in the bytes.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/bytes.hpp"
 #include "base/portable.hpp"
 #include "kinemend/error.hpp"
 
@@ -66,12 +66,30 @@ struct FbxTree {
   /// The first child of that name, or `no_fbx_record` if the record has no such child. With
   /// `no_fbx_record` as the parent it searches the top level.
   std::uint32_t child(std::uint32_t parent, std::string_view child_name) const;
-  std::uint32_t first_child_of(std::uint32_t parent) const {
-    return parent == no_fbx_record ? first_root : records[parent].first_child;
+  /// Calls `visit` with each child of a record, if there is one.
+  template <class Visit>
+  void for_each_child(std::uint32_t parent, Visit&& visit) const {
+    if (parent == no_fbx_record) return;
+    for (std::uint32_t child = records[parent].first_child; child != no_fbx_record;
+         child = records[child].next_sibling)
+      visit(child);
   }
   /// Returns an error with the byte, or with the line of a text.
   Error error_at(std::size_t place, std::string_view message) const;
 };
+
+/// Returns the bytes of one number by its type code, for properties and arrays; 0 for another code.
+std::size_t fbx_number_bytes(char type);
+
+/// The head of a packed array in a binary file.
+struct FbxArrayHead {
+  std::size_t count = 0;
+  std::uint32_t packing = 0;  ///< 0 none, 1 zlib
+  std::size_t packed_bytes = 0;
+};
+inline constexpr std::size_t fbx_array_head_bytes = 12;
+/// Reads the head at `place`; all its bytes must be in the file.
+FbxArrayHead fbx_array_head(const FbxTree& tree, std::size_t place);
 
 /// Reads the records of any FBX file, version 3 to 8. `max_depth`: deeper nesting is an error.
 /// Errors: `unreadable_input` with the byte or the line.
@@ -80,56 +98,11 @@ FbxTree read_fbx_tree(std::string bytes, std::string_view name, std::size_t max_
 /// Whether the bytes begin as a binary FBX file.
 bool is_binary_fbx(std::string_view bytes);
 
-/// Read the two forms; called by `read_fbx_tree`.
-void read_binary_fbx_records(FbxTree& tree, std::size_t max_depth);
-void read_text_fbx_records(FbxTree& tree, std::size_t max_depth);
-
-/// Appends records with the links between them, in the order in which they begin.
-class FbxRecordBuilder {
- public:
-  explicit FbxRecordBuilder(FbxTree& tree) : tree_(tree) {}
-
-  std::size_t depth() const { return open_.size(); }
-  FbxRecord& top() { return tree_.records[open_.back().record]; }
-  /// Opens a record within the open one.
-  void open(const FbxRecord& record);
-  void close() { open_.pop_back(); }
-
- private:
-  struct Level {
-    std::uint32_t record;
-    std::uint32_t last_child = no_fbx_record;
-  };
-  FbxTree& tree_;
-  std::vector<Level> open_;
-  std::uint32_t last_root_ = no_fbx_record;
-};
-
-/// An unsigned integer of sizeof(Word) bytes.
-template <class Word>
-Word fbx_word(const char* bytes, bool big_endian) {
-  Word word = 0;
-  for (std::size_t i = 0; i < sizeof(Word); ++i) {
-    const std::size_t shift = 8 * (big_endian ? sizeof(Word) - 1 - i : i);
-    word = static_cast<Word>(word |
-                             (static_cast<Word>(static_cast<unsigned char>(bytes[i])) << shift));
-  }
-  return word;
-}
-
-template <class Word>
-void put_fbx_word(char* bytes, Word word, bool big_endian) {
-  for (std::size_t i = 0; i < sizeof(Word); ++i) {
-    const std::size_t shift = 8 * (big_endian ? sizeof(Word) - 1 - i : i);
-    bytes[i] = static_cast<char>((word >> shift) & 0xFF);
-  }
-}
-
 inline float fbx_float(const char* bytes, bool big_endian) {
-  return bits_as<float>(fbx_word<std::uint32_t>(bytes, big_endian));
+  return bits_as<float>(read_word<std::uint32_t>(bytes, big_endian));
 }
 inline double fbx_double(const char* bytes, bool big_endian) {
-  return bits_as<double>(fbx_word<std::uint64_t>(bytes, big_endian));
+  return bits_as<double>(read_word<std::uint64_t>(bytes, big_endian));
 }
 
 }  // namespace kinemend

@@ -17,25 +17,7 @@ namespace kinemend {
 
 namespace {
 
-constexpr std::size_t array_head = 12;
 constexpr std::uint32_t packing_none = 0, packing_zlib = 1;
-
-struct ArrayHead {
-  std::size_t count = 0;
-  std::uint32_t packing = 0;
-  std::size_t packed_bytes = 0;
-};
-
-ArrayHead array_head_of(const FbxTree& tree, const FbxProperty& array) {
-  const char* const bytes = tree.bytes.data() + array.begin;
-  const bool big = tree.is_big_endian;
-  return {fbx_word<std::uint32_t>(bytes, big), fbx_word<std::uint32_t>(bytes + 4, big),
-          fbx_word<std::uint32_t>(bytes + 8, big)};
-}
-
-std::size_t element_bytes(char type) {
-  return type == 'd' || type == 'l' ? 8 : type == 'f' || type == 'i' ? 4 : 1;
-}
 
 std::optional<double> number_in_text(std::string_view text) {
   if (text.empty()) return std::nullopt;
@@ -61,16 +43,16 @@ double element(const char* bytes, char type, bool big) {
     case 'f':
       return static_cast<double>(fbx_float(bytes, big));
     case 'l':
-      return static_cast<double>(static_cast<std::int64_t>(fbx_word<std::uint64_t>(bytes, big)));
+      return static_cast<double>(static_cast<std::int64_t>(read_word<std::uint64_t>(bytes, big)));
     case 'i':
-      return static_cast<std::int32_t>(fbx_word<std::uint32_t>(bytes, big));
+      return static_cast<std::int32_t>(read_word<std::uint32_t>(bytes, big));
     default:
       return static_cast<unsigned char>(*bytes);
   }
 }
 
 std::int64_t integer_element(const char* bytes, char type, bool big) {
-  if (type == 'l') return static_cast<std::int64_t>(fbx_word<std::uint64_t>(bytes, big));
+  if (type == 'l') return static_cast<std::int64_t>(read_word<std::uint64_t>(bytes, big));
   const double value = element(bytes, type, big);
   return std::fabs(value) < 9e18 ? static_cast<std::int64_t>(value) : 0;
 }
@@ -100,7 +82,7 @@ std::vector<Value> values_of(const FbxTree& tree, const FbxRecord& record, OfByt
     }
   } else if (array != nullptr) {
     const std::string raw = fbx_unpacked(tree, *array);
-    const std::size_t width = element_bytes(array->type);
+    const std::size_t width = fbx_number_bytes(array->type);
     values.resize(raw.size() / width);
     for (std::size_t i = 0; i < values.size(); ++i)
       values[i] = of_bytes(raw.data() + i * width, array->type, tree.is_big_endian);
@@ -134,11 +116,11 @@ std::optional<std::int64_t> fbx_integer(const FbxTree& tree, const FbxProperty& 
     case 'C':
       return static_cast<unsigned char>(*bytes);
     case 'Y':
-      return static_cast<std::int16_t>(fbx_word<std::uint16_t>(bytes, big));
+      return static_cast<std::int16_t>(read_word<std::uint16_t>(bytes, big));
     case 'I':
-      return static_cast<std::int32_t>(fbx_word<std::uint32_t>(bytes, big));
+      return static_cast<std::int32_t>(read_word<std::uint32_t>(bytes, big));
     case 'L':
-      return static_cast<std::int64_t>(fbx_word<std::uint64_t>(bytes, big));
+      return static_cast<std::int64_t>(read_word<std::uint64_t>(bytes, big));
     case 'N':
     case '*':
       return integer_in_text(tree.text_of(property));
@@ -198,9 +180,9 @@ const FbxProperty* fbx_array(const FbxTree& tree, const FbxRecord& record) {
 }
 
 std::string fbx_unpacked(const FbxTree& tree, const FbxProperty& array) {
-  const ArrayHead head = array_head_of(tree, array);
-  const std::size_t raw_bytes = head.count * element_bytes(array.type);
-  const char* const data = tree.bytes.data() + array.begin + array_head;
+  const FbxArrayHead head = fbx_array_head(tree, array.begin);
+  const std::size_t raw_bytes = head.count * fbx_number_bytes(array.type);
+  const char* const data = tree.bytes.data() + array.begin + fbx_array_head_bytes;
   if (head.packing == packing_none) return {data, raw_bytes};
   if (head.packing != packing_zlib)
     throw tree.error_at(array.begin, fmt::format("unknown packing {} of an array", head.packing));
@@ -227,17 +209,17 @@ std::string fbx_zlib(std::string_view raw) {
 }
 
 std::string fbx_packed(const FbxTree& tree, const FbxProperty& array, const std::string& raw) {
-  const ArrayHead head = array_head_of(tree, array);
+  const FbxArrayHead head = fbx_array_head(tree, array.begin);
   std::string data = raw;
   if (head.packing == packing_zlib) {
     data = fbx_zlib(raw);
   }
-  std::string bytes(array_head, '\0');
+  std::string bytes(fbx_array_head_bytes, '\0');
   const bool big = tree.is_big_endian;
-  const auto count = static_cast<std::uint32_t>(raw.size() / element_bytes(array.type));
-  put_fbx_word(bytes.data(), count, big);
-  put_fbx_word(bytes.data() + 4, head.packing, big);
-  put_fbx_word(bytes.data() + 8, static_cast<std::uint32_t>(data.size()), big);
+  const auto count = static_cast<std::uint32_t>(raw.size() / fbx_number_bytes(array.type));
+  put_word(bytes.data(), count, big);
+  put_word(bytes.data() + 4, head.packing, big);
+  put_word(bytes.data() + 8, static_cast<std::uint32_t>(data.size()), big);
   return bytes + data;
 }
 
@@ -262,7 +244,7 @@ std::vector<FbxToken> fbx_tokens(const FbxTree& tree, const FbxProperty& array) 
 std::size_t fbx_count(const FbxTree& tree, const FbxRecord& record) {
   const FbxProperty* const array = fbx_array(tree, record);
   if (array == nullptr) return record.property_count;
-  return tree.is_text ? array->size / 2 + 1 : array_head_of(tree, *array).count;
+  return tree.is_text ? array->size / 2 + 1 : fbx_array_head(tree, array->begin).count;
 }
 
 std::vector<double> fbx_numbers(const FbxTree& tree, const FbxRecord& record) {

@@ -86,14 +86,12 @@ template <class Take>
 void for_each_fbx_property(const FbxTree& tree, std::uint32_t object, Take&& take) {
   for (const std::string_view list : {"Properties70", "Properties60"}) {
     const std::uint32_t properties = tree.child(object, list);
-    if (properties == no_fbx_record) continue;
     const std::size_t first_value = list == "Properties70" ? 4 : 3;
-    for (std::uint32_t child = tree.records[properties].first_child; child != no_fbx_record;
-         child = tree.records[child].next_sibling) {
+    tree.for_each_child(properties, [&](std::uint32_t child) {
       const FbxRecord& record = tree.records[child];
       const FbxProperty* const name = tree.property(record, 0);
       if (name != nullptr) take(FbxNamedProperty{tree, record, fbx_text(tree, *name), first_value});
-    }
+    });
   }
 }
 

@@ -29,6 +29,9 @@ TakeResult read_gltf(std::string bytes, std::string_view name, const ReadOptions
 std::string write_glb(const Take& take);
 std::string write_gltf(const Take& take);
 
+/// Returns a new binary file, as described at `write_glb`. The take must be valid.
+std::string new_glb_of(const Take& take);
+
 /// Returns `files_of_take` of a take in glTF. `output`: the path of the result.
 TakeFiles glb_files_of_take(const Take& take, const std::filesystem::path& output);
 TakeFiles gltf_files_of_take(const Take& take, const std::filesystem::path& output);

@@ -8,7 +8,9 @@
 #include <cstdint>
 #include <utility>
 
+#include "base/bytes.hpp"
 #include "io/gltf/gltf_json.hpp"
+#include "io/text/text.hpp"
 #include "kinemend/error.hpp"
 
 namespace kinemend {
@@ -21,15 +23,13 @@ constexpr std::size_t glb_header_bytes = 12, glb_chunk_header_bytes = 8;
 constexpr std::string_view glb_magic = "glTF", glb_json = "JSON", glb_bin{"BIN\0", 4};
 
 std::uint32_t glb_number(std::string_view bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 4; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
-  return value;
+  return read_word<std::uint32_t>(bytes.data() + at, false);
 }
 
 void append_glb_number(std::string& out, std::size_t value) {
   if (value > 0xFFFFFFFFu)
     throw Error(ErrorKind::usage, "the take is too long for a glb file of 4 GiB");
-  for (int shift = 0; shift < 32; shift += 8) out += static_cast<char>(value >> shift & 0xFF);
+  append_word(out, static_cast<std::uint32_t>(value), false);
 }
 
 void append_glb_chunk(std::string& out, std::string_view type, std::string_view content,
@@ -80,12 +80,6 @@ void find_glb_chunks(GltfFile& file, std::size_t end) {
 
 }  // namespace
 
-void note_gltf_repair(std::string_view file, bool strict, Diagnostics& diagnostics,
-                      std::string_view kind, std::string_view message) {
-  if (strict) throw Error(ErrorKind::quality_limit, fmt::format("{}: {}", file, message));
-  diagnostics.add(kind, message);
-}
-
 GltfFile open_gltf(std::string bytes, std::string_view name, bool strict,
                    Diagnostics& diagnostics) {
   GltfFile file;
@@ -99,9 +93,9 @@ GltfFile open_gltf(std::string bytes, std::string_view name, bool strict,
   const std::size_t end = stated_glb_end(file);
   find_glb_chunks(file, end);
   if (end < file.bytes.size()) {
-    note_gltf_repair(name, strict, diagnostics, "bytes_after_end",
-                     fmt::format("{} bytes after the end that the header states: kept",
-                                 file.bytes.size() - end));
+    note_repair(name, strict, diagnostics, "bytes_after_end",
+                fmt::format("{} bytes after the end that the header states: kept",
+                            file.bytes.size() - end));
   }
   return file;
 }
@@ -151,8 +145,6 @@ std::string new_glb(std::string_view json, std::string_view binary) {
 
 namespace {
 
-constexpr std::string_view base64_digits =
-    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 constexpr std::uint8_t no_base64_digit = 0xFF;
 
 constexpr std::array<std::uint8_t, 256> base64_values() {
@@ -233,20 +225,6 @@ std::optional<std::string> bytes_of_data_uri(std::string_view uri) {
   std::string bytes;
   if (!decode_base64(uri.substr(comma + 1), bytes)) return std::nullopt;
   return bytes;
-}
-
-std::string base64_of(std::string_view bytes) {
-  std::string out((bytes.size() + 2) / 3 * 4, '=');
-  char* written = out.data();
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t bits = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      bits = bits << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k <= count; ++k) written[k] = base64_digits[bits >> (18 - 6 * k) & 63];
-    written += 4;
-  }
-  return out;
 }
 
 std::optional<std::string> relative_path_of_uri(std::string_view uri) {

@@ -31,10 +31,6 @@ struct GltfFile {
 /// 2, or has no JSON.
 GltfFile open_gltf(std::string bytes, std::string_view name, bool strict, Diagnostics& diagnostics);
 
-/// Notes a repair; throws `ErrorKind::quality_limit` when the reading is strict.
-void note_gltf_repair(std::string_view file, bool strict, Diagnostics& diagnostics,
-                      std::string_view kind, std::string_view message);
-
 /// Returns an error about an element of an array of the root (for example `accessors`, 3), with the
 /// byte of the element.
 Error gltf_error(const GltfFile& file, const char* section, std::size_t index,
@@ -51,7 +47,6 @@ std::string new_glb(std::string_view json, std::string_view binary);
 bool is_data_uri(std::string_view uri);
 /// Returns the base64 content of such a URI; empty if it is not base64 or is damaged.
 std::optional<std::string> bytes_of_data_uri(std::string_view uri);
-std::string base64_of(std::string_view bytes);
 
 /// Returns the relative path of a URI, percent-decoded; empty for a URI outside the folder of the
 /// file: absolute paths, schemes, drives, `..`.

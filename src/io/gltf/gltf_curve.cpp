@@ -62,21 +62,6 @@ void hold_missing_keys(GltfCurve& curve) {
   if (good == curve.keys()) std::fill(curve.values.begin(), curve.values.end(), 0.0);
 }
 
-// Visits the segment of each time in turn: the last key that is not later, and the share of the
-// step to the next key (0 at a key).
-template <class Visit>
-void walk_curve(const GltfCurve& curve, const GltfTimes& times, Visit&& visit) {
-  const std::size_t last = curve.keys() - 1;
-  std::size_t key = 0;
-  for (std::size_t frame = 0; frame < times.count; ++frame) {
-    const double t = times.at(frame);
-    while (key < last && curve.times()[key + 1] <= t + times.tolerance_s) ++key;
-    const bool between = key < last && t > curve.times()[key] + times.tolerance_s;
-    const double length = key < last ? curve.times()[key + 1] - curve.times()[key] : 0;
-    visit(frame, key, between && length > 0 ? (t - curve.times()[key]) / length : 0.0, length);
-  }
-}
-
 // Evaluates a component of a spline: specification, appendix C.5.
 double spline_value(const GltfCurve& curve, std::size_t key, std::size_t c, double s,
                     double length) {
@@ -86,6 +71,33 @@ double spline_value(const GltfCurve& curve, std::size_t key, std::size_t c, doub
   const double s2 = s * s, s3 = s2 * s;
   return (2 * s3 - 3 * s2 + 1) * a[w + c] + length * (s3 - 2 * s2 + s) * a[2 * w + c] +
          (3 * s2 - 2 * s3) * b[w + c] + length * (s3 - s2) * b[c];
+}
+
+// Returns the value at each time. `key_at(key)`: the value of a key; `mix(a, b, share)`: a value
+// between two keys; `of_parts(part)`: a value from `part(component)`.
+template <class KeyAt, class Mix, class OfParts>
+auto samples_at(const GltfCurve& curve, const GltfTimes& times, KeyAt key_at, Mix mix,
+                OfParts of_parts) {
+  std::vector<decltype(key_at(0))> out(times.count);
+  const std::size_t last = curve.keys() - 1;
+  std::size_t key = 0;
+  for (std::size_t frame = 0; frame < times.count; ++frame) {
+    const double t = times.at(frame);
+    while (key < last && curve.times()[key + 1] <= t + times.tolerance_s) ++key;
+    const bool between = key < last && t > curve.times()[key] + times.tolerance_s;
+    const double length = key < last ? curve.times()[key + 1] - curve.times()[key] : 0;
+    // The share of the step to the next key.
+    const double s = between && length > 0 ? (t - curve.times()[key]) / length : 0.0;
+    const auto part = [&](std::size_t c) { return spline_value(curve, key, c, s, length); };
+    if (s == 0 || curve.interpolation == GltfInterpolation::step) {
+      out[frame] = key_at(key);
+    } else {
+      out[frame] = curve.interpolation == GltfInterpolation::linear
+                       ? mix(key_at(key), key_at(key + 1), s)
+                       : of_parts(part);
+    }
+  }
+  return out;
 }
 
 }  // namespace
@@ -133,35 +145,21 @@ bool is_constant(const GltfCurve& curve) {
 }
 
 std::vector<Vec3> vectors_at(const GltfCurve& curve, const GltfTimes& times) {
-  std::vector<Vec3> out(times.count);
-  walk_curve(curve, times, [&](std::size_t frame, std::size_t key, double s, double length) {
-    const Vec3 a = curve.vector(key);
-    if (s == 0 || curve.interpolation == GltfInterpolation::step) {
-      out[frame] = a;
-    } else if (curve.interpolation == GltfInterpolation::linear) {
-      out[frame] = (1 - s) * a + s * curve.vector(key + 1);
-    } else {
-      const auto part = [&](std::size_t c) { return spline_value(curve, key, c, s, length); };
-      out[frame] = {part(0), part(1), part(2)};
-    }
-  });
-  return out;
+  return samples_at(
+      curve, times, [&](std::size_t key) { return curve.vector(key); },
+      [](Vec3 a, Vec3 b, double s) { return (1 - s) * a + s * b; },
+      [](const auto& part) {
+        return Vec3{part(0), part(1), part(2)};
+      });
 }
 
 std::vector<Quat> rotations_at(const GltfCurve& curve, const GltfTimes& times) {
-  std::vector<Quat> out(times.count);
-  walk_curve(curve, times, [&](std::size_t frame, std::size_t key, double s, double length) {
-    const Quat a = curve.rotation(key);
-    if (s == 0 || curve.interpolation == GltfInterpolation::step) {
-      out[frame] = a;
-    } else if (curve.interpolation == GltfInterpolation::linear) {
-      out[frame] = unit_rotation(slerp(a, curve.rotation(key + 1), s));
-    } else {
-      const auto part = [&](std::size_t c) { return spline_value(curve, key, c, s, length); };
-      out[frame] = unit_rotation({part(3), part(0), part(1), part(2)});
-    }
-  });
-  return out;
+  return samples_at(
+      curve, times, [&](std::size_t key) { return curve.rotation(key); },
+      [](Quat a, Quat b, double s) { return unit_rotation(slerp(a, b, s)); },
+      [](const auto& part) {
+        return unit_rotation({part(3), part(0), part(1), part(2)});
+      });
 }
 
 bool has_key_each_frame(const GltfCurve& curve, const GltfTimes& times) {

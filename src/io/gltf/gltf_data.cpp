@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <type_traits>
 
 #include "io/gltf/gltf_container.hpp"
 #include "io/gltf/gltf_json.hpp"
@@ -64,29 +65,24 @@ std::optional<std::size_t> extent_of(std::size_t count, std::size_t size, std::s
   return (count - 1) * stride + size;
 }
 
-template <class T>
-T read_as(const char* bytes) {
-  T value;
-  std::memcpy(&value, bytes, sizeof value);
-  return value;
-}
-
-template <class T>
-double read_whole(const char* bytes, bool normalized) {
-  const double value = read_as<T>(bytes);
-  return normalized ? std::max(value / std::numeric_limits<T>::max(), -1.0) : value;
-}
-
-template <class T>
-bool store_whole(double value, bool normalized, char* bytes) {
-  using Limits = std::numeric_limits<T>;
-  const double least = normalized && Limits::is_signed ? -static_cast<double>(Limits::max())
-                                                       : static_cast<double>(Limits::min());
-  const double steps = std::round(normalized ? value * Limits::max() : value);
-  if (!(steps >= least && steps <= static_cast<double>(Limits::max()))) return false;
-  const T stored = static_cast<T>(steps);
-  std::memcpy(bytes, &stored, sizeof stored);
-  return true;
+// Calls `visit` with a zero of the component's type, and returns its result; a component of an
+// unknown type counts as a float.
+template <class Visit>
+auto with_component(int component, const Visit& visit) {
+  switch (component) {
+    case gltf_byte:
+      return visit(std::int8_t{});
+    case gltf_ubyte:
+      return visit(std::uint8_t{});
+    case gltf_short:
+      return visit(std::int16_t{});
+    case gltf_ushort:
+      return visit(std::uint16_t{});
+    case gltf_uint:
+      return visit(std::uint32_t{});
+    default:
+      return visit(float{});
+  }
 }
 
 // Used bytes of a buffer: elements of `size` bytes every `stride` bytes.
@@ -256,100 +252,77 @@ std::size_t GltfNumbers::sparse_index(std::size_t i) const {
   return static_cast<std::size_t>(read_component(bytes, sparse.index_component, false));
 }
 
+template <class Visit>
+void GltfNumbers::for_each_stored(const Visit& visit) const {
+  const GltfAccessor& a = accessor();
+  const auto place_in = [&](std::size_t view, std::size_t offset) {
+    return GltfPlace{model_.views[view].buffer, model_.views[view].offset + offset};
+  };
+  for (std::size_t i = 0, step = a.view ? stride() : 0; a.view && i < a.count; ++i)
+    visit(i, place_in(*a.view, a.offset + i * step));
+  for (std::size_t i = 0; a.sparse && i < a.sparse->count; ++i) {
+    visit(sparse_index(i),
+          place_in(a.sparse->value_view, a.sparse->value_offset + i * element_size()));
+  }
+}
+
 std::vector<double> GltfNumbers::values() const {
   const GltfAccessor& a = accessor();
   const std::size_t component = size_of_component(a.component);
   std::vector<double> values(a.count * width_);
-  const auto bytes_at = [&](std::size_t view, std::size_t offset) {
-    return buffers_.bytes(file_, model_.views[view].buffer).data() + model_.views[view].offset +
-           offset;
-  };
-  const auto read = [&](std::size_t element, const char* bytes) {
+  for_each_stored([&](std::size_t element, GltfPlace place) {
+    const char* const bytes = buffers_.bytes(file_, place.buffer).data() + place.at;
     for (std::size_t c = 0; c < width_; ++c) {
       values[element * width_ + c] =
           read_component(bytes + c * component, a.component, a.normalized);
     }
-  };
-  if (a.view) {
-    const char* const begin = bytes_at(*a.view, a.offset);
-    const std::size_t step = stride();
-    for (std::size_t i = 0; i < a.count; ++i) read(i, begin + i * step);
-  }
-  for (std::size_t i = 0; a.sparse && i < a.sparse->count; ++i)
-    read(sparse_index(i),
-         bytes_at(a.sparse->value_view, a.sparse->value_offset + i * element_size()));
+  });
   return values;
 }
 
 std::vector<std::optional<GltfPlace>> GltfNumbers::places() const {
-  const GltfAccessor& a = accessor();
-  std::vector<std::optional<GltfPlace>> places(a.count);
-  if (a.view) {
-    const GltfView& view = model_.views[*a.view];
-    const std::size_t step = stride();
-    for (std::size_t i = 0; i < a.count; ++i)
-      places[i] = GltfPlace{view.buffer, view.offset + a.offset + i * step};
-  }
-  for (std::size_t i = 0; a.sparse && i < a.sparse->count; ++i) {
-    const GltfView& view = model_.views[a.sparse->value_view];
-    places[sparse_index(i)] =
-        GltfPlace{view.buffer, view.offset + a.sparse->value_offset + i * element_size()};
-  }
+  std::vector<std::optional<GltfPlace>> places(count());
+  for_each_stored([&](std::size_t element, GltfPlace place) { places[element] = place; });
   return places;
 }
 
 std::size_t size_of_component(int component) {
-  switch (component) {
-    case gltf_byte:
-    case gltf_ubyte:
-      return 1;
-    case gltf_short:
-    case gltf_ushort:
-      return 2;
-    case gltf_uint:
-    case gltf_float:
-      return 4;
-    default:
-      return 0;
-  }
+  const bool exists =
+      component >= gltf_byte && component <= gltf_float && component != gltf_uint - 1;
+  return exists ? with_component(component, [](auto zero) { return sizeof zero; }) : 0;
 }
 
 double read_component(const char* bytes, int component, bool normalized) {
   static_assert(std::endian::native == std::endian::little, "glTF holds little-endian numbers");
-  if (component == gltf_float) return read_as<float>(bytes);
-  switch (component) {
-    case gltf_byte:
-      return read_whole<std::int8_t>(bytes, normalized);
-    case gltf_ubyte:
-      return read_whole<std::uint8_t>(bytes, normalized);
-    case gltf_short:
-      return read_whole<std::int16_t>(bytes, normalized);
-    case gltf_ushort:
-      return read_whole<std::uint16_t>(bytes, normalized);
-    case gltf_uint:
-      return read_whole<std::uint32_t>(bytes, normalized);
-    default:
-      return read_as<float>(bytes);
-  }
+  return with_component(component, [&]<class T>(T value) -> double {
+    std::memcpy(&value, bytes, sizeof value);
+    if constexpr (std::is_floating_point_v<T>) {
+      return value;
+    } else {
+      const double whole = value;
+      return normalized ? std::max(whole / std::numeric_limits<T>::max(), -1.0) : whole;
+    }
+  });
 }
 
 bool store_component(double value, int component, bool normalized, char* bytes) {
-  switch (component) {
-    case gltf_byte:
-      return store_whole<std::int8_t>(value, normalized, bytes);
-    case gltf_ubyte:
-      return store_whole<std::uint8_t>(value, normalized, bytes);
-    case gltf_short:
-      return store_whole<std::int16_t>(value, normalized, bytes);
-    case gltf_ushort:
-      return store_whole<std::uint16_t>(value, normalized, bytes);
-    default:
-      break;
-  }
-  const auto stored = static_cast<float>(value);
-  if (component != gltf_float || !std::isfinite(stored)) return false;
-  std::memcpy(bytes, &stored, sizeof stored);
-  return true;
+  return with_component(component, [&]<class T>(T stored) {
+    using Limits = std::numeric_limits<T>;
+    if constexpr (std::is_floating_point_v<T>) {
+      stored = static_cast<T>(value);
+      if (component != gltf_float || !std::isfinite(stored)) return false;
+    } else {
+      const double least = normalized && Limits::is_signed ? -static_cast<double>(Limits::max())
+                                                           : static_cast<double>(Limits::min());
+      const double steps = std::round(normalized ? value * Limits::max() : value);
+      if (component == gltf_uint ||
+          !(steps >= least && steps <= static_cast<double>(Limits::max())))
+        return false;
+      stored = static_cast<T>(steps);
+    }
+    std::memcpy(bytes, &stored, sizeof stored);
+    return true;
+  });
 }
 
 bool is_stored_alone(const GltfModel& model, std::size_t accessor) {

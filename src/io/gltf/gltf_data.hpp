@@ -61,6 +61,10 @@ class GltfNumbers {
   void check_view(std::size_t view, std::size_t offset, std::size_t count, std::size_t size,
                   std::size_t stride) const;
   void check_sparse() const;
+  /// Calls `visit(element, place)` for each stored element; a sparse one follows the one that it
+  /// replaces.
+  template <class Visit>
+  void for_each_stored(const Visit& visit) const;
   std::size_t stride() const;
   std::size_t element_size() const;
   std::size_t sparse_index(std::size_t i) const;

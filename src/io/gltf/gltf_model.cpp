@@ -86,18 +86,13 @@ GltfView view_of(const GltfJson& json) {
   return view;
 }
 
-std::size_t width_of_type(const std::string& type) {
-  constexpr std::array<std::pair<std::string_view, std::size_t>, 7> widths{{{"SCALAR", 1},
-                                                                            {"VEC2", 2},
-                                                                            {"VEC3", 3},
-                                                                            {"VEC4", 4},
-                                                                            {"MAT2", 4},
-                                                                            {"MAT3", 9},
-                                                                            {"MAT4", 16}}};
-  for (const auto& [name, width] : widths) {
-    if (type == name) return width;
-  }
-  return 0;
+constexpr std::array<std::pair<const char*, std::size_t>, 7> gltf_types{
+    {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}}};
+
+std::size_t width_of_type(std::string_view type) {
+  const auto found = std::find_if(gltf_types.begin(), gltf_types.end(),
+                                  [&](const auto& entry) { return type == entry.first; });
+  return found == gltf_types.end() ? 0 : found->second;
 }
 
 GltfSparse sparse_of(const GltfJson& json) {
@@ -353,6 +348,12 @@ GltfModel parse_gltf(const GltfFile& file) {
   read_asset(file, root, model);
   read_sections(file, root, model);
   return model;
+}
+
+const char* gltf_type_of_width(std::size_t width) {
+  return std::find_if(gltf_types.begin(), gltf_types.end(),
+                      [&](const auto& entry) { return entry.second == width; })
+      ->first;
 }
 
 std::string name_of_node(const GltfModel& model, std::size_t node) {

@@ -103,6 +103,9 @@ struct GltfModel {
 /// byte.
 GltfModel parse_gltf(const GltfFile& file);
 
+/// Returns the type of elements of 1, 2, 3, 4, 9 or 16 components: "VEC3".
+const char* gltf_type_of_width(std::size_t width);
+
 /// Returns a name for messages and joints: the node's own, else `node_3`.
 std::string name_of_node(const GltfModel& model, std::size_t node);
 /// Returns the name of an animation; `#2` for the second one if it has no name.

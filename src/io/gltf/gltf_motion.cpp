@@ -1,5 +1,5 @@
-// Chooses the nodes that are joints, decodes their motion from the curves of an animation, and
-// bounds the memory of a take.
+// Chooses the nodes that are joints or markers, decodes their motion from the curves of an
+// animation, and bounds the memory of a take.
 #include "io/gltf/gltf_motion.hpp"
 
 #include <fmt/format.h>
@@ -100,6 +100,114 @@ std::vector<std::size_t> gltf_joints(const GltfModel& model, std::size_t animati
 
 namespace {
 
+// Returns a mark for each node of the file: 1 for those listed.
+std::vector<std::uint8_t> marked_nodes(const GltfModel& model,
+                                       const std::vector<std::size_t>& nodes) {
+  std::vector<std::uint8_t> marks(model.nodes.size());
+  for (const std::size_t node : nodes) marks[node] = 1;
+  return marks;
+}
+
+// Throws `unreadable_input` if the frames need far more memory than the file has bytes.
+void check_gltf_memory(const GltfFile& file, const GltfBuffers& buffers, std::size_t frames,
+                       std::size_t bytes_per_frame) {
+  const double needed = static_cast<double>(frames) * static_cast<double>(bytes_per_frame);
+  const std::size_t bytes = file.bytes.size() + buffers.size_beside();
+  if (needed <= static_cast<double>(memory_limit(bytes))) return;
+  throw Error::at_byte(file.name, file.json.begin,
+                       fmt::format("{} frames of {} bytes: too much memory for a file of {} bytes",
+                                   frames, bytes_per_frame, bytes));
+}
+
+// The curves of an animation for the nodes of a take, and their common frames.
+class GltfCurves {
+ public:
+  // Reads translation, rotation and scale of the nodes.
+  GltfCurves(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
+             std::size_t animation, const std::vector<std::size_t>& nodes)
+      : channels_(3 * model.nodes.size(), GltfTrack::none) {
+    if (animation == GltfTrack::none) return;
+    const GltfAnimation& chosen = model.animations[animation];
+    const std::vector<std::uint8_t> wanted = marked_nodes(model, nodes);
+    curves_.resize(chosen.channels.size());
+    GltfClocks clocks;
+    std::size_t read = 0;
+    for (std::size_t c = 0; c < chosen.channels.size(); ++c) {
+      const GltfChannel& channel = chosen.channels[c];
+      const bool is_wanted = channel.path != GltfPath::other && channel.node >= 0 &&
+                             wanted[static_cast<std::size_t>(channel.node)] != 0;
+      if (!is_wanted) continue;
+      const auto node = static_cast<std::size_t>(channel.node);
+      std::size_t& slot = channels_[3 * node + static_cast<std::size_t>(channel.path)];
+      if (slot != GltfTrack::none) {
+        repeated_.push_back(node);
+        continue;
+      }
+      slot = c;
+      curves_[c] = read_gltf_curve(file, model, buffers, chosen.samplers[channel.sampler],
+                                   channel.path, clocks);
+      if (channel.path != GltfPath::scale) moving_.push_back(&curves_[c]);
+      // Channels may share a sampler; the memory of each is counted.
+      read += curves_[c].keys() * (curves_[c].parts() + 1) * sizeof(double);
+      check_gltf_memory(file, buffers, 1, read);
+    }
+  }
+
+  // Returns the number of a node's channel, or `GltfTrack::none`.
+  std::size_t channel(std::size_t node, GltfPath path) const {
+    return channels_[3 * node + static_cast<std::size_t>(path)];
+  }
+  // Returns the curve of a channel that was read; null for `GltfTrack::none`.
+  const GltfCurve* curve(std::size_t channel) const {
+    return channel == GltfTrack::none ? nullptr : &curves_[channel];
+  }
+  // Returns the curves of rotations and translations.
+  const std::vector<const GltfCurve*>& moving() const { return moving_; }
+  // Returns a node once for each of its channels that repeats another.
+  const std::vector<std::size_t>& repeated() const { return repeated_; }
+
+ private:
+  std::vector<std::size_t> channels_;  // three per node
+  std::vector<GltfCurve> curves_;      // by channel
+  std::vector<const GltfCurve*> moving_;
+  std::vector<std::size_t> repeated_;
+};
+
+// Holds the nodes of a take and their curves, for the decoders of joints and of markers.
+class GltfDecoder {
+ protected:
+  GltfDecoder(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
+              std::size_t animation, double rate_hz, std::vector<std::size_t> nodes,
+              std::size_t bytes_per_node)
+      : file_(file),
+        model_(model),
+        nodes_(std::move(nodes)),
+        curves_(file, model, buffers, animation, nodes_) {
+    motion_.animation = animation;
+    motion_.grid = grid_of_curves(curves_.moving(), rate_hz);
+    check_gltf_memory(file, buffers, motion_.grid.times.count, nodes_.size() * bytes_per_node);
+    for (const std::size_t node : curves_.repeated())
+      motion_.repeated.push_back(name_of_node(model, node));
+  }
+
+  std::size_t frames() const { return motion_.grid.times.count; }
+
+  // Stores in the track whether its curve has a key in each frame, and updates the motion's counts
+  // of keys.
+  void note_keys(const GltfCurve& curve, GltfTrack& track) {
+    track.has_key_each_frame = has_key_each_frame(curve, motion_.grid.times);
+    if (!track.has_key_each_frame && !is_constant(curve)) ++motion_.interpolated;
+    motion_.held_keys +=
+        static_cast<std::size_t>(std::count(curve.held.begin(), curve.held.end(), 1));
+  }
+
+  const GltfFile& file_;
+  const GltfModel& model_;
+  std::vector<std::size_t> nodes_;
+  GltfCurves curves_;
+  GltfMotion motion_;
+};
+
 // The frame of a node's children: a rotation, an origin, and a scale for each frame or for all.
 struct GltfFrameOfNode {
   Quat rotation;
@@ -125,40 +233,32 @@ Vec3 mean_scale(Vec3 s) {
   return {mean, mean, mean};
 }
 
-class GltfJointDecoder {
+class GltfJointDecoder : GltfDecoder {
  public:
   GltfJointDecoder(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
                    std::size_t animation, double rate_hz)
-      : file_(file),
-        model_(model),
-        joints_(bounded(file, gltf_joints(model, animation))),
-        joint_of_node_(joint_numbers()),
-        curves_(file, model, buffers, animation, wanted()) {
-    motion_.animation = animation;
-    motion_.grid = grid_of_curves(curves_.moving_curves(), rate_hz);
-    check_gltf_memory(file, buffers, motion_.grid.times.count,
-                      joints_.size() * (sizeof(Quat) + 2 * sizeof(Vec3)));
+      : GltfDecoder(file, model, buffers, animation, rate_hz,
+                    bounded(file, gltf_joints(model, animation)), sizeof(Quat) + 2 * sizeof(Vec3)),
+        joint_of_node_(model.nodes.size(), -1) {
+    for (std::size_t j = 0; j < nodes_.size(); ++j)
+      joint_of_node_[nodes_[j]] = static_cast<std::int32_t>(j);
   }
 
   GltfMotion decode() {
     Take& take = motion_.take;
     take.frame_rate_hz = motion_.grid.times.rate_hz;
     take.metres_per_unit = 1;
-    take.rotations.resize(frames() * joints_.size());
-    for (std::size_t j = 0; j < joints_.size(); ++j) add_joint(j);
+    take.rotations.resize(frames() * nodes_.size());
+    for (std::size_t j = 0; j < nodes_.size(); ++j) add_joint(j);
     place_joints();
     gather_positions();
     if (!held_rotations_.empty()) take.observed = std::move(held_rotations_);
-    for (const std::size_t node : curves_.repeated())
-      motion_.repeated.push_back(name_of_node(model_, node));
     add_end_sites();
     check_finite();
     return std::move(motion_);
   }
 
  private:
-  std::size_t frames() const { return motion_.grid.times.count; }
-
   static std::vector<std::size_t> bounded(const GltfFile& file, std::vector<std::size_t> joints) {
     constexpr std::size_t most_gltf_joints = 16384;  // as in BVH
     if (joints.empty()) throw Error::at_byte(file.name, file.json.begin, "no node is a joint");
@@ -167,21 +267,8 @@ class GltfJointDecoder {
     return joints;
   }
 
-  std::vector<std::int32_t> joint_numbers() const {
-    std::vector<std::int32_t> numbers(model_.nodes.size(), -1);
-    for (std::size_t j = 0; j < joints_.size(); ++j)
-      numbers[joints_[j]] = static_cast<std::int32_t>(j);
-    return numbers;
-  }
-
-  std::vector<std::uint8_t> wanted() const {
-    std::vector<std::uint8_t> wanted(model_.nodes.size());
-    for (const std::size_t node : joints_) wanted[node] = 1;
-    return wanted;
-  }
-
   void add_joint(std::size_t j) {
-    const std::size_t node = joints_[j];
+    const std::size_t node = nodes_[j];
     const std::int64_t above = model_.nodes[node].parent;
     const std::int32_t parent = above < 0 ? -1 : joint_of_node_[static_cast<std::size_t>(above)];
     GltfFrameOfNode outer;
@@ -253,17 +340,17 @@ class GltfJointDecoder {
   void add_rotation(std::size_t j) {
     GltfTrack track;
     track.owner = j;
-    track.node = joints_[j];
+    track.node = nodes_[j];
     track.rest = model_.nodes[track.node].rotation;
     track.channel = curves_.channel(track.node, GltfPath::rotation);
     if (const GltfCurve* const curve = curves_.curve(track.channel)) {
-      note_gltf_keys(*curve, track, motion_);
+      note_keys(*curve, track);
       const std::vector<Quat> turns = rotations_at(*curve, motion_.grid.times);
       for (std::size_t f = 0; f < turns.size(); ++f) {
-        motion_.take.rotations[f * joints_.size() + j] =
+        motion_.take.rotations[f * nodes_.size() + j] =
             unit_rotation(conjugate(track.rest) * turns[f]);
       }
-      if (track.has_key_each_frame) mark_held(held_rotations_, curve->held, j, joints_.size());
+      if (track.has_key_each_frame) mark_held(held_rotations_, curve->held, j, nodes_.size());
     }
     motion_.tracks.push_back(std::move(track));
   }
@@ -279,7 +366,7 @@ class GltfJointDecoder {
 
   void add_position(std::size_t j, const GltfFrameOfNode& outer) {
     GltfTrack track;
-    track.node = joints_[j];
+    track.node = nodes_[j];
     track.path = GltfPath::translation;
     track.outer = outer.rotation;
     track.origin = outer.origin;
@@ -291,7 +378,7 @@ class GltfJointDecoder {
     std::vector<Vec3> positions;
     if (curve != nullptr) {
       positions = vectors_at(*curve, motion_.grid.times);
-      note_gltf_keys(*curve, track, motion_);
+      note_keys(*curve, track);
     } else if (j == 0 || track.scale.size() > 1) {
       positions.assign(frames(), rest);
     }
@@ -307,10 +394,10 @@ class GltfJointDecoder {
     constexpr double noise = 5e-6;
     Skeleton& skeleton = motion_.take.skeleton;
     double longest = 0;
-    for (std::size_t j = 0; j < joints_.size(); ++j) {
+    for (std::size_t j = 0; j < nodes_.size(); ++j) {
       if (skeleton.parents[j] >= 0) longest = std::max(longest, norm(skeleton.offsets[j]));
     }
-    for (std::size_t j = 0; j < joints_.size(); ++j) {
+    for (std::size_t j = 0; j < nodes_.size(); ++j) {
       GltfPlaces& places = places_[j];
       const GltfCurve* const curve = curves_.curve(places.track.channel);
       const bool is_whole = curve == nullptr || curve->held.empty();
@@ -353,9 +440,9 @@ class GltfJointDecoder {
   // Adds the ends of chains: nodes below a joint without children or content. An end has a fixed
   // position in its joint, so joints whose scale changes are skipped.
   void add_end_sites() {
-    for (std::size_t j = 0; j < joints_.size(); ++j) {
+    for (std::size_t j = 0; j < nodes_.size(); ++j) {
       if (scales_[j].size() > 1) continue;
-      for (const std::uint32_t child : model_.nodes[joints_[j]].children) {
+      for (const std::uint32_t child : model_.nodes[nodes_[j]].children) {
         const GltfNode& node = model_.nodes[child];
         if (joint_of_node_[child] >= 0 || !node.children.empty() || node.holds_more) continue;
         motion_.take.skeleton.end_sites.push_back(
@@ -368,23 +455,18 @@ class GltfJointDecoder {
   void check_finite() const {
     const auto is_finite = [](Vec3 v) { return std::isfinite(v.x + v.y + v.z); };
     const Skeleton& skeleton = motion_.take.skeleton;
-    for (std::size_t j = 0; j < joints_.size(); ++j) {
+    for (std::size_t j = 0; j < nodes_.size(); ++j) {
       if (!is_finite(skeleton.offsets[j]))
-        throw gltf_error(file_, "nodes", joints_[j], "its place is not finite");
+        throw gltf_error(file_, "nodes", nodes_[j], "its place is not finite");
     }
     const bool ends = std::all_of(skeleton.end_sites.begin(), skeleton.end_sites.end(),
                                   [&](const EndSite& site) { return is_finite(site.offset); });
     if (!ends ||
         !std::all_of(motion_.take.positions.begin(), motion_.take.positions.end(), is_finite))
-      throw gltf_error(file_, "nodes", joints_[0], "a position below it is not finite");
+      throw gltf_error(file_, "nodes", nodes_[0], "a position below it is not finite");
   }
 
-  const GltfFile& file_;
-  const GltfModel& model_;
-  std::vector<std::size_t> joints_;
   std::vector<std::int32_t> joint_of_node_;
-  GltfCurves curves_;
-  GltfMotion motion_;
   std::unordered_map<std::size_t, GltfFrameOfNode> static_frames_;
   std::vector<std::vector<Vec3>> scales_;  // by joint: the scale of its children
   std::vector<GltfPlaces> places_;         // by joint
@@ -392,11 +474,113 @@ class GltfJointDecoder {
   std::vector<std::uint8_t> held_rotations_;
 };
 
+// Files of markers are made by this project's writer.
+std::size_t marker_group(const GltfModel& model) {
+  for (const std::size_t root : model.roots) {
+    if (model.nodes[root].name == "markers") return root;
+  }
+  return GltfTrack::none;
+}
+
+// Returns the nodes of a file of markers; empty for any other file.
+std::vector<std::size_t> gltf_markers(const GltfModel& model, std::size_t animation) {
+  const std::size_t group = marker_group(model);
+  if (group == GltfTrack::none || animation == GltfTrack::none || !model.skins.empty()) return {};
+  std::vector<std::uint8_t> moved(model.nodes.size());
+  for (const GltfChannel& channel : model.animations[animation].channels) {
+    if (channel.node < 0 || channel.path == GltfPath::other) continue;
+    const auto node = static_cast<std::size_t>(channel.node);
+    const bool is_marker = model.nodes[node].parent == static_cast<std::int64_t>(group);
+    if (!is_marker || channel.path == GltfPath::rotation) return {};
+    if (channel.path == GltfPath::translation) moved[node] = 1;
+  }
+  std::vector<std::size_t> markers;
+  for (const std::uint32_t child : model.nodes[group].children) {
+    if (moved[child] != 0) markers.push_back(child);
+  }
+  return markers;
+}
+
+class GltfMarkerDecoder : GltfDecoder {
+ public:
+  GltfMarkerDecoder(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
+                    std::size_t animation, double rate_hz, std::vector<std::size_t> markers)
+      : GltfDecoder(file, model, buffers, animation, rate_hz, std::move(markers),
+                    2 * sizeof(Vec3) + 1) {}
+
+  GltfMotion decode() {
+    std::vector<std::string> names;
+    for (const std::size_t node : nodes_) names.push_back(model_.nodes[node].name);
+    motion_.take =
+        make_marker_take(std::move(names), motion_.grid.times.count, motion_.grid.times.rate_hz);
+    motion_.take.unit = std::string("m");
+    for (std::size_t m = 0; m < nodes_.size(); ++m) {
+      add_places(m);
+      add_presence(m);
+    }
+    return std::move(motion_);
+  }
+
+ private:
+  GltfTrack track_of(std::size_t marker, GltfPath path) const {
+    const GltfNode& group = model_.nodes[marker_group(model_)];
+    GltfTrack track;
+    track.owner = marker;
+    track.node = nodes_[marker];
+    track.path = path;
+    track.outer = group.rotation;
+    track.origin = group.translation;
+    track.scale = {group.scale};
+    track.channel = curves_.channel(track.node, path);
+    return track;
+  }
+
+  void add_places(std::size_t m) {
+    GltfTrack track = track_of(m, GltfPath::translation);
+    Take& take = motion_.take;
+    std::vector<Vec3> places(take.frame_count(), model_.nodes[track.node].translation);
+    const GltfCurve* const curve = curves_.curve(track.channel);
+    if (curve != nullptr) {
+      note_keys(*curve, track);
+      places = vectors_at(*curve, motion_.grid.times);
+    }
+    for (std::size_t f = 0; f < places.size(); ++f) {
+      const Vec3 place = track.to_take(places[f], f);
+      if (!std::isfinite(place.x + place.y + place.z))
+        throw gltf_error(file_, "nodes", track.node, "its place is not finite");
+      take.position(f, m) = place;
+      const bool was_held = curve != nullptr && track.has_key_each_frame && !curve->held.empty() &&
+                            curve->held[f] != 0;
+      take.observed[f * nodes_.size() + m] = was_held ? 0 : 1;
+    }
+    motion_.tracks.push_back(std::move(track));
+  }
+
+  // A marker with scale 0 is missing.
+  void add_presence(std::size_t m) {
+    GltfTrack track = track_of(m, GltfPath::scale);
+    Take& take = motion_.take;
+    if (const GltfCurve* const curve = curves_.curve(track.channel)) {
+      note_keys(*curve, track);
+      const std::vector<Vec3> sizes = vectors_at(*curve, motion_.grid.times);
+      for (std::size_t f = 0; f < sizes.size(); ++f) {
+        if (sizes[f] == Vec3{}) take.observed[f * nodes_.size() + m] = 0;
+      }
+    }
+    for (std::size_t f = 0; f < take.frame_count(); ++f) {
+      if (!take.is_observed(f, m)) take.position(f, m) = {};
+    }
+    motion_.tracks.push_back(std::move(track));
+  }
+};
+
 }  // namespace
 
-GltfMotion decode_gltf_joints(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
-                              std::size_t animation, double rate_hz) {
-  return GltfJointDecoder(file, model, buffers, animation, rate_hz).decode();
+GltfMotion decode_gltf(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
+                       std::size_t animation, double rate_hz) {
+  std::vector<std::size_t> markers = gltf_markers(model, animation);
+  if (markers.empty()) return GltfJointDecoder(file, model, buffers, animation, rate_hz).decode();
+  return GltfMarkerDecoder(file, model, buffers, animation, rate_hz, std::move(markers)).decode();
 }
 
 Vec3 GltfTrack::to_take(Vec3 translation, std::size_t frame) const {
@@ -410,67 +594,6 @@ Vec3 GltfTrack::to_file(Vec3 position, std::size_t frame, const std::string& nam
   throw Error(ErrorKind::usage,
               fmt::format("node {}: it cannot be moved, because a node above it has a scale of 0",
                           quote(name)));
-}
-
-GltfCurves::GltfCurves(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
-                       std::size_t animation, const std::vector<std::uint8_t>& wanted)
-    : channels_(3 * model.nodes.size(), GltfTrack::none) {
-  if (animation == GltfTrack::none) return;
-  const GltfAnimation& chosen = model.animations[animation];
-  curves_.resize(chosen.channels.size());
-  GltfClocks clocks;
-  std::size_t read = 0;
-  for (std::size_t c = 0; c < chosen.channels.size(); ++c) {
-    const GltfChannel& channel = chosen.channels[c];
-    paths_.push_back(channel.path);
-    const bool is_wanted = channel.path != GltfPath::other && channel.node >= 0 &&
-                           wanted[static_cast<std::size_t>(channel.node)] != 0;
-    if (!is_wanted) continue;
-    const auto node = static_cast<std::size_t>(channel.node);
-    std::size_t& slot = channels_[3 * node + static_cast<std::size_t>(channel.path)];
-    if (slot != GltfTrack::none) {
-      repeated_.push_back(node);
-      continue;
-    }
-    slot = c;
-    curves_[c] = read_gltf_curve(file, model, buffers, chosen.samplers[channel.sampler],
-                                 channel.path, clocks);
-    // Channels may share a sampler; the memory of each is counted.
-    read += curves_[c].keys() * (curves_[c].parts() + 1) * sizeof(double);
-    check_gltf_memory(file, buffers, 1, read);
-  }
-}
-
-std::size_t GltfCurves::channel(std::size_t node, GltfPath path) const {
-  return channels_[3 * node + static_cast<std::size_t>(path)];
-}
-
-const GltfCurve* GltfCurves::curve(std::size_t channel) const {
-  return channel == GltfTrack::none ? nullptr : &curves_[channel];
-}
-
-std::vector<const GltfCurve*> GltfCurves::moving_curves() const {
-  std::vector<const GltfCurve*> curves;
-  for (std::size_t c = 0; c < curves_.size(); ++c) {
-    if (curves_[c].keys() > 0 && paths_[c] != GltfPath::scale) curves.push_back(&curves_[c]);
-  }
-  return curves;
-}
-
-void note_gltf_keys(const GltfCurve& curve, GltfTrack& track, GltfMotion& motion) {
-  track.has_key_each_frame = has_key_each_frame(curve, motion.grid.times);
-  if (!track.has_key_each_frame && !is_constant(curve)) ++motion.interpolated;
-  motion.held_keys += static_cast<std::size_t>(std::count(curve.held.begin(), curve.held.end(), 1));
-}
-
-void check_gltf_memory(const GltfFile& file, const GltfBuffers& buffers, std::size_t frames,
-                       std::size_t bytes_per_frame) {
-  const double needed = static_cast<double>(frames) * static_cast<double>(bytes_per_frame);
-  const std::size_t bytes = file.bytes.size() + buffers.size_beside();
-  if (needed <= static_cast<double>(memory_limit(bytes))) return;
-  throw Error::at_byte(file.name, file.json.begin,
-                       fmt::format("{} frames of {} bytes: too much memory for a file of {} bytes",
-                                   frames, bytes_per_frame, bytes));
 }
 
 }  // namespace kinemend

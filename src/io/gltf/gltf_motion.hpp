@@ -57,47 +57,12 @@ struct GltfMotion {
 /// root are not joints. Nodes between joints are.
 std::vector<std::size_t> gltf_joints(const GltfModel& model, std::size_t animation);
 
-/// Decodes the animation `animation` (`none`: a take without frames). `rate_hz`: for keys that are
-/// not on a grid of frames. The same file always gives the same numbers. Errors:
-/// `unreadable_input`.
-GltfMotion decode_gltf_joints(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
-                              std::size_t animation, double rate_hz);
-
-/// Returns the nodes of a file of markers from `write_glb`: children of a node called
-/// "markers", moved but not rotated; empty for any other file.
-std::vector<std::size_t> gltf_markers(const GltfModel& model, std::size_t animation);
-GltfMotion decode_gltf_markers(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
-                               std::size_t animation, double rate_hz);
-
-/// The curves of an animation for the nodes of a take, and their common frames.
-class GltfCurves {
- public:
-  /// Reads translation, rotation and scale of the nodes for which `wanted` is not 0.
-  GltfCurves(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
-             std::size_t animation, const std::vector<std::uint8_t>& wanted);
-
-  /// Returns the number of a node's channel, or `GltfTrack::none`.
-  std::size_t channel(std::size_t node, GltfPath path) const;
-  /// Returns the curve of a channel that was read.
-  const GltfCurve* curve(std::size_t channel) const;
-  std::vector<const GltfCurve*> moving_curves() const;
-  /// Returns a node once for each of its channels that repeats another.
-  const std::vector<std::size_t>& repeated() const { return repeated_; }
-
- private:
-  std::vector<std::size_t> channels_;  // three per node
-  std::vector<GltfCurve> curves_;      // by channel
-  std::vector<GltfPath> paths_;
-  std::vector<std::size_t> repeated_;
-};
-
-/// Stores in the track whether its curve has a key in each frame, and updates the motion's counts
-/// of keys.
-void note_gltf_keys(const GltfCurve& curve, GltfTrack& track, GltfMotion& motion);
-
-/// Throws `unreadable_input` if the frames need far more memory than the file has bytes.
-void check_gltf_memory(const GltfFile& file, const GltfBuffers& buffers, std::size_t frames,
-                       std::size_t bytes_per_frame);
+/// Decodes the animation `animation` (`none`: a take without frames) as a take of joints, or of
+/// markers for a file of markers from `write_glb`: children of a node called "markers", moved but
+/// not rotated. `rate_hz`: for keys that are not on a grid of frames. The same file always gives
+/// the same numbers. Errors: `unreadable_input`.
+GltfMotion decode_gltf(const GltfFile& file, const GltfModel& model, GltfBuffers& buffers,
+                       std::size_t animation, double rate_hz);
 
 /// A glTF file as it was read, and the animation of the take.
 struct GltfDocument : SourceDocument {
@@ -105,14 +70,12 @@ struct GltfDocument : SourceDocument {
   GltfModel model;
   GltfBuffers buffers;
   std::size_t animation = GltfTrack::none;
-  bool has_markers = false;
   double rate_hz = 0;  ///< requested rate for keys that are not on a grid of frames
 
   /// Decodes the motion again, with the same numbers.
   GltfMotion motion() const {
     GltfBuffers loaded = buffers;
-    return has_markers ? decode_gltf_markers(file, model, loaded, animation, rate_hz)
-                       : decode_gltf_joints(file, model, loaded, animation, rate_hz);
+    return decode_gltf(file, model, loaded, animation, rate_hz);
   }
 };
 

@@ -1,7 +1,5 @@
 // Makes new files, skeletons as skinned bones and markers as small spheres, and lays out their JSON
 // and binary data.
-#include "io/gltf/gltf_new.hpp"
-
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -14,8 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "io/gltf/gltf.hpp"
 #include "io/gltf/gltf_container.hpp"
-#include "io/gltf/gltf_data.hpp"
+#include "io/gltf/gltf_model.hpp"
 #include "io/held_samples.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/extend/rotation.hpp"
@@ -24,77 +23,23 @@
 
 namespace kinemend {
 
+namespace {
+
 using Json = nlohmann::ordered_json;
 
-/// A binary glTF 2.0 file under construction: a JSON document, and the bytes that its accessors
-/// point to.
-class GlbBuilder {
- public:
-  GlbBuilder();
+// A number that is finite as a double may overflow as a float, which glTF cannot hold.
+void check_finite(std::span<const float> values) {
+  if (std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); }))
+    return;
+  throw Error(ErrorKind::usage, "a length is too large for a glTF file");
+}
 
-  Json& document() { return document_; }
-
-  /// Appends a node and returns its index, like the functions below.
-  std::size_t add_node(Json node);
-  /// Appends elements of `components` floats: 1, 3, 4 or 16. `with_range` adds the least and
-  /// largest value of each component, which times and vertex positions must have.
-  std::size_t add_floats(const std::vector<float>& values, std::size_t components, bool with_range,
-                         bool of_vertices);
-  /// Appends four joint indices per vertex.
-  std::size_t add_vertex_joints(const std::vector<std::uint16_t>& values);
-
-  /// Returns the file's bytes. Bytes of names that are not UTF-8 are removed.
-  std::string finish() &&;
-
- private:
-  std::size_t add_view(const void* data, std::size_t bytes, bool of_vertices);
-  std::size_t add_accessor(std::size_t view, int component_type, std::size_t count,
-                           const char* type);
-
-  Json document_;
-  std::string binary_;
-};
-
-/// One animation of nodes with the same times.
-class GlbAnimation {
- public:
-  /// Frame f has the time f / rate. At least one frame.
-  GlbAnimation(GlbBuilder& file, std::size_t frames, double frame_rate_hz);
-
-  void add_translation(std::size_t node, const std::vector<float>& xyz);
-  /// Adds rotations with signs chosen so that interpolation takes the shortest path.
-  void add_rotation(std::size_t node, std::vector<Quat> rotations);
-  /// Adds steps in which the node is visible (1) or not (0).
-  void add_presence(std::size_t node, const std::vector<std::uint8_t>& present);
-  void finish();
-
- private:
-  void add_channel(std::size_t node, const char* path, std::size_t output,
-                   const char* interpolation);
-
-  GlbBuilder& file_;
-  std::size_t times_;
-  Json samplers_ = Json::array();
-  Json channels_ = Json::array();
-};
-
-/// Triangles with one normal each.
-struct GlbMesh {
-  std::vector<float> positions, normals;  ///< three per vertex, three vertices per triangle
-  std::vector<std::uint16_t> joints;      ///< joint of each vertex; empty without skin
-
-  void add_triangle(const std::array<Vec3, 3>& corners, Vec3 inside, std::uint16_t joint);
-  std::size_t vertices() const { return positions.size() / 3; }
-};
-
-/// Adds mesh and material; returns the mesh's index.
-std::size_t add_mesh(GlbBuilder& file, const GlbMesh& mesh, const char* name);
-
-/// Converts to floats. Errors: `usage` for a number that overflows as a float, which glTF cannot
-/// hold.
-std::array<float, 3> to_floats(Vec3 v);
-
-namespace {
+std::array<float, 3> to_floats(Vec3 v) {
+  const std::array<float, 3> floats{static_cast<float>(v.x), static_cast<float>(v.y),
+                                    static_cast<float>(v.z)};
+  check_finite(floats);
+  return floats;
+}
 
 Json json_of(Vec3 v) { return to_floats(v); }
 
@@ -103,14 +48,184 @@ Json json_of(Quat q) {
           static_cast<float>(q.w)};
 }
 
-double metres_of(const Take& clip) {
-  const double metres = likely_metres_per_unit(clip);
-  return metres > 0 ? metres : 1;
-}
-
 void append(std::vector<float>& values, Vec3 v) {
   const auto floats = to_floats(v);
   values.insert(values.end(), floats.begin(), floats.end());
+}
+
+// A binary glTF 2.0 file under construction: a JSON document, and the bytes that its accessors
+// point to.
+class GlbBuilder {
+ public:
+  GlbBuilder() {
+    static_assert(std::endian::native == std::endian::little, "glTF holds little-endian numbers");
+    document_["asset"] = {{"version", "2.0"}, {"generator", "Kinemend " + std::string(version())}};
+    document_["scene"] = 0;
+    document_["scenes"] = Json::array({{{"nodes", Json::array()}}});
+    document_["nodes"] = Json::array();
+  }
+
+  Json& document() { return document_; }
+
+  // Appends a node and returns its index, like the functions below.
+  std::size_t add_node(Json node) {
+    document_["nodes"].push_back(std::move(node));
+    return document_["nodes"].size() - 1;
+  }
+  void show(std::size_t node) { document_["scenes"][0]["nodes"].push_back(node); }
+
+  // Appends elements of `components` floats: 1, 3, 4 or 16. `with_range` adds the least and largest
+  // value of each component, which times and vertex positions must have.
+  std::size_t add_floats(const std::vector<float>& values, std::size_t components,
+                         bool with_range = false, bool of_vertices = false) {
+    check_finite(values);
+    const std::size_t index = add_accessor(std::as_bytes(std::span(values)), of_vertices,
+                                           gltf_float, values.size() / components, components);
+    if (with_range) {
+      std::vector<float> least(values.begin(),
+                               values.begin() + static_cast<std::ptrdiff_t>(components));
+      std::vector<float> most = least;
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        least[i % components] = std::min(least[i % components], values[i]);
+        most[i % components] = std::max(most[i % components], values[i]);
+      }
+      document_["accessors"][index]["min"] = least;
+      document_["accessors"][index]["max"] = most;
+    }
+    return index;
+  }
+  // Appends four joint indices per vertex.
+  std::size_t add_vertex_joints(const std::vector<std::uint16_t>& values) {
+    return add_accessor(std::as_bytes(std::span(values)), true, gltf_ushort, values.size() / 4, 4);
+  }
+
+  // Returns the file's bytes. Bytes of names that are not UTF-8 are removed.
+  std::string finish() && {
+    pad();
+    if (!binary_.empty()) document_["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
+    return new_glb(document_.dump(-1, ' ', false, Json::error_handler_t::ignore), binary_);
+  }
+
+ private:
+  void pad() { binary_.append((4 - binary_.size() % 4) % 4, '\0'); }
+
+  std::size_t add_accessor(std::span<const std::byte> bytes, bool of_vertices, int component_type,
+                           std::size_t count, std::size_t components) {
+    constexpr int target_array_buffer = 34962;
+    pad();
+    Json view{{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes.size()}};
+    if (of_vertices) view["target"] = target_array_buffer;
+    binary_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    document_["bufferViews"].push_back(std::move(view));
+    document_["accessors"].push_back({{"bufferView", document_["bufferViews"].size() - 1},
+                                      {"componentType", component_type},
+                                      {"count", count},
+                                      {"type", gltf_type_of_width(components)}});
+    return document_["accessors"].size() - 1;
+  }
+
+  Json document_;
+  std::string binary_;
+};
+
+// One animation of nodes with the same times.
+class GlbAnimation {
+ public:
+  // Frame f has the time f / rate. At least one frame.
+  GlbAnimation(GlbBuilder& file, std::size_t frames, double frame_rate_hz) : file_(file) {
+    std::vector<float> times(frames);
+    for (std::size_t f = 0; f < frames; ++f)
+      times[f] = static_cast<float>(static_cast<double>(f) / frame_rate_hz);
+    times_ = file_.add_floats(times, 1, true);
+  }
+
+  void add_translation(std::size_t node, const std::vector<float>& xyz) {
+    add_channel(node, "translation", file_.add_floats(xyz, 3), "LINEAR");
+  }
+  // Adds rotations with signs chosen so that interpolation takes the shortest path.
+  void add_rotation(std::size_t node, std::vector<Quat> rotations) {
+    align_hemispheres(rotations);
+    std::vector<float> xyzw;
+    xyzw.reserve(4 * rotations.size());
+    for (const Quat& q : rotations) {
+      for (const double value : {q.x, q.y, q.z, q.w}) xyzw.push_back(static_cast<float>(value));
+    }
+    add_channel(node, "rotation", file_.add_floats(xyzw, 4), "LINEAR");
+  }
+  // Adds steps in which the node is visible (1) or not (0).
+  void add_presence(std::size_t node, const std::vector<std::uint8_t>& present) {
+    std::vector<float> scales;
+    for (const std::uint8_t there : present)
+      scales.insert(scales.end(), 3, there != 0 ? 1.0F : 0.0F);
+    add_channel(node, "scale", file_.add_floats(scales, 3), "STEP");
+  }
+  void finish() {
+    if (channels_.empty()) return;
+    file_.document()["animations"] = Json::array({{{"name", "take"},
+                                                   {"samplers", std::move(samplers_)},
+                                                   {"channels", std::move(channels_)}}});
+  }
+
+ private:
+  void add_channel(std::size_t node, const char* path, std::size_t output,
+                   const char* interpolation) {
+    samplers_.push_back({{"input", times_}, {"output", output}, {"interpolation", interpolation}});
+    channels_.push_back(
+        {{"sampler", samplers_.size() - 1}, {"target", {{"node", node}, {"path", path}}}});
+  }
+
+  GlbBuilder& file_;
+  std::size_t times_;
+  Json samplers_ = Json::array();
+  Json channels_ = Json::array();
+};
+
+// Triangles with one normal each.
+struct GlbMesh {
+  std::vector<float> positions, normals;  // three per vertex, three vertices per triangle
+  std::vector<std::uint16_t> joints;      // joint of each vertex; empty without skin
+
+  void add_triangle(const std::array<Vec3, 3>& corners, Vec3 inside, std::uint16_t joint) {
+    std::array<Vec3, 3> c = corners;
+    Vec3 normal = cross(c[1] - c[0], c[2] - c[0]);
+    if (dot(normal, c[0] - inside) < 0) {
+      std::swap(c[1], c[2]);
+      normal = -normal;
+    }
+    const double length = norm(normal);
+    if (!(length > 0)) return;
+    const Vec3 direction = (1 / length) * normal;
+    for (const Vec3& corner : c) {
+      append(positions, corner);
+      append(normals, direction);
+      joints.push_back(joint);
+    }
+  }
+};
+
+// Adds mesh and material; returns the mesh's index.
+std::size_t add_mesh(GlbBuilder& file, const GlbMesh& mesh, const char* name) {
+  file.document()["materials"] = Json::array({{{"name", name},
+                                               {"pbrMetallicRoughness",
+                                                {{"baseColorFactor", {0.85, 0.55, 0.2, 1}},
+                                                 {"metallicFactor", 0},
+                                                 {"roughnessFactor", 0.7}}}}});
+  Json attributes{{"POSITION", file.add_floats(mesh.positions, 3, true, true)},
+                  {"NORMAL", file.add_floats(mesh.normals, 3, false, true)}};
+  if (!mesh.joints.empty()) {
+    std::vector<std::uint16_t> joints;
+    std::vector<float> weights;
+    for (const std::uint16_t joint : mesh.joints) {
+      joints.insert(joints.end(), {joint, 0, 0, 0});
+      weights.insert(weights.end(), {1, 0, 0, 0});
+    }
+    attributes["JOINTS_0"] = file.add_vertex_joints(joints);
+    attributes["WEIGHTS_0"] = file.add_floats(weights, 4, false, true);
+  }
+  file.document()["meshes"].push_back(
+      {{"name", name},
+       {"primitives", Json::array({{{"attributes", attributes}, {"material", 0}}})}});
+  return file.document()["meshes"].size() - 1;
 }
 
 // Adds a bone as a double pyramid, thickest at a tenth of its length.
@@ -150,7 +265,9 @@ void add_sphere(GlbMesh& mesh, double radius, int cuts) {
 class SkeletonWriter {
  public:
   explicit SkeletonWriter(const Take& clip)
-      : clip_(clip), skeleton_(clip.skeleton), scale_(metres_of(clip)) {}
+      : clip_(clip), skeleton_(clip.skeleton), scale_(likely_metres_per_unit(clip)) {
+    if (!(scale_ > 0)) scale_ = 1;
+  }
 
   std::string write() {
     add_nodes();
@@ -183,7 +300,7 @@ class SkeletonWriter {
     Json armature{{"name", "skeleton"}};
     if (!roots.empty()) armature["children"] = std::move(roots);
     armature_ = file_.add_node(std::move(armature));
-    file_.document()["scenes"][0]["nodes"].push_back(armature_);
+    file_.show(armature_);
   }
 
   void add_animation() {
@@ -232,14 +349,13 @@ class SkeletonWriter {
       joints.push_back(j);
     }
     const GlbMesh mesh = bones();
-    if (mesh.vertices() == 0) return;
+    if (mesh.positions.empty()) return;
     const std::size_t index = add_mesh(file_, mesh, "bones");
     file_.document()["skins"] =
         Json::array({{{"joints", std::move(joints)},
                       {"skeleton", armature_},
-                      {"inverseBindMatrices", file_.add_floats(matrices, 16, false, false)}}});
-    file_.document()["scenes"][0]["nodes"].push_back(
-        file_.add_node({{"name", "bones"}, {"mesh", index}, {"skin", 0}}));
+                      {"inverseBindMatrices", file_.add_floats(matrices, 16)}}});
+    file_.show(file_.add_node({{"name", "bones"}, {"mesh", index}, {"skin", 0}}));
   }
 
   GlbMesh bones() const {
@@ -267,10 +383,6 @@ class SkeletonWriter {
   std::vector<Quat> rotations_;
   std::vector<Vec3> positions_;
 };
-
-}  // namespace
-
-std::string new_glb_of_joints(const Take& clip) { return SkeletonWriter(clip).write(); }
 
 std::string new_glb_of_markers(const Take& clip) {
   // Radius of the marker spheres; a millimetre if the unit is unknown. Chosen by hand.
@@ -305,189 +417,14 @@ std::string new_glb_of_markers(const Take& clip) {
   }
   Json group{{"name", "markers"}};
   if (!children.empty()) group["children"] = std::move(children);
-  const std::size_t root = file.add_node(std::move(group));
-  file.document()["scenes"][0]["nodes"].push_back(root);
+  file.show(file.add_node(std::move(group)));
   return std::move(file).finish();
-}
-
-namespace {
-
-constexpr int target_array_buffer = 34962;
-
-// A number that is finite as a double may overflow as a float.
-void check_finite(std::span<const float> values) {
-  if (std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); }))
-    return;
-  throw Error(ErrorKind::usage, "a length is too large for a glTF file");
-}
-
-void pad(std::string& bytes) {
-  while (bytes.size() % 4 != 0) bytes += '\0';
-}
-
-const char* type_of(std::size_t components) {
-  switch (components) {
-    case 1:
-      return "SCALAR";
-    case 3:
-      return "VEC3";
-    case 4:
-      return "VEC4";
-    default:
-      return "MAT4";
-  }
 }
 
 }  // namespace
 
-GlbBuilder::GlbBuilder() {
-  static_assert(std::endian::native == std::endian::little, "glTF holds little-endian numbers");
-  document_["asset"] = {{"version", "2.0"}, {"generator", "Kinemend " + std::string(version())}};
-  document_["scene"] = 0;
-  document_["scenes"] = Json::array({{{"nodes", Json::array()}}});
-  document_["nodes"] = Json::array();
-}
-
-std::size_t GlbBuilder::add_node(Json node) {
-  document_["nodes"].push_back(std::move(node));
-  return document_["nodes"].size() - 1;
-}
-
-std::size_t GlbBuilder::add_view(const void* data, std::size_t bytes, bool of_vertices) {
-  pad(binary_);
-  Json view{{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes}};
-  if (of_vertices) view["target"] = target_array_buffer;
-  binary_.append(static_cast<const char*>(data), bytes);
-  document_["bufferViews"].push_back(std::move(view));
-  return document_["bufferViews"].size() - 1;
-}
-
-std::size_t GlbBuilder::add_accessor(std::size_t view, int component_type, std::size_t count,
-                                     const char* type) {
-  document_["accessors"].push_back(
-      {{"bufferView", view}, {"componentType", component_type}, {"count", count}, {"type", type}});
-  return document_["accessors"].size() - 1;
-}
-
-std::size_t GlbBuilder::add_floats(const std::vector<float>& values, std::size_t components,
-                                   bool with_range, bool of_vertices) {
-  check_finite(values);
-  const std::size_t view = add_view(values.data(), values.size() * sizeof(float), of_vertices);
-  const std::size_t index =
-      add_accessor(view, gltf_float, values.size() / components, type_of(components));
-  if (with_range) {
-    std::vector<float> least(values.begin(),
-                             values.begin() + static_cast<std::ptrdiff_t>(components));
-    std::vector<float> most = least;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      least[i % components] = std::min(least[i % components], values[i]);
-      most[i % components] = std::max(most[i % components], values[i]);
-    }
-    document_["accessors"][index]["min"] = least;
-    document_["accessors"][index]["max"] = most;
-  }
-  return index;
-}
-
-std::size_t GlbBuilder::add_vertex_joints(const std::vector<std::uint16_t>& values) {
-  const std::size_t view = add_view(values.data(), values.size() * sizeof(std::uint16_t), true);
-  return add_accessor(view, gltf_ushort, values.size() / 4, "VEC4");
-}
-
-std::string GlbBuilder::finish() && {
-  pad(binary_);
-  if (!binary_.empty()) document_["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
-  return new_glb(document_.dump(-1, ' ', false, Json::error_handler_t::ignore), binary_);
-}
-
-GlbAnimation::GlbAnimation(GlbBuilder& file, std::size_t frames, double frame_rate_hz)
-    : file_(file) {
-  std::vector<float> times(frames);
-  for (std::size_t f = 0; f < frames; ++f)
-    times[f] = static_cast<float>(static_cast<double>(f) / frame_rate_hz);
-  times_ = file_.add_floats(times, 1, true, false);
-}
-
-void GlbAnimation::add_channel(std::size_t node, const char* path, std::size_t output,
-                               const char* interpolation) {
-  samplers_.push_back({{"input", times_}, {"output", output}, {"interpolation", interpolation}});
-  channels_.push_back(
-      {{"sampler", samplers_.size() - 1}, {"target", {{"node", node}, {"path", path}}}});
-}
-
-void GlbAnimation::add_translation(std::size_t node, const std::vector<float>& xyz) {
-  add_channel(node, "translation", file_.add_floats(xyz, 3, false, false), "LINEAR");
-}
-
-void GlbAnimation::add_rotation(std::size_t node, std::vector<Quat> rotations) {
-  align_hemispheres(rotations);
-  std::vector<float> xyzw;
-  xyzw.reserve(4 * rotations.size());
-  for (const Quat& q : rotations) {
-    for (const double value : {q.x, q.y, q.z, q.w}) xyzw.push_back(static_cast<float>(value));
-  }
-  add_channel(node, "rotation", file_.add_floats(xyzw, 4, false, false), "LINEAR");
-}
-
-void GlbAnimation::add_presence(std::size_t node, const std::vector<std::uint8_t>& present) {
-  std::vector<float> scales;
-  for (const std::uint8_t there : present) scales.insert(scales.end(), 3, there != 0 ? 1.0F : 0.0F);
-  add_channel(node, "scale", file_.add_floats(scales, 3, false, false), "STEP");
-}
-
-void GlbAnimation::finish() {
-  if (channels_.empty()) return;
-  file_.document()["animations"] = Json::array(
-      {{{"name", "take"}, {"samplers", std::move(samplers_)}, {"channels", std::move(channels_)}}});
-}
-
-void GlbMesh::add_triangle(const std::array<Vec3, 3>& corners, Vec3 inside, std::uint16_t joint) {
-  std::array<Vec3, 3> c = corners;
-  Vec3 normal = cross(c[1] - c[0], c[2] - c[0]);
-  if (dot(normal, c[0] - inside) < 0) {
-    std::swap(c[1], c[2]);
-    normal = -normal;
-  }
-  const double length = norm(normal);
-  if (!(length > 0)) return;
-  const auto direction = to_floats((1 / length) * normal);
-  for (const Vec3& corner : c) {
-    const auto place = to_floats(corner);
-    positions.insert(positions.end(), place.begin(), place.end());
-    normals.insert(normals.end(), direction.begin(), direction.end());
-    joints.push_back(joint);
-  }
-}
-
-std::array<float, 3> to_floats(Vec3 v) {
-  const std::array<float, 3> floats{static_cast<float>(v.x), static_cast<float>(v.y),
-                                    static_cast<float>(v.z)};
-  check_finite(floats);
-  return floats;
-}
-
-std::size_t add_mesh(GlbBuilder& file, const GlbMesh& mesh, const char* name) {
-  file.document()["materials"] = Json::array({{{"name", name},
-                                               {"pbrMetallicRoughness",
-                                                {{"baseColorFactor", {0.85, 0.55, 0.2, 1}},
-                                                 {"metallicFactor", 0},
-                                                 {"roughnessFactor", 0.7}}}}});
-  Json attributes{{"POSITION", file.add_floats(mesh.positions, 3, true, true)},
-                  {"NORMAL", file.add_floats(mesh.normals, 3, false, true)}};
-  if (!mesh.joints.empty()) {
-    std::vector<std::uint16_t> joints;
-    std::vector<float> weights;
-    for (const std::uint16_t joint : mesh.joints) {
-      joints.insert(joints.end(), {joint, 0, 0, 0});
-      weights.insert(weights.end(), {1, 0, 0, 0});
-    }
-    attributes["JOINTS_0"] = file.add_vertex_joints(joints);
-    attributes["WEIGHTS_0"] = file.add_floats(weights, 4, false, true);
-  }
-  file.document()["meshes"].push_back(
-      {{"name", name},
-       {"primitives", Json::array({{{"attributes", attributes}, {"material", 0}}})}});
-  return file.document()["meshes"].size() - 1;
+std::string new_glb_of(const Take& take) {
+  return take.has_joints() ? SkeletonWriter(take).write() : new_glb_of_markers(take);
 }
 
 }  // namespace kinemend

@@ -3,6 +3,7 @@
 #include "io/gltf/gltf_rewrite.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -20,48 +21,6 @@
 #include "kinemend/error.hpp"
 
 namespace kinemend {
-
-/// Collects additions; `finish` turns them into changes. Floats are appended to the buffer that
-/// holds the animation.
-class GltfAdditions {
- public:
-  GltfAdditions(const GltfDocument& document, GltfChanges& changes);
-
-  /// Appends elements of `width` floats and returns the number of their accessor. Times get their
-  /// range, which glTF requires. Errors: `usage` for a value that overflows a float.
-  std::size_t add_floats(const std::vector<double>& values, std::size_t width, bool are_times);
-  /// Appends a sampler and returns its number.
-  std::size_t add_sampler(std::size_t input, std::size_t output, bool in_steps);
-  void set_sampler(std::size_t channel, std::size_t sampler);
-  /// Appends a channel. A node with a matrix gets translation, rotation and scale instead, as
-  /// animated nodes must.
-  void add_channel(std::size_t node, GltfPath path, std::size_t sampler);
-  void finish();
-
- private:
-  struct Additions {
-    std::size_t before = 0;
-    std::vector<std::string> items;
-
-    std::size_t add(std::string item) {
-      items.push_back(std::move(item));
-      return before + items.size() - 1;
-    }
-  };
-  void append(std::optional<ByteSpan> array, const Additions& additions);
-  void split_matrix(std::size_t node);
-  std::string& buffer();
-
-  const GltfDocument& document_;
-  GltfChanges& changes_;
-  std::size_t home_ = 0;  // the buffer that is extended
-  Additions views_, accessors_, samplers_, channels_;
-  std::vector<std::pair<std::size_t, std::size_t>> set_samplers_;
-  std::set<std::size_t> split_;
-};
-
-/// Returns a number as JSON that reads back as the same float.
-std::string json_of_float(float value);
 
 namespace {
 
@@ -245,6 +204,159 @@ void continue_signs(GltfValues& values) {
   }
 }
 
+std::string json_of_float(float value) { return fmt::format("{}", value); }
+
+// Returns the buffer that holds the animation.
+std::size_t home_of(const GltfDocument& document) {
+  for (const GltfSampler& sampler : document.model.animations[document.animation].samplers) {
+    const auto view = document.model.accessors[sampler.output].view;
+    if (!view || *view >= document.model.views.size()) continue;
+    const std::size_t buffer = document.model.views[*view].buffer;
+    if (document.buffers.is_loaded(buffer)) return buffer;
+  }
+  throw Error(ErrorKind::usage, fmt::format("{}: no buffer holds keys of the animation, so none "
+                                            "can be added",
+                                            document.file.name));
+}
+
+const char* name_of(GltfPath path) {
+  if (path == GltfPath::rotation) return "rotation";
+  return path == GltfPath::scale ? "scale" : "translation";
+}
+
+// Returns the changed content of a buffer, which is its content in the file at first.
+std::string& changed_buffer(const GltfDocument& document, std::size_t buffer,
+                            GltfChanges& changes) {
+  const auto [found, is_new] = changes.buffers.try_emplace(buffer);
+  if (is_new) found->second = document.buffers.bytes(document.file, buffer);
+  return found->second;
+}
+
+// Collects additions; `finish` turns them into changes. Floats are appended to the buffer that
+// holds the animation.
+class GltfAdditions {
+ public:
+  GltfAdditions(const GltfDocument& document, GltfChanges& changes)
+      : document_(document), changes_(changes) {
+    const GltfAnimation& animation = document.model.animations[document.animation];
+    views_.before = document.model.views.size();
+    accessors_.before = document.model.accessors.size();
+    samplers_.before = animation.samplers.size();
+    channels_.before = animation.channels.size();
+  }
+
+  // Appends elements of `width` floats and returns the number of their accessor. Times get their
+  // range, which glTF requires. Errors: `usage` for a value that overflows a float.
+  std::size_t add_floats(const std::vector<double>& values, std::size_t width) {
+    if (views_.items.empty()) home_ = home_of(document_);
+    std::string& bytes = changed_buffer(document_, home_, changes_);
+    bytes.append((4 - bytes.size() % 4) % 4, '\0');
+    const std::size_t begin = bytes.size();
+    for (const double value : values) {
+      std::array<char, sizeof(float)> stored{};
+      if (!store_component(value, gltf_float, false, stored.data()))
+        throw Error(ErrorKind::usage, "a number is too large for a glTF file");
+      bytes.append(stored.data(), stored.size());
+    }
+    const std::size_t view =
+        views_.add(fmt::format("{{\"buffer\":{},\"byteOffset\":{},\"byteLength\":{}}}", home_,
+                               begin, bytes.size() - begin));
+    std::string range;
+    if (width == 1 && !values.empty()) {
+      const auto [least, most] = std::minmax_element(values.begin(), values.end());
+      range = fmt::format(",\"min\":[{}],\"max\":[{}]", json_of_float(static_cast<float>(*least)),
+                          json_of_float(static_cast<float>(*most)));
+    }
+    return accessors_.add(
+        fmt::format("{{\"bufferView\":{},\"componentType\":{},\"count\":{},\"type\":\"{}\"{}}}",
+                    view, gltf_float, values.size() / width, gltf_type_of_width(width), range));
+  }
+
+  // Appends a sampler and returns its number.
+  std::size_t add_sampler(std::size_t input, std::size_t output, bool in_steps) {
+    return samplers_.add(fmt::format("{{\"input\":{},\"output\":{},\"interpolation\":\"{}\"}}",
+                                     input, output, in_steps ? "STEP" : "LINEAR"));
+  }
+
+  void set_sampler(std::size_t channel, std::size_t sampler) {
+    set_samplers_.emplace_back(channel, sampler);
+  }
+
+  // Appends a channel. A node with a matrix gets translation, rotation and scale instead, as
+  // animated nodes must.
+  void add_channel(std::size_t node, GltfPath path, std::size_t sampler) {
+    if (document_.model.nodes[node].has_matrix) split_matrix(node);
+    channels_.add(fmt::format("{{\"sampler\":{},\"target\":{{\"node\":{},\"path\":\"{}\"}}}}",
+                              sampler, node, name_of(path)));
+  }
+
+  void finish() {
+    const std::string_view text = document_.file.json_text();
+    append(json_member(text, {"bufferViews"}), views_);
+    append(json_member(text, {"accessors"}), accessors_);
+    const auto animation = json_element(text, "animations", document_.animation);
+    const auto member = [&](const char* key) {
+      return animation ? json_member(text, *animation, key) : std::nullopt;
+    };
+    append(member("samplers"), samplers_);
+    append(member("channels"), channels_);
+    const auto channels = member("channels");
+    const auto elements = channels ? json_elements(text, *channels) : std::vector<ByteSpan>{};
+    for (const auto& [channel, sampler] : set_samplers_) {
+      const auto place = json_member(text, elements.at(channel), "sampler");
+      if (place) changes_.edits.push_back({*place, std::to_string(sampler)});
+    }
+    if (views_.items.empty()) return;
+    const auto grown = json_element(text, "buffers", home_);
+    const auto length = grown ? json_member(text, *grown, "byteLength") : std::nullopt;
+    if (length) changes_.edits.push_back({*length, std::to_string(changes_.buffers[home_].size())});
+  }
+
+ private:
+  // Items for an array of the file that has `before` elements.
+  struct Additions {
+    std::size_t before = 0;
+    std::vector<std::string> items;
+
+    std::size_t add(std::string item) {
+      items.push_back(std::move(item));
+      return before + items.size() - 1;
+    }
+  };
+
+  void append(std::optional<ByteSpan> array, const Additions& additions) {
+    if (additions.items.empty()) return;
+    if (!array || array->size < 2) {
+      throw Error(ErrorKind::usage, fmt::format("{}: an array that keys are added to is not there",
+                                                document_.file.name));
+    }
+    changes_.edits.push_back(
+        {{array->begin + array->size - 1, 0},
+         fmt::format("{}{}", additions.before > 0 ? "," : "", fmt::join(additions.items, ","))});
+  }
+
+  void split_matrix(std::size_t node) {
+    if (!split_.insert(node).second) return;
+    const std::string_view text = document_.file.json_text();
+    const auto object = json_element(text, "nodes", node);
+    const auto matrix = object ? json_named_member(text, *object, "matrix") : std::nullopt;
+    if (!matrix) return;
+    const GltfNode& n = document_.model.nodes[node];
+    changes_.edits.push_back(
+        {matrix->whole(),
+         fmt::format("\"translation\":[{},{},{}],\"rotation\":[{},{},{},{}],\"scale\":[{},{},{}]",
+                     n.translation.x, n.translation.y, n.translation.z, n.rotation.x, n.rotation.y,
+                     n.rotation.z, n.rotation.w, n.scale.x, n.scale.y, n.scale.z)});
+  }
+
+  const GltfDocument& document_;
+  GltfChanges& changes_;
+  std::size_t home_ = 0;  // the buffer that is extended
+  Additions views_, accessors_, samplers_, channels_;
+  std::vector<std::pair<std::size_t, std::size_t>> set_samplers_;
+  std::set<std::size_t> split_;
+};
+
 class GltfRewriter {
  public:
   GltfRewriter(const Take& take, const GltfDocument& document, const GltfMotion& motion)
@@ -333,7 +445,7 @@ class GltfRewriter {
       if (is_spline && !store_tangents(curve, values, f, store)) return false;
     }
     for (const GltfStored& value : stored) {
-      std::string& bytes = changed_buffer(value.place.buffer);
+      std::string& bytes = changed_buffer(document_, value.place.buffer, changes_);
       std::copy_n(value.bytes.data(), value.size,
                   bytes.begin() + static_cast<std::ptrdiff_t>(value.place.at));
     }
@@ -374,20 +486,13 @@ class GltfRewriter {
     return values.changed[f] != 0 ? values.frames[f][c] : curve.value(f)[c];
   }
 
-  std::string& changed_buffer(std::size_t buffer) {
-    const auto found = changes_.buffers.find(buffer);
-    if (found != changes_.buffers.end()) return found->second;
-    std::string bytes(document_.buffers.bytes(document_.file, buffer));
-    return changes_.buffers.emplace(buffer, std::move(bytes)).first->second;
-  }
-
   void append_track(const GltfTrack& track, const GltfCurve* curve, const GltfValues& values,
                     bool keeps_times) {
     std::vector<double> numbers;
     for (const auto& frame : values.frames)
       numbers.insert(numbers.end(), frame.begin(),
                      frame.begin() + static_cast<std::ptrdiff_t>(values.width));
-    const std::size_t output = additions_.add_floats(numbers, values.width, false);
+    const std::size_t output = additions_.add_floats(numbers, values.width);
     const std::size_t input = keeps_times ? sampler_of(track).input : new_times();
     const bool in_steps = curve != nullptr ? curve->interpolation == GltfInterpolation::step
                                            : track.path == GltfPath::scale;
@@ -404,7 +509,7 @@ class GltfRewriter {
     std::vector<double> times;
     for (std::size_t f = 0; f < take_.frame_count(); ++f)
       times.push_back(motion_.grid.times.start_s + static_cast<double>(f) / take_.frame_rate_hz);
-    new_times_ = additions_.add_floats(times, 1, true);
+    new_times_ = additions_.add_floats(times, 1);
     return *new_times_;
   }
 
@@ -418,7 +523,8 @@ class GltfRewriter {
     for (const auto& place : numbers.places()) {
       for (std::size_t c = 0; c < accessor.width; ++c) {
         const double value =
-            place ? read_component(changed_buffer(place->buffer).data() + place->at + c * step,
+            place ? read_component(changed_buffer(document_, place->buffer, changes_).data() +
+                                       place->at + c * step,
                                    accessor.component, false)
                   : 0.0;
         least[c] = std::fmin(least[c], value);
@@ -468,153 +574,10 @@ class GltfRewriter {
 
 }  // namespace
 
-bool belongs_to(const Take& take, const GltfDocument& document, const GltfMotion& motion) {
-  if (document.has_markers)
-    return !take.has_joints() && take.names == motion.take.names && take.unit == motion.take.unit;
-  return take.has_joints() && same_skeleton(take.skeleton, motion.take.skeleton) &&
-         take.translated_joints == motion.take.translated_joints &&
-         take.metres_per_unit == motion.take.metres_per_unit;
-}
-
 GltfChanges changes_of_gltf(const Take& take, const GltfDocument& document,
                             const GltfMotion& motion) {
   if (document.animation == GltfTrack::none || take.frame_count() == 0) return {};
   return GltfRewriter(take, document, motion).rewrite();
-}
-
-namespace {
-
-constexpr std::size_t added_alignment = 4;
-
-std::size_t home_of(const GltfDocument& document) {
-  for (const GltfSampler& sampler : document.model.animations[document.animation].samplers) {
-    const auto view = document.model.accessors[sampler.output].view;
-    if (!view || *view >= document.model.views.size()) continue;
-    const std::size_t buffer = document.model.views[*view].buffer;
-    if (document.buffers.is_loaded(buffer)) return buffer;
-  }
-  throw Error(ErrorKind::usage, fmt::format("{}: no buffer holds keys of the animation, so none "
-                                            "can be added",
-                                            document.file.name));
-}
-
-const char* name_of(GltfPath path) {
-  if (path == GltfPath::rotation) return "rotation";
-  return path == GltfPath::scale ? "scale" : "translation";
-}
-
-}  // namespace
-
-std::string json_of_float(float value) { return fmt::format("{}", value); }
-
-GltfAdditions::GltfAdditions(const GltfDocument& document, GltfChanges& changes)
-    : document_(document), changes_(changes) {
-  const GltfAnimation& animation = document.model.animations[document.animation];
-  views_.before = document.model.views.size();
-  accessors_.before = document.model.accessors.size();
-  samplers_.before = animation.samplers.size();
-  channels_.before = animation.channels.size();
-}
-
-std::string& GltfAdditions::buffer() {
-  if (views_.items.empty()) home_ = home_of(document_);
-  const auto found = changes_.buffers.find(home_);
-  if (found != changes_.buffers.end()) return found->second;
-  return changes_.buffers
-      .emplace(home_, std::string(document_.buffers.bytes(document_.file, home_)))
-      .first->second;
-}
-
-std::size_t GltfAdditions::add_floats(const std::vector<double>& values, std::size_t width,
-                                      bool are_times) {
-  std::string& bytes = buffer();
-  bytes.append((added_alignment - bytes.size() % added_alignment) % added_alignment, '\0');
-  const std::size_t begin = bytes.size();
-  for (const double value : values) {
-    std::array<char, sizeof(float)> stored{};
-    if (!store_component(value, gltf_float, false, stored.data()))
-      throw Error(ErrorKind::usage, "a number is too large for a glTF file");
-    bytes.append(stored.data(), stored.size());
-  }
-  const std::size_t view = views_.add(fmt::format(
-      "{{\"buffer\":{},\"byteOffset\":{},\"byteLength\":{}}}", home_, begin, bytes.size() - begin));
-  std::string range;
-  if (are_times && !values.empty()) {
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    range = fmt::format(",\"min\":[{}],\"max\":[{}]", json_of_float(static_cast<float>(*least)),
-                        json_of_float(static_cast<float>(*most)));
-  }
-  const char* const type = width == 1 ? "SCALAR" : width == 3 ? "VEC3" : "VEC4";
-  return accessors_.add(
-      fmt::format("{{\"bufferView\":{},\"componentType\":{},\"count\":{},\"type\":\"{}\"{}}}", view,
-                  gltf_float, values.size() / width, type, range));
-}
-
-std::size_t GltfAdditions::add_sampler(std::size_t input, std::size_t output, bool in_steps) {
-  return samplers_.add(fmt::format("{{\"input\":{},\"output\":{},\"interpolation\":\"{}\"}}", input,
-                                   output, in_steps ? "STEP" : "LINEAR"));
-}
-
-void GltfAdditions::set_sampler(std::size_t channel, std::size_t sampler) {
-  set_samplers_.emplace_back(channel, sampler);
-}
-
-void GltfAdditions::add_channel(std::size_t node, GltfPath path, std::size_t sampler) {
-  if (document_.model.nodes[node].has_matrix) split_matrix(node);
-  channels_.add(fmt::format("{{\"sampler\":{},\"target\":{{\"node\":{},\"path\":\"{}\"}}}}",
-                            sampler, node, name_of(path)));
-}
-
-void GltfAdditions::split_matrix(std::size_t node) {
-  if (!split_.insert(node).second) return;
-  const std::string_view text = document_.file.json_text();
-  const auto object = json_element(text, "nodes", node);
-  const auto matrix = object ? json_named_member(text, *object, "matrix") : std::nullopt;
-  if (!matrix) return;
-  const GltfNode& n = document_.model.nodes[node];
-  changes_.edits.push_back(
-      {matrix->whole(),
-       fmt::format("\"translation\":[{},{},{}],\"rotation\":[{},{},{},{}],\"scale\":[{},{},{}]",
-                   n.translation.x, n.translation.y, n.translation.z, n.rotation.x, n.rotation.y,
-                   n.rotation.z, n.rotation.w, n.scale.x, n.scale.y, n.scale.z)});
-}
-
-void GltfAdditions::append(std::optional<ByteSpan> array, const Additions& additions) {
-  if (additions.items.empty()) return;
-  if (!array || array->size < 2) {
-    throw Error(ErrorKind::usage, fmt::format("{}: an array that keys are added to is not there",
-                                              document_.file.name));
-  }
-  std::string text;
-  bool follows_another = additions.before > 0;
-  for (const std::string& item : additions.items) {
-    if (follows_another) text += ',';
-    text += item;
-    follows_another = true;
-  }
-  changes_.edits.push_back({{array->begin + array->size - 1, 0}, std::move(text)});
-}
-
-void GltfAdditions::finish() {
-  const std::string_view text = document_.file.json_text();
-  append(json_member(text, {"bufferViews"}), views_);
-  append(json_member(text, {"accessors"}), accessors_);
-  const auto animation = json_element(text, "animations", document_.animation);
-  const auto member = [&](const char* key) {
-    return animation ? json_member(text, *animation, key) : std::nullopt;
-  };
-  append(member("samplers"), samplers_);
-  append(member("channels"), channels_);
-  const auto channels = member("channels");
-  const auto elements = channels ? json_elements(text, *channels) : std::vector<ByteSpan>{};
-  for (const auto& [channel, sampler] : set_samplers_) {
-    const auto place = json_member(text, elements.at(channel), "sampler");
-    if (place) changes_.edits.push_back({*place, std::to_string(sampler)});
-  }
-  if (views_.items.empty()) return;
-  const auto grown = json_element(text, "buffers", home_);
-  const auto length = grown ? json_member(text, *grown, "byteLength") : std::nullopt;
-  if (length) changes_.edits.push_back({*length, std::to_string(changes_.buffers[home_].size())});
 }
 
 }  // namespace kinemend

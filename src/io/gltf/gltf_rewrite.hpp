@@ -15,16 +15,12 @@ namespace kinemend {
 struct GltfChanges {
   std::vector<JsonEdit> edits;
   std::map<std::size_t, std::string> buffers;
-
-  bool empty() const { return edits.empty() && buffers.empty(); }
 };
 
-/// Whether the take has the joints or markers of the document, so that it can be written in place.
-bool belongs_to(const Take& take, const GltfDocument& document, const GltfMotion& motion);
-
-/// Returns the smallest changes that make the file hold the take. Values are replaced in place. A
-/// track gets new keys at the end of a buffer if it does not have a key in each frame, shares its
-/// bytes with other data, or cannot hold a value. Errors: `usage` for a joint that cannot be moved.
+/// Returns the smallest changes that make the file hold the take, which has the document's joints
+/// or markers. Values are replaced in place. A track gets new keys at the end of a buffer if it
+/// does not have a key in each frame, shares its bytes with other data, or cannot hold a value.
+/// Errors: `usage` for a joint that cannot be moved.
 GltfChanges changes_of_gltf(const Take& take, const GltfDocument& document,
                             const GltfMotion& motion);
 

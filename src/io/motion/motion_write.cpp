@@ -40,6 +40,13 @@ bool same_skeleton(const Skeleton& a, const Skeleton& b) {
          same_end_sites(a.end_sites, b.end_sites);
 }
 
+bool same_parts(const Take& a, const Take& b) {
+  if (a.has_joints() != b.has_joints()) return false;
+  if (!a.has_joints()) return a.names == b.names && a.unit == b.unit;
+  return a.metres_per_unit == b.metres_per_unit && a.translated_joints == b.translated_joints &&
+         same_skeleton(a.skeleton, b.skeleton);
+}
+
 void check_lengths(const Take& clip) {
   clip.skeleton.validate();
   const std::size_t frames = clip.frame_count();

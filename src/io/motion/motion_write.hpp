@@ -14,6 +14,9 @@
 namespace kinemend {
 
 bool same_skeleton(const Skeleton& a, const Skeleton& b);
+/// Whether two takes have the same joints, or the same markers, in the same unit, so that one can
+/// be written in place of the samples of the other.
+bool same_parts(const Take& a, const Take& b);
 
 /// Throws `usage` if the skeleton breaks a rule, arrays do not have the clip's number of frames, or
 /// the rate is not positive.

@@ -12,6 +12,7 @@
 #include "io/held_samples.hpp"
 #include "io/npz/npz.hpp"
 #include "io/reading_limits.hpp"
+#include "kinemend/error.hpp"
 #include "kinemend/extend/frames.hpp"
 
 namespace kinemend {

@@ -142,15 +142,10 @@ const NpzDocument* npz_document_of(const Take& take) {
 
 // Whether the take differs from the source only in samples.
 bool fits_npz(const Take& take, const Take& original) {
-  if (take.has_joints() != original.has_joints() || take.frame_count() != original.frame_count() ||
-      take.frame_rate_hz != original.frame_rate_hz)
-    return false;
-  if (!take.has_joints())
-    return take.names == original.names && take.unit == original.unit &&
-           take.first_frame == original.first_frame;
-  return same_skeleton(take.skeleton, original.skeleton) &&
-         take.translated_joints == original.translated_joints &&
-         take.metres_per_unit == original.metres_per_unit;
+  return take.frame_count() == original.frame_count() &&
+         take.frame_rate_hz == original.frame_rate_hz &&
+         (take.has_joints() || take.first_frame == original.first_frame) &&
+         same_parts(take, original);
 }
 
 // The arrays whose elements differ from the source's.

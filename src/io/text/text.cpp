@@ -55,6 +55,13 @@ std::string_view without_spaces_around(std::string_view text) {
   return text;
 }
 
+void note_repair(std::string_view file, bool strict, Diagnostics& diagnostics,
+                 std::string_view kind, std::string_view message, std::size_t count) {
+  if (strict && count > 0)
+    throw Error(ErrorKind::quality_limit, fmt::format("{}: {}", file, message));
+  for (std::size_t i = 0; i < count; ++i) diagnostics.add(kind, message);
+}
+
 std::size_t TextScanner::line_end(std::size_t from) const {
   while (from < bytes_.size() && !is_line_end(bytes_[from])) ++from;
   return from;

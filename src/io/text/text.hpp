@@ -73,6 +73,10 @@ struct SourceText {
 
 /// Returns the text without white space at either end.
 std::string_view without_spaces_around(std::string_view text);
+/// Notes a repair of a file without lines, `count` times; throws `ErrorKind::quality_limit` when the
+/// reading is strict.
+void note_repair(std::string_view file, bool strict, Diagnostics& diagnostics,
+                 std::string_view kind, std::string_view message, std::size_t count = 1);
 
 /// Walks over the words of a text: runs of bytes between white space; each brace is a separate
 /// word. Comments (# or //, to the end of the line) between words are skipped and counted.

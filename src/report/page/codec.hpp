@@ -41,7 +41,6 @@ std::string second_part(std::span<const Quantised> channels, std::size_t stride)
 
 /// Returns the bytes deflated, in zlib's frame.
 std::string deflated(std::string_view bytes);
-std::string base64(std::string_view bytes);
 
 /// The largest error of a value is half a quantum, unless the value exceeds 2^30 quanta. These are
 /// the coarsest quanta; short takes get finer ones for their speeds and accelerations. Chosen by

@@ -8,6 +8,7 @@
 #include <array>
 #include <filesystem>
 
+#include "base/bytes.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/extend/pages.hpp"
 #include "kinemend/extend/system.hpp"

@@ -1,3 +1,4 @@
+#include "base/bytes.hpp"
 #include "gltf_support.hpp"
 #include "io/gltf/gltf_container.hpp"
 #include "io/gltf/gltf_json.hpp"
@@ -22,13 +23,13 @@ TEST(GltfText, Base64IsThatOfTheStandard) {
                                                                {"fooba", "Zm9vYmE="},
                                                                {"foobar", "Zm9vYmFy"}};
   for (const auto& [plain, coded] : known) {
-    EXPECT_EQ(base64_of(plain), coded);
+    EXPECT_EQ(base64(plain), coded);
     EXPECT_EQ(bytes_of_data_uri("data:a/b;base64," + coded), plain);
   }
   Random random(5);
   std::string bytes(1000, '\0');
   for (char& c : bytes) c = static_cast<char>(random.below(256));
-  EXPECT_EQ(bytes_of_data_uri("data:;base64," + base64_of(bytes)), bytes);
+  EXPECT_EQ(bytes_of_data_uri("data:;base64," + base64(bytes)), bytes);
   for (const char* const bad :
        {"data:;base64,A", "data:;base64,A*==", "data:,abcd", "data:", "abcd"})
     EXPECT_FALSE(bytes_of_data_uri(bad)) << bad;

@@ -1,5 +1,6 @@
 // Tests of the motion codec of pages: samples are restored within half a quantum.
 #include "report/page/codec.hpp"
+#include "base/bytes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -82,12 +83,12 @@ TEST(PageCodec, WidensTheQuantumWhereValuesAreHuge) {
 TEST(PageCodec, DeflatesAndWritesBase64ForAnyLength) {
   std::string bytes;
   for (int i = 0; i < 300; ++i) {
-    EXPECT_EQ(from_base64(page::base64(bytes)), bytes);
-    EXPECT_EQ(page::base64(bytes).size() % 4, 0u);
+    EXPECT_EQ(from_base64(kinemend::base64(bytes)), bytes);
+    EXPECT_EQ(kinemend::base64(bytes).size() % 4, 0u);
     EXPECT_EQ(inflated(page::deflated(bytes)), bytes);
     bytes += static_cast<char>(i * 37);
   }
-  EXPECT_EQ(page::base64("any carnal pleas"), "YW55IGNhcm5hbCBwbGVhcw==");
+  EXPECT_EQ(kinemend::base64("any carnal pleas"), "YW55IGNhcm5hbCBwbGVhcw==");
 }
 
 TEST(PageChannels, TellNotMoreThanSoManySamples) {

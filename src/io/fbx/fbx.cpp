@@ -1,64 +1,206 @@
-// Writes FBX into the source file of the take, where it finds the changed curves and the new values
-// of their keys, or as a new file.
+// Reads FBX files as takes of joints, or as takes of markers if they hold only points. Writes FBX
+// into the source file of the take, where it finds the changed curves and the new values of their
+// keys, or as a new file.
+#include "io/fbx/fbx.hpp"
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/text.hpp"
-#include "io/fbx/fbx.hpp"
 #include "io/fbx/fbx_document.hpp"
-#include "io/fbx/fbx_new_file.hpp"
 #include "io/fbx/fbx_patch.hpp"
 #include "io/fbx/fbx_values.hpp"
 #include "io/first_error.hpp"
+#include "io/held_samples.hpp"
 #include "io/motion/motion_write.hpp"
+#include "io/reading_limits.hpp"
+#include "io/text/text.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/take.hpp"
 #include "motion/rotation.hpp"
 #include "motion/take.hpp"
 
 namespace kinemend {
 
-/// Whether the take has the joints, or the markers, of the document.
-bool fits_fbx_document(const Take& take, const FbxDocument& document, const Take& original);
-
-/// Returns the file with new keys in the curves of changed joints; `original` is
-/// `take_of_fbx(document)`. Changes that no curve can hold are left out: translations and rotations
-/// of axes without a curve. Errors: `usage` for a curve that moves several axes or models, and for
-/// a joint that several layers move.
-std::string rewrite_fbx(const Take& take, const FbxDocument& document, const Take& original);
-
-std::vector<std::string> lost_beside_fbx(const Take& take) {
-  const auto* const document = dynamic_cast<const FbxDocument*>(take.source.document.get());
-  if (document == nullptr) return {};
-  const bool joints =
-      take.has_joints() && !holds_fbx_markers(document->scene, document->motion, document->rig);
-  const Take original = joints ? skeleton_of_fbx(*document) : take_of_fbx(*document);
-  if (fits_fbx_document(take, *document, original)) return {};
-  std::vector<std::string> parts;
-  if (document->scene.models.size() > document->rig.joints.size())
-    parts.emplace_back("meshes and other models");
-  if (document->scene.stacks.size() > 1) parts.emplace_back("other takes");
-  parts.emplace_back("materials and properties");
-  return parts;
-}
-
-std::string write_fbx(const Take& take) {
-  const auto* const document = dynamic_cast<const FbxDocument*>(take.source.document.get());
-  if (document == nullptr) return new_fbx_file(take);
-  const Take original = take_of_fbx(*document);
-  if (!fits_fbx_document(take, *document, original)) return new_fbx_file(take);
-  return rewrite_fbx(take, *document, original);
-}
-
 namespace {
 
+// How many takes are tried to find one with motion. Chosen by hand.
+constexpr std::size_t tried_stacks = 64;
+
+class FbxReader {
+ public:
+  FbxReader(FbxDocument& document, const ReadOptions& options)
+      : document_(document), options_(options) {}
+
+  Take read(Diagnostics& diagnostics) {
+    diagnostics_ = &diagnostics;
+    document_.scene = read_fbx_scene(tree());
+    choose_stack();
+    mend_curves();
+    document_.rig = choose_fbx_rig(tree(), document_.scene, document_.motion, options_.max_depth);
+    if (document_.rig.joints.empty()) throw no_joints();
+    find_frames();
+    Take take = take_of_fbx(document_);
+    check_fbx_take(document_, take);
+    note_repairs(take);
+    add_facts(take);
+    return take;
+  }
+
+ private:
+  const FbxTree& tree() const { return document_.tree; }
+
+  Error no_joints() const {
+    return Error(
+        ErrorKind::unreadable_input,
+        fmt::format("{}: holds no joints: none of its {} models is a limb, and none has curves",
+                    tree().name, document_.scene.models.size()));
+  }
+
+  void note(std::string_view kind, std::string_view message, std::size_t count) {
+    note_repair(tree().name, options_.strict, *diagnostics_, kind, message, count);
+  }
+
+  std::vector<std::string> stack_names() const {
+    std::vector<std::string> names;
+    for (const FbxStack& stack : document_.scene.stacks) names.push_back(stack.name);
+    return names;
+  }
+
+  void choose_stack() {
+    const std::vector<FbxStack>& stacks = document_.scene.stacks;
+    const bool is_asked = !options_.animation.empty();
+    const std::string& wanted = is_asked ? options_.animation : document_.scene.active_stack;
+    const auto named = std::find_if(stacks.begin(), stacks.end(),
+                                    [&](const FbxStack& stack) { return stack.name == wanted; });
+    if (is_asked && named == stacks.end()) {
+      throw Error(
+          ErrorKind::usage,
+          fmt::format("{}: has no animation {}; it has {}", tree().name, quote(wanted),
+                      stacks.empty() ? "none" : fmt::format("{}", fmt::join(stack_names(), ", "))));
+    }
+    if (named != stacks.end() && (take_stack(*named) || is_asked)) return;
+    const FbxStack* whole = named != stacks.end() ? &*named : nullptr;
+    for (std::size_t i = 0; i < std::min(stacks.size(), tried_stacks); ++i) {
+      const std::optional<bool> moves = try_stack(stacks[i]);
+      if (moves.value_or(false)) return;
+      if (whole == nullptr && moves) whole = &stacks[i];
+    }
+    // No take has motion: use the take that the file names, else the first that can be read.
+    if (!stacks.empty()) take_stack(whole != nullptr ? *whole : stacks.front());
+  }
+
+  // `take_stack` for a take that the user did not request; returns empty for a damaged take.
+  std::optional<bool> try_stack(const FbxStack& stack) {
+    try {
+      return take_stack(stack);
+    } catch (const Error&) {
+      return std::nullopt;
+    }
+  }
+
+  // Returns whether the take moves a joint.
+  bool take_stack(const FbxStack& stack) {
+    document_.stack = stack;
+    document_.motion = read_fbx_motion(tree(), document_.scene, stack);
+    const FbxRig rig =
+        choose_fbx_rig(tree(), document_.scene, document_.motion, options_.max_depth);
+    return moves_joints(document_.motion, rig);
+  }
+
+  // Values that are not finite are held from the key before, else from the next.
+  void mend_curves() {
+    for (std::size_t c = 0; c < document_.motion.curves.size(); ++c) {
+      std::vector<double>& values = document_.motion.curves[c].values;
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        if (is_missing(values[k])) document_.mended.push_back({c, k});
+      }
+      hold_missing(values, 0, 1, 0.0);
+    }
+  }
+
+  void find_frames() {
+    const FbxRig& rig = document_.rig;
+    const std::size_t frame_bytes = rig.nodes.size() * (sizeof(Quat) + sizeof(Vec3) + 1);
+    document_.frames = find_fbx_frames(
+        tree(), document_.scene, document_.motion, fbx_joint_curves(document_.motion, rig),
+        std::max<std::size_t>(memory_limit(tree().bytes.size()) / frame_bytes, 1));
+  }
+
+  void note_repairs(const Take& take) {
+    note("value_not_finite", "a key is not a finite number: held from a neighbouring key",
+         document_.mended.size());
+    note("keys_resampled",
+         fmt::format("curves without a key in each frame are sampled at {:.6g} Hz",
+                     take.frame_rate_hz),
+         document_.frames.resampled);
+    std::size_t spheric = 0, scaled = 0;
+    for (std::size_t j = 0; j < document_.rig.joints.size(); ++j) {
+      const FbxRigNode& node = document_.rig.nodes[document_.rig.joints[j]];
+      const FbxModel& model = document_.scene.models[node.model];
+      if (model.rotation_active && (model.rotation_order < 0 || model.rotation_order > 5))
+        ++spheric;
+      if (take.has_joints() && j > 0 && take.skeleton.has_position_channels(j) &&
+          !node.has_translation_curves)
+        ++scaled;
+    }
+    note("rotation_order_spheric", "rotations of spheric order are read as XYZ", spheric);
+    note("scale_moves_joint",
+         "scales that change, or differ by axis, move a joint in the frame of its parent", scaled);
+  }
+
+  // Returns the program that wrote the file. Names of earlier programs are ignored, because the
+  // motion may have been edited since.
+  std::string software() const {
+    const std::uint32_t header = tree().child(no_fbx_record, "FBXHeaderExtension");
+    if (header == no_fbx_record) return {};
+    const std::uint32_t info = tree().child(header, "SceneInfo");
+    if (info == no_fbx_record) return {};
+    std::string vendor, name;
+    for_each_fbx_property(tree(), info, [&](const FbxNamedProperty& property) {
+      if (property.name == "LastSaved|ApplicationVendor") vendor = property.text();
+      if (property.name == "LastSaved|ApplicationName") name = property.text();
+    });
+    if (vendor.empty() || name.find(vendor) != name.npos) return name;
+    return name.empty() ? vendor : vendor + ", " + name;
+  }
+
+  void add_facts(Take& take) const {
+    const auto fact = [&](const char* name, const std::string& text) {
+      take.source.facts.push_back({name, printable(text)});
+    };
+    if (!document_.scene.stacks.empty())
+      fact("animations",
+           fmt::format("{}; this is {}", fmt::join(stack_names(), ", "), document_.stack.name));
+    take.source.animations = stack_names();
+    take.source.animation = document_.stack.name;
+    const std::size_t others = document_.scene.models.size() - document_.rig.joints.size();
+    if (others > 0) fact("other models", fmt::format("{}", others));
+    if (document_.motion.layers.size() > 1)
+      fact("layers", fmt::format("{}", document_.motion.layers.size()));
+    if (const std::string writer = software(); !writer.empty()) fact("software", writer);
+  }
+
+  FbxDocument& document_;
+  const ReadOptions& options_;
+  Diagnostics* diagnostics_ = nullptr;
+};
+
+// Writes the file with new keys in the curves of changed joints; `original` is
+// `take_of_fbx(document)`. Changes that no curve can hold are left out: translations and rotations
+// of axes without a curve. Errors: `usage` for a curve that moves several axes or models, and for a
+// joint that several layers move.
 class FbxRewriter {
  public:
   FbxRewriter(const Take& take, const FbxDocument& document, const Take& original)
@@ -172,10 +314,10 @@ class FbxRewriter {
     std::size_t layers = 0;
     bool is_plain = true;
     for (const FbxLayer& layer : document_.motion.layers) {
-      const auto entry = layer.vectors.find(3 * node(joint).model + vector);
-      if (entry == layer.vectors.end()) continue;
+      const FbxAnimatedVector* const entry = layer.find(node(joint).model, vector);
+      if (entry == nullptr) continue;
       ++layers;
-      found = &entry->second;
+      found = entry;
       is_plain = &layer == &document_.motion.layers.front() && !layer.is_muted;
     }
     if (layers > 1 || !is_plain) {
@@ -242,14 +384,14 @@ class FbxRewriter {
     return take_.has_joints() ? point_of_joint(take_, joint) : joint;
   }
 
-  Vec3 position(const Take& take, std::size_t frame, std::size_t point) const {
-    if (take.has_joints() || take.is_observed(frame, point)) return take.position(frame, point);
+  Vec3 position(std::size_t frame, std::size_t point) const {
+    if (take_.has_joints() || take_.is_observed(frame, point)) return take_.position(frame, point);
     // A missing sample has the last known position of its marker, or the first.
     for (std::size_t f = frame; f-- > 0;) {
-      if (take.is_observed(f, point)) return take.position(f, point);
+      if (take_.is_observed(f, point)) return take_.position(f, point);
     }
-    for (std::size_t f = frame; f < take.frame_count(); ++f) {
-      if (take.is_observed(f, point)) return take.position(f, point);
+    for (std::size_t f = frame; f < frames(); ++f) {
+      if (take_.is_observed(f, point)) return take_.position(f, point);
     }
     return original_.position(0, point);
   }
@@ -261,7 +403,7 @@ class FbxRewriter {
     if (vector == nullptr) return;
     for (std::size_t f = 0; f < frames(); ++f) {
       const std::size_t from = same_frames_ ? f : 0;
-      const Vec3 step = position(take_, f, *point) - original_.position(from, *point);
+      const Vec3 step = position(f, *point) - original_.position(from, *point);
       const Vec3 source = source_translation(f, joint);
       const Vec3 moved = source + bases_[joint] * step;
       // Below a model with a scale near zero, no translation reaches the position.
@@ -274,7 +416,7 @@ class FbxRewriter {
   bool moves_differ(std::size_t point) const {
     if (!same_frames_) return true;
     for (std::size_t f = 0; f < frames(); ++f) {
-      if (!(position(take_, f, point) == original_.position(f, point))) return true;
+      if (!(position(f, point) == original_.position(f, point))) return true;
     }
     return false;
   }
@@ -331,16 +473,14 @@ class FbxRewriter {
     for_each_fbx_property(tree, document_.stack.record, [&](const FbxNamedProperty& p) {
       if (p.name == "LocalStop" || p.name == "ReferenceStop") set_time(p.value(0));
     });
-    const std::uint32_t takes = tree.child(no_fbx_record, "Takes");
-    for (std::uint32_t take = takes == no_fbx_record ? takes : tree.records[takes].first_child;
-         take != no_fbx_record; take = tree.records[take].next_sibling) {
+    tree.for_each_child(tree.child(no_fbx_record, "Takes"), [&](std::uint32_t take) {
       const FbxProperty* const name = tree.property(tree.records[take], 0);
-      if (name == nullptr || fbx_text(tree, *name) != document_.stack.name) continue;
+      if (name == nullptr || fbx_text(tree, *name) != document_.stack.name) return;
       for (const std::string_view range : {"LocalTime", "ReferenceTime"}) {
         const std::uint32_t record = tree.child(take, range);
         if (record != no_fbx_record) set_time(tree.property(tree.records[record], 1));
       }
-    }
+    });
   }
 
   const Take& take_;
@@ -356,19 +496,57 @@ class FbxRewriter {
   std::vector<FbxPatch> patches_;
 };
 
-}  // namespace
-
 bool fits_fbx_document(const Take& take, const FbxDocument& document, const Take& original) {
-  if (take.frame_count() == 0 || document.rig.joints.empty()) return false;
-  if (take.has_joints() != original.has_joints()) return false;
-  if (!take.has_joints()) return take.names == original.names && take.unit == original.unit;
-  return take.metres_per_unit == original.metres_per_unit &&
-         same_skeleton(take.skeleton, original.skeleton) &&
-         take.translated_joints == original.translated_joints;
+  return take.frame_count() > 0 && !document.rig.joints.empty() && same_parts(take, original);
 }
 
-std::string rewrite_fbx(const Take& take, const FbxDocument& document, const Take& original) {
-  return FbxRewriter(take, document, original).write();
+}  // namespace
+
+int sniff_fbx(std::string_view head) {
+  if (is_binary_fbx(head)) return 100;
+  head = without_byte_order_mark(head);
+  const std::size_t first = head.find_first_not_of(" \t\r\n");
+  if (first == head.npos) return 0;
+  head.remove_prefix(first);
+  if (head.substr(0, 6) == "; FBX ") return 100;
+  return head.find("FBXHeaderExtension:") != head.npos ? 90 : 0;
+}
+
+TakeResult read_fbx(std::string bytes, std::string_view name, const ReadOptions& options) {
+  const auto document = std::make_shared<FbxDocument>();
+  document->tree = read_fbx_tree(std::move(bytes), name, options.max_depth);
+  Diagnostics diagnostics;
+  Take take = FbxReader(*document, options).read(diagnostics);
+  take.source.name = std::string(name);
+  take.source.format = "fbx";
+  take.source.document = document;
+  TakeResult result;
+  result.take = std::move(take);
+  result.diagnostics = std::move(diagnostics);
+  return result;
+}
+
+std::vector<std::string> lost_beside_fbx(const Take& take) {
+  const auto* const document = dynamic_cast<const FbxDocument*>(take.source.document.get());
+  if (document == nullptr) return {};
+  const bool joints =
+      take.has_joints() && !holds_fbx_markers(document->scene, document->motion, document->rig);
+  const Take original = joints ? skeleton_of_fbx(*document) : take_of_fbx(*document);
+  if (fits_fbx_document(take, *document, original)) return {};
+  std::vector<std::string> parts;
+  if (document->scene.models.size() > document->rig.joints.size())
+    parts.emplace_back("meshes and other models");
+  if (document->scene.stacks.size() > 1) parts.emplace_back("other takes");
+  parts.emplace_back("materials and properties");
+  return parts;
+}
+
+std::string write_fbx(const Take& take) {
+  const auto* const document = dynamic_cast<const FbxDocument*>(take.source.document.get());
+  if (document == nullptr) return new_fbx_file(take);
+  const Take original = take_of_fbx(*document);
+  if (!fits_fbx_document(take, *document, original)) return new_fbx_file(take);
+  return FbxRewriter(take, *document, original).write();
 }
 
 }  // namespace kinemend
