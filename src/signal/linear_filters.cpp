@@ -1,5 +1,5 @@
 // Designs Butterworth low-pass filters, and runs recursive and symmetric FIR filters (the Gaussian
-// and the weighted mean) over a matrix, forward and backward or causally.
+// and the weighted mean) over a matrix.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -138,19 +138,6 @@ void filter_zero_phase(PoseMatrix& matrix, const std::vector<Biquad>& sections,
   start_at_rest(sections, last_tail_row, channels, memory);
   signal::filter_rows({last_tail_row, -stride, pad, channels}, sections, memory.data());
   signal::filter_rows({last_row, -stride, matrix.frames, channels}, sections, memory.data());
-}
-
-void CausalState::step(std::span<double> frame) {
-  if (!started_) {
-    channels_ = frame.size();
-    start_at_rest(sections_, frame.data(), channels_, memory_);
-    started_ = true;
-  }
-  // Only a frame of the wrong size may cost an allocation, for the message.
-  if (frame.size() != channels_)
-    throw Error(ErrorKind::usage, "a frame with another number of channels than the first");
-  signal::filter_rows({frame.data(), static_cast<std::ptrdiff_t>(channels_), 1, channels_},
-                      sections_, memory_.data());
 }
 
 namespace {

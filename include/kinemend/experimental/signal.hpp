@@ -50,24 +50,6 @@ void filter_zero_phase(PoseMatrix& matrix, const std::vector<Biquad>& sections);
 void filter_zero_phase(PoseMatrix& matrix, const std::vector<Biquad>& sections,
                        std::size_t pad_frames);
 
-/// Runs the sections forward only, frame by frame, from the steady state of the first frame.
-class CausalState {
- public:
-  explicit CausalState(std::vector<Biquad> sections) : sections_(std::move(sections)) {}
-  /// Filters the next frame in place. The first frame sets the number of channels, and is not
-  /// changed if the gain at 0 Hz is 1. Errors: `ErrorKind::usage` if a later frame has another
-  /// number of channels.
-  void step(std::span<double> frame);
-  /// Forgets the past: the next frame is a first frame.
-  void reset() { memory_.clear(), started_ = false; }
-
- private:
-  std::vector<Biquad> sections_;
-  std::vector<double> memory_;
-  std::size_t channels_ = 0;
-  bool started_ = false;
-};
-
 /// Running median over 2 * half_window + 1 frames. Near the ends the window shrinks and stays
 /// centred; the first and the last frame follow Tukey's end-point rule, y0 = median(x0, y1, 3 y1 -
 /// 2 y2), so that a spike in these frames is removed too.
