@@ -1,9 +1,9 @@
 // Tests of live sessions with lost, late, duplicate, malformed and reordered frames.
 #include <nlohmann/json.hpp>
 
-#include "cleaner/live.hpp"
 #include "kinemend/error.hpp"
 #include "live_run.hpp"
+#include "pass_through.hpp"
 
 namespace kinemend::test {
 namespace {
@@ -12,23 +12,9 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-// Changes no frame, so that the output equals the parsed input.
-class PassThrough final : public Cleaner {
- public:
-  std::string_view name() const override { return "pass-through"; }
-  OptionValues options() const override { return {}; }
-  CleanTrace clean(const TakeView&, const TrackSink&,
-                   const std::function<void(double)>&) const override {
-    return {};
-  }
-  LiveSupport live_support(double) const override { return {}; }
-  std::unique_ptr<LiveFilter> live(const TakeView& like) const override {
-    return gap_holding_filter(like);
-  }
-};
-
 class LiveSessionTest : public testing::Test {
  protected:
+  // The output equals the parsed input.
   std::unique_ptr<Cleaner> filter_ = std::make_unique<PassThrough>();
   StreamText stream_ = stream_text(noisy_clip(30));
 
