@@ -50,12 +50,6 @@ std::vector<Filter> all_filters() {
   }
   add("weighted mean", [](PoseMatrix& m) { weighted_mean_filter(m, 3); }).reach = 6;
   {
-    Filter& f = add("blender's weighted mean",
-                    [](PoseMatrix& m) { weighted_mean_filter(m, 3, WeightedMeanEnds::blender); });
-    f.keeps_lines = f.time_symmetric = false;
-    f.reach = 8;  // each pass extends the end rule by two frames
-  }
-  {
     Filter& f = add("median", [](PoseMatrix& m) { median_filter(m, 3); });
     f.linear = false;
     f.reach = 3;
@@ -184,7 +178,7 @@ TEST(EveryFilter, IsLinearIfItIsSaidToBe) {
         << filter.name;
     ++checked;
   }
-  EXPECT_GE(checked, 7u);
+  EXPECT_GE(checked, 5u);
 }
 
 PoseMatrix reversed(const PoseMatrix& matrix) {
@@ -236,7 +230,7 @@ TEST(EveryFilter, GivesTheShiftedResultForTheShiftedSignal) {
     }
     ++checked;
   }
-  EXPECT_GE(checked, 4u);
+  EXPECT_GE(checked, 3u);
 }
 
 TEST(EveryOfflineFilter, LeavesAPulseWhereItWas) {

@@ -81,18 +81,11 @@ void wavelet_denoise(PoseMatrix& matrix, const WaveletOptions& options = {});
 /// spectral factorisation: minimum phase for Daubechies, nearest to linear phase for symlets.
 std::vector<double> wavelet_filter(WaveletFamily family, int vanishing_moments);
 
-/// How `weighted_mean_filter` extends the signal beyond its ends.
-enum class WeightedMeanEnds {
-  reflect,  ///< point reflection: straight lines are kept, time reversal changes nothing
-  blender   ///< as Blender: frames 0 and F - 1 are kept; 1, 2 and F - 2 use the nearest neighbour
-            ///< for the missing second
-};
-
 /// The weighted moving mean of Blender's "Smooth Keys", `passes` times (>= 0). Blender averages a
 /// mean that favours the past, weights 3:5:2:1:1 over five keys, and its mirror image: y[t] = (2
-/// x[t-2] + 3 x[t-1] + 2 x[t] + 3 x[t+1] + 2 x[t+2]) / 12. Under 3 frames nothing changes.
-void weighted_mean_filter(PoseMatrix& matrix, int passes,
-                          WeightedMeanEnds ends = WeightedMeanEnds::reflect);
+/// x[t-2] + 3 x[t-1] + 2 x[t] + 3 x[t+1] + 2 x[t+2]) / 12. The signal is
+/// extended by its point reflection, which keeps straight lines. Under 3 frames nothing changes.
+void weighted_mean_filter(PoseMatrix& matrix, int passes);
 
 /// Fills marked samples on the straight line between their unmarked neighbours; before the first
 /// and behind the last unmarked sample the value is held. A channel that is marked throughout is
