@@ -1,5 +1,6 @@
 // The method `butterworth`: a low-pass filter, forward and backward on a whole take.
 #include "classic/filter_channels.hpp"
+#include "cleaner/method_row.hpp"
 #include "kinemend/experimental/signal.hpp"
 #include "kinemend/methods.hpp"
 
@@ -17,12 +18,9 @@ const OptionTable<ButterworthOptions>& butterworth_table() {
   return options;
 }
 
-class Butterworth final : public Cleaner {
+class Butterworth final : public OptionedCleaner<ButterworthOptions> {
  public:
-  explicit Butterworth(const ButterworthOptions& options) : options_(options) {}
-
-  std::string_view name() const override { return "butterworth"; }
-  OptionValues options() const override { return butterworth_table().values(options_); }
+  using OptionedCleaner::OptionedCleaner;
 
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
@@ -40,26 +38,19 @@ class Butterworth final : public Cleaner {
                     [&](PoseMatrix& channels) { filter_zero_phase(channels, sections, pad); });
     return {};
   }
-
- private:
-  ButterworthOptions options_;
 };
 
 }  // namespace
 
 std::unique_ptr<Cleaner> make_butterworth(const ButterworthOptions& options) {
-  butterworth_table().validate(options);
-  return std::make_unique<Butterworth>(options);
+  return std::make_unique<Butterworth>("butterworth", butterworth_table(), options);
 }
 
 Method butterworth_method() {
-  return {
+  return method_row<butterworth_table, make_butterworth>(
       "butterworth",
       "low-pass filter with a fixed cutoff, run forward and backward so that nothing is delayed",
-      "Butterworth 1930; the usual filter of biomechanics (Winter 1974)",
-      butterworth_table().specs(), [](const OptionValues& values) {
-        return make_butterworth(butterworth_table().parse(values));
-      }};
+      "Butterworth 1930; the usual filter of biomechanics (Winter 1974)");
 }
 
 }  // namespace kinemend

@@ -4,6 +4,7 @@
 
 #include "base/quantiles.hpp"
 #include "classic/medians.hpp"
+#include "cleaner/method_row.hpp"
 #include "cleaner/pieces.hpp"
 #include "kinemend/experimental/frame_rate.hpp"
 #include "kinemend/methods.hpp"
@@ -97,12 +98,9 @@ struct HampelFilter {
   }
 };
 
-class Hampel final : public Cleaner {
+class Hampel final : public OptionedCleaner<HampelOptions> {
  public:
-  explicit Hampel(const HampelOptions& options) : options_(options) {}
-
-  std::string_view name() const override { return "hampel"; }
-  OptionValues options() const override { return hampel_table().values(options_); }
+  using OptionedCleaner::OptionedCleaner;
 
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
@@ -116,23 +114,18 @@ class Hampel final : public Cleaner {
     filter_pieces(take, sink, progress, filter);
     return {};
   }
-
- private:
-  HampelOptions options_;
 };
 
 }  // namespace
 
 std::unique_ptr<Cleaner> make_hampel(const HampelOptions& options) {
-  hampel_table().validate(options);
-  return std::make_unique<Hampel>(options);
+  return std::make_unique<Hampel>("hampel", hampel_table(), options);
 }
 
 Method hampel_method() {
-  return {"hampel",
-          "replaces spikes by the median of their window; all other samples stay unchanged",
-          "Hampel 1974; Davies & Gather 1993", hampel_table().specs(),
-          [](const OptionValues& values) { return make_hampel(hampel_table().parse(values)); }};
+  return method_row<hampel_table, make_hampel>(
+      "hampel", "replaces spikes by the median of their window; all other samples stay unchanged",
+      "Hampel 1974; Davies & Gather 1993");
 }
 
 }  // namespace kinemend

@@ -11,6 +11,7 @@
 
 #include "body/representation.hpp"
 #include "cleaner/live.hpp"
+#include "cleaner/method_row.hpp"
 #include "cleaner/pieces.hpp"
 #include "kinemend/cleaner.hpp"
 #include "kinemend/error.hpp"
@@ -331,13 +332,9 @@ std::unique_ptr<Cleaner> make_recurrent(const RecurrentOptions& options,
 }
 
 Method recurrent_method() {
-  return {
-      "recurrent",
-      "neural network that predicts a filter for each joint and frame",
-      "Mall et al. 2017",
-      recurrent_table().specs(),
-      [](const OptionValues& values) { return make_recurrent(recurrent_table().parse(values)); },
-      true};
+  return learned_method_row<recurrent_table, make_recurrent>(
+      "recurrent", "neural network that predicts a filter for each joint and frame",
+      "Mall et al. 2017");
 }
 
 namespace {
