@@ -11,7 +11,6 @@
 
 #include "body/representation.hpp"
 #include "cleaner/live.hpp"
-#include "cleaner/method_row.hpp"
 #include "cleaner/pieces.hpp"
 #include "kinemend/cleaner.hpp"
 #include "kinemend/error.hpp"
@@ -332,9 +331,13 @@ std::unique_ptr<Cleaner> make_recurrent(const RecurrentOptions& options,
 }
 
 Method recurrent_method() {
-  return learned_method_row<recurrent_table, make_recurrent>(
-      "recurrent", "neural network that predicts a filter for each joint and frame",
-      "Mall et al. 2017");
+  return {
+      "recurrent",
+      "neural network that predicts a filter for each joint and frame",
+      "Mall et al. 2017",
+      recurrent_table().specs(),
+      [](const OptionValues& values) { return make_recurrent(recurrent_table().parse(values)); },
+      true};
 }
 
 namespace {
