@@ -1,5 +1,5 @@
-// What the definitions of methods share: a cleaner that takes its options from a table, and the
-// method's row in the table of methods.
+// Shares what definitions of methods need: a cleaner that takes its options from a table, and the
+// row of a method in the table of methods.
 #pragma once
 
 #include <string>
