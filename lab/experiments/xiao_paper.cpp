@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/quantiles.hpp"
-#include "lab/training/sparse_poselets.hpp"
+#include "lab/training/sparse_body.hpp"
 #include "motion/rotation.hpp"
 #include "papers/xiao2015_sparse/descent_solver.hpp"
 #include "papers/xiao2015_sparse/dictionary.hpp"

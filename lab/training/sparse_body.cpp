@@ -1,5 +1,6 @@
-// Finds torso, arms and legs by the names of joints or markers, or as a file says.
-#include "lab/training/sparse_poselets.hpp"
+// Averages the bones of takes. Finds torso, arms and legs by the names of joints or markers, or as
+// a file says.
+#include "lab/training/sparse_body.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,10 +15,65 @@
 #include "base/cells.hpp"
 #include "body/body_names.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/experimental/kinematics.hpp"
 #include "kinemend/experimental/text.hpp"
 #include "motion/names.hpp"
 
 namespace kinemend {
+
+namespace {
+
+// Body heights, for bones of unknown length. Chosen by hand, not swept.
+constexpr double shortest_end = 0.02, usual_end = 0.05;
+
+}  // namespace
+
+SparsePointsBuilder::SparsePointsBuilder(const BodyLayout& layout)
+    : layout_(layout), sums_(layout.track_count()), counts_(layout.track_count(), 0) {}
+
+void SparsePointsBuilder::add(const Take& clip) {
+  if (clip.frame_count() == 0) return;
+  const BodyMatch match = match_body(layout_, clip);
+  const BodyChannels channels = encode_body(clip, layout_, match);
+  const std::vector<Quat> global = global_rotations(layout_, channels.poses, 0);
+  const std::vector<Vec3> positions = joint_positions(clip, false);
+  const Quat ahead = exp({0, -channels.headings[0], 0});
+  const auto position = [&](std::size_t track) {
+    return rotate(ahead * match.upright, positions[static_cast<std::size_t>(match.tracks[track])]);
+  };
+  for (std::size_t i = 1; i < sums_.size(); ++i) {
+    const auto parent = static_cast<std::size_t>(layout_.parents[i]);
+    if (match.tracks[i] < 0 || match.tracks[parent] < 0) continue;
+    const Vec3 bone = (1 / match.body_height) * (position(i) - position(parent));
+    sums_[i] += rotate(conjugate(global[parent]), bone);
+    counts_[i] += 1;
+  }
+}
+
+SparsePoints SparsePointsBuilder::finish() const {
+  SparsePoints points;
+  points.parents = layout_.parents;
+  std::vector<bool> carries(sums_.size(), false);
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    points.offsets.push_back((1 / std::max(counts_[i], 1.0)) * sums_[i]);
+    if (i > 0) carries[static_cast<std::size_t>(layout_.parents[i])] = true;
+  }
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    if (carries[i] || norm(layout_.bones[i]) < 0.5) continue;
+    const double length = norm(points.offsets[i]);
+    points.parents.push_back(static_cast<std::int32_t>(i));
+    points.offsets.push_back((length > shortest_end ? length : usual_end) * layout_.bones[i]);
+  }
+  return points;
+}
+
+SparsePoints marker_points(const BodyLayout& layout) {
+  SparsePoints points;
+  points.kind = BodyKind::markers;
+  points.parents.assign(layout.track_count(), -1);
+  points.offsets = layout.means;
+  return points;
+}
 
 namespace {
 

@@ -1,14 +1,31 @@
-// Divides a body into the parts whose motion the method `sparse` learns (Xiao et al. 2015, section
-// 3.1).
+// Finds the points of a body, and the parts whose motion the method `sparse` learns (Xiao et al.
+// 2015, section 3.1).
 #pragma once
 
 #include <string_view>
 #include <vector>
 
 #include "kinemend/experimental/body.hpp"
+#include "kinemend/rotation.hpp"
+#include "papers/xiao2015_sparse/sparse_points.hpp"
 #include "papers/xiao2015_sparse/sparse_prior.hpp"
 
 namespace kinemend {
+
+/// Averages the vectors from joints to their children over takes; one frame of each is enough.
+class SparsePointsBuilder {
+ public:
+  explicit SparsePointsBuilder(const BodyLayout& layout);
+  void add(const Take& clip);
+  SparsePoints finish() const;
+
+ private:
+  const BodyLayout& layout_;
+  std::vector<Vec3> sums_;
+  std::vector<double> counts_;
+};
+/// The points of a marker layout, which determines them fully.
+SparsePoints marker_points(const BodyLayout& layout);
 
 /// Torso with head, arms and legs (section 3.1.2), without means and dictionaries, by the names of
 /// the tracks and the hierarchy; markers without a known name by their position. Joints that

@@ -15,7 +15,7 @@
 #include "kinemend/error.hpp"
 #include "kinemend/experimental/convert.hpp"
 #include "kinemend/experimental/random.hpp"
-#include "lab/training/sparse_poselets.hpp"
+#include "lab/training/sparse_body.hpp"
 #include "lab/training/training_sequences.hpp"
 #include "lab/training/training_stages.hpp"
 #include "lab/training/trainings.hpp"

@@ -18,7 +18,7 @@
 #include "kinemend/experimental/random.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "kinemend/lab/train.hpp"
-#include "lab/training/sparse_poselets.hpp"
+#include "lab/training/sparse_body.hpp"
 #include "papers/xiao2015_sparse/sparse_filter.hpp"
 #include "papers/xiao2015_sparse/sparse_prior.hpp"
 
