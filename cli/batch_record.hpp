@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/experimental/batch_rows.hpp"
+#include "kinemend/extend/pages.hpp"
 #include "platform/system.hpp"
 
 namespace kinemend::cli {

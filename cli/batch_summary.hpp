@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "batch_list.hpp"
-#include "kinemend/experimental/batch_rows.hpp"
+#include "kinemend/extend/pages.hpp"
 
 namespace kinemend::cli {
 

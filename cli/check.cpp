@@ -15,10 +15,10 @@
 
 #include "batch_list.hpp"
 #include "commands.hpp"
-#include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/gaps.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"
+#include "kinemend/take.hpp"
 #include "page_report.hpp"
 #include "robot_limits.hpp"
 #include "takes.hpp"

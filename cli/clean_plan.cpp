@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/gaps.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/take.hpp"
 #include "known_noise.hpp"
 #include "method_options.hpp"
 #include "page_report.hpp"

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <optional>
 
-#include "kinemend/experimental/letter_case.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend::cli {
 

@@ -5,7 +5,7 @@
 
 #include "json.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/json_depth.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "kinemend/experimental/letter_case.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend::cli {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/io.hpp"
 #include "takes.hpp"
 

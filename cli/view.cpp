@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "kinemend/experimental/page.hpp"
+#include "kinemend/extend/pages.hpp"
 #include "kinemend/io.hpp"
 #include "platform/system.hpp"
 #include "run_files.hpp"

@@ -19,7 +19,7 @@
 #include "compare_page.hpp"
 #include "config.hpp"
 #include "fill_take.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/feet.hpp"
 #include "kinemend/fill.hpp"
 #include "method_options.hpp"

@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "classic/linear_dynamics.hpp"
-#include "kinemend/experimental/pose_matrix.hpp"
+#include "kinemend/extend/frames.hpp"
 
 namespace kinemend {
 

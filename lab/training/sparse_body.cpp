@@ -15,8 +15,8 @@
 #include "base/cells.hpp"
 #include "body/body_names.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/text.hpp"
 #include "motion/names.hpp"
 
 namespace kinemend {

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/experimental/body.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/rotation.hpp"
 #include "papers/xiao2015_sparse/sparse_points.hpp"
 #include "papers/xiao2015_sparse/sparse_prior.hpp"
 

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/options.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/options.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend::python {
 

@@ -4,8 +4,8 @@
 #include "classic/medians.hpp"
 #include "cleaner/live.hpp"
 #include "cleaner/method_row.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/method_options.hpp"
 
 namespace kinemend {
 

@@ -14,7 +14,7 @@
 #include "clean/leftovers.hpp"
 #include "clean/steps.hpp"
 #include "cleaner/pieces.hpp"
-#include "kinemend/experimental/threads.hpp"
+#include "kinemend/extend/system.hpp"
 #include "methods/auto/auto.hpp"
 #include "motion/take.hpp"
 

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <utility>
 
-#include "kinemend/cleaner.hpp"
-#include "kinemend/options.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/options.hpp"
 
 namespace kinemend {
 

@@ -9,10 +9,9 @@
 
 #include "base/portable.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/curves.hpp"
-#include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/experimental/svg.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/pages.hpp"
+#include "kinemend/extend/text.hpp"
 #include "report/drawing.hpp"
 
 namespace kinemend {

@@ -10,13 +10,11 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/experimental/pictures.hpp"
-#include "kinemend/experimental/svg.hpp"
-#include "kinemend/experimental/text.hpp"
-#include "kinemend/gaps.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/pages.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/report.hpp"
+#include "kinemend/take.hpp"
 #include "motion/rotation.hpp"
 #include "report/drawing.hpp"
 #include "report/texts.hpp"

@@ -7,10 +7,9 @@
 #include <limits>
 
 #include "base/portable.hpp"
-#include "kinemend/experimental/pictures.hpp"
-#include "kinemend/experimental/svg.hpp"
-#include "kinemend/experimental/text.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/pages.hpp"
+#include "kinemend/extend/rotation.hpp"
+#include "kinemend/extend/text.hpp"
 #include "report/drawing.hpp"
 
 namespace kinemend {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "kinemend/error.hpp"
-#include "kinemend/stream.hpp"
+#include "kinemend/live.hpp"
 #include "registry/marker_takes.hpp"
 #include "registry/takes.hpp"
 

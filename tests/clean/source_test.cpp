@@ -1,5 +1,5 @@
 // Tests that the source of a take, given or read from its file, reaches methods and reports.
-#include "kinemend/source.hpp"
+#include "kinemend/take.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "kinemend/clean.hpp"
-#include "kinemend/methods.hpp"
-#include "kinemend/stream.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/live.hpp"
 #include "registry/takes.hpp"
 
 namespace kinemend::test {

@@ -1,5 +1,5 @@
 // Streams of joints give the same result as each live method on the whole take.
-#include "kinemend/stream.hpp"
+#include "kinemend/live.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <ostream>
 
 #include "kinemend/error.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/method_options.hpp"
 #include "registry/takes.hpp"
 
 namespace kinemend::test {

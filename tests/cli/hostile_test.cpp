@@ -1,6 +1,6 @@
 // Bad input gives one line with file and line, exit code 3, little memory, and no output.
 #include "cli/program.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend::test {
 namespace {

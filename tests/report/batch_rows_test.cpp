@@ -1,5 +1,5 @@
 // Tests of the rows of a batch and of their sums.
-#include "kinemend/experimental/batch_rows.hpp"
+#include "kinemend/extend/pages.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

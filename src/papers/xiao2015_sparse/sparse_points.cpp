@@ -12,7 +12,7 @@
 #include <optional>
 
 #include "base/parallel.hpp"
-#include "kinemend/experimental/representation.hpp"
+#include "kinemend/extend/body.hpp"
 #include "motion/rotation.hpp"
 
 namespace kinemend {
