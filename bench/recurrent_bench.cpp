@@ -125,7 +125,6 @@ void ebf_live(benchmark::State& state) {
     next = (next + 1) % ebf_frames;
   }
   times.tell(state);
-  state.counters["products_per_frame"] = live.products_per_frame();
 }
 BENCHMARK(ebf_live)
     ->Name("recurrent/ebf_live")

@@ -27,11 +27,6 @@ def reflected(x, radius):
     return np.pad(x, ((radius, radius), (0, 0)), mode="reflect", reflect_type="odd")
 
 
-def causal(x):
-    start = scipy.signal.sosfilt_zi(sos)[:, :, None] * x[0]
-    return scipy.signal.sosfilt(sos, x, axis=0, zi=start)[0]
-
-
 def fir(x, kernel):
     radius = len(kernel) // 2
     return scipy.ndimage.correlate1d(reflected(x, radius), kernel, axis=0)[radius:-radius]
@@ -60,7 +55,6 @@ def fill_cubic(x):
 
 JOBS = [
     ("butterworth_zero_phase_order_4", lambda x: scipy.signal.sosfiltfilt(sos, x, axis=0)),
-    ("butterworth_causal_order_4", causal),
     ("gaussian_sigma_3", gaussian),
     ("weighted_mean_passes/1", lambda x: weighted_mean(x, 1)),
     ("weighted_mean_passes/4", lambda x: weighted_mean(x, 4)),

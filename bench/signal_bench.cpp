@@ -58,17 +58,6 @@ BENCHMARK(butterworth_zero_phase_order_4)
     ->Name("signal/butterworth_zero_phase_order_4")
     ->Unit(benchmark::kMillisecond);
 
-void butterworth_causal_order_4(benchmark::State& state) {
-  const auto sections = kinemend::butterworth_lowpass(4, 6, 120);
-  run(state, [&](PoseMatrix& m) {
-    kinemend::CausalState filter(sections);
-    for (std::size_t t = 0; t < m.frames; ++t) filter.step(m.row(t));
-  });
-}
-BENCHMARK(butterworth_causal_order_4)
-    ->Name("signal/butterworth_causal_order_4")
-    ->Unit(benchmark::kMillisecond);
-
 void gaussian_sigma_3(benchmark::State& state) {
   run(state, [](PoseMatrix& m) { kinemend::gaussian_filter(m, 3); });
 }

@@ -65,8 +65,8 @@ LivePlan plan_of(const Arguments& arguments) {
   return plan;
 }
 
-LiveOptions options_of(const Arguments& arguments, const Method& method) {
-  LiveOptions options = live_options(arguments, method);
+LiveOptions options_of(const Arguments& arguments) {
+  LiveOptions options = live_options(arguments);
   options.neuron = arguments.given("neuron");
   // Only datagrams can arrive out of order.
   options.datagrams = arguments.given("udp");
@@ -145,10 +145,9 @@ VmcPlan vmc_plan_of(const Arguments& arguments) {
   return plan;
 }
 
-int run_vmc_stream(const Arguments& arguments, const Method& method, const Cleaner& cleaner) {
+int run_vmc_stream(const Arguments& arguments, const Cleaner& cleaner) {
   VmcPlan plan = vmc_plan_of(arguments);
   plan.cleaner = &cleaner;
-  if (method.name == "hampel" && plan.options.strength > 0) plan.options.strength = 1;
   const auto status = status_of(arguments);
   plan.status = status.get();
   run_vmc(plan);
@@ -158,13 +157,13 @@ int run_vmc_stream(const Arguments& arguments, const Method& method, const Clean
 int run_stream(const Arguments& arguments) {
   const Method& method = find_method(arguments.text("method"));
   const auto cleaner = live_cleaner(method, parse_method_options(method, arguments.group_texts));
-  if (source_option(arguments) == "vmc") return run_vmc_stream(arguments, method, *cleaner);
+  if (source_option(arguments) == "vmc") return run_vmc_stream(arguments, *cleaner);
   for (const char* const vmc : {"to_vmc", "joints"}) {
     if (arguments.given(vmc))
       throw Error(ErrorKind::usage, fmt::format("stream: --{} needs --vmc", dashed(vmc)));
   }
   LivePlan plan = plan_of(arguments);
-  const LiveOptions options = options_of(arguments, method);
+  const LiveOptions options = options_of(arguments);
   const auto output = live_output_of(arguments);
   std::optional<LiveClock::time_point> came = LiveClock::now();
   if (!plan.quiet) say(fmt::format("method {}", method.name));

@@ -132,12 +132,10 @@ std::vector<OptionGroup> live_groups() {
   return groups;
 }
 
-LiveOptions live_options(const Arguments& arguments, const Method& method) {
+LiveOptions live_options(const Arguments& arguments) {
   LiveOptions options;
   options.format = arguments.text("format") == "jsonl" ? LiveFormat::jsonl : LiveFormat::bvh;
   options.strength = arguments.number("strength");
-  // This method only repairs spikes, and a repair is complete at any strength.
-  if (method.name == "hampel" && options.strength > 0) options.strength = 1;
   options.frame_rate_hz = arguments.given("fps") ? arguments.number("fps") : 0;
   options.feet = arguments.flag("feet");
   options.source = parse_source(arguments.text("source"));

@@ -20,6 +20,6 @@ std::vector<Flag> live_flags();
 /// Options of the methods that may run live.
 std::vector<OptionGroup> live_groups();
 /// Converts the values of `live_flags`.
-LiveOptions live_options(const Arguments& arguments, const Method& method);
+LiveOptions live_options(const Arguments& arguments);
 
 }  // namespace kinemend::cli

@@ -60,7 +60,7 @@ void open(const char* options) {
   stream.cleaner = kinemend::cli::live_cleaner(
       method, kinemend::cli::parse_method_options(method, arguments.group_texts));
   stream.session = std::make_unique<kinemend::LiveSession>(
-      *stream.cleaner, kinemend::cli::live_options(arguments, method),
+      *stream.cleaner, kinemend::cli::live_options(arguments),
       [](const kinemend::LivePiece& piece) { answer.out += piece.text; });
   streams.emplace(++last_stream, std::move(stream));
 }

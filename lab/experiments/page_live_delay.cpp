@@ -33,7 +33,6 @@ std::vector<LiveSetting> live_settings() {
   std::vector<LiveSetting> all;
   add_settings(all, "one-euro", "min_cutoff_hz", {0.5, 1.5, 3.0, 6.0});
   add_settings(all, "kalman", "agility", {0.3, 1.0, 3.0}, {{"smoother", false}});
-  add_settings(all, "butterworth", "cutoff_hz", {8.0, 16.0, 24.0}, {{"causal", true}});
   add_settings(all, "median", "window_s", {0.03, 0.06, 0.09, 0.15});
   add_settings(all, "gaussian", "width_s", {0.005, 0.01, 0.02, 0.03});
   add_settings(all, "weighted-mean", "passes", {Whole{1}, Whole{2}, Whole{4}, Whole{8}});

@@ -6,9 +6,10 @@
 #include <cmath>
 
 #include "base/quantiles.hpp"
+#include "lab/training/ksvd.hpp"
+#include "lab/training/sparse_body.hpp"
 #include "motion/rotation.hpp"
 #include "papers/xiao2015_sparse/descent_solver.hpp"
-#include "papers/xiao2015_sparse/dictionary.hpp"
 
 namespace kinemend::papers {
 

@@ -1,8 +1,8 @@
 // Trains the method `kalman-learned`: the options of the training and the fit of its dynamics.
 #include <cstdint>
 
-#include "classic/linear_dynamics.hpp"
 #include "kinemend/error.hpp"
+#include "lab/training/linear_dynamics_fit.hpp"
 #include "lab/training/training_sequences.hpp"
 #include "lab/training/trainings.hpp"
 #include "models/model_reading.hpp"

@@ -15,11 +15,12 @@
 #include "kinemend/error.hpp"
 #include "kinemend/extend/motion.hpp"
 #include "kinemend/extend/random.hpp"
+#include "lab/training/ksvd.hpp"
+#include "lab/training/sparse_body.hpp"
 #include "lab/training/training_sequences.hpp"
 #include "lab/training/training_stages.hpp"
 #include "lab/training/trainings.hpp"
 #include "models/model_reading.hpp"
-#include "papers/xiao2015_sparse/dictionary.hpp"
 #include "papers/xiao2015_sparse/sparse_prior.hpp"
 
 namespace kinemend {

@@ -159,7 +159,7 @@ class Cleaner:
     Examples
     --------
     >>> kinemend.Cleaner("butterworth", cutoff_hz=6)
-    <kinemend.Cleaner butterworth causal=False cutoff_hz=6.0 order=4>
+    <kinemend.Cleaner butterworth cutoff_hz=6.0 order=4>
     """
 
     def __init__(

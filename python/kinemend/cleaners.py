@@ -130,7 +130,6 @@ def butterworth(
     *,
     order: int = 4,
     cutoff_hz: float = 8.0,
-    causal: bool = False,
 ) -> Cleaner:
     """Low-pass filter with a fixed cutoff, run forward and backward so that nothing is delayed.
 
@@ -142,10 +141,8 @@ def butterworth(
         Filter order of each of the two passes (1 to 12).
     cutoff_hz : float, default 8.0
         Cutoff of one pass (half power); must be below half of the frame rate (Hz, 0.05 to 500).
-    causal : bool, default False
-        Forward pass only: delays the motion, and can run live.
     """
-    return Cleaner("butterworth", {"order": order, "cutoff_hz": cutoff_hz, "causal": causal})
+    return Cleaner("butterworth", {"order": order, "cutoff_hz": cutoff_hz})
 
 
 def median(

@@ -6,6 +6,7 @@
 
 #include "base/portable.hpp"
 #include "cleaner/live.hpp"
+#include "cleaner/method_row.hpp"
 #include "cleaner/orientation_filter.hpp"
 #include "cleaner/pieces.hpp"
 #include "kinemend/extend/frames.hpp"
@@ -158,14 +159,9 @@ class GaussianStep {
   SlidingWindow<Vec3> increments_;
 };
 
-class GaussianCleaner final : public Cleaner {
+class GaussianCleaner final : public OptionedCleaner<GaussianOptions> {
  public:
-  explicit GaussianCleaner(const GaussianOptions& options) : options_(options) {
-    gaussian_table().validate(options);
-  }
-
-  std::string_view name() const override { return "gaussian"; }
-  OptionValues options() const override { return gaussian_table().values(options_); }
+  using OptionedCleaner::OptionedCleaner;
 
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
@@ -190,20 +186,18 @@ class GaussianCleaner final : public Cleaner {
   double sigma_frames(double frame_rate_hz) const {
     return options_.width_s * window_rate_hz(frame_rate_hz);
   }
-
-  GaussianOptions options_;
 };
 
 }  // namespace
 
 std::unique_ptr<Cleaner> make_gaussian(const GaussianOptions& options) {
-  return std::make_unique<GaussianCleaner>(options);
+  return std::make_unique<GaussianCleaner>("gaussian", gaussian_table(), options);
 }
 
 Method gaussian_method() {
-  return {"gaussian", "smoothing with Gaussian weights in time, made for rotations",
-          "Lee & Shin 2002; Courty 2008, eq. 2-3", gaussian_table().specs(),
-          [](const OptionValues& values) { return make_gaussian(gaussian_table().parse(values)); }};
+  return method_row<gaussian_table, make_gaussian>(
+      "gaussian", "smoothing with Gaussian weights in time, made for rotations",
+      "Lee & Shin 2002; Courty 2008, eq. 2-3");
 }
 
 }  // namespace kinemend

@@ -1,12 +1,11 @@
 // The method `hampel`: replaces samples that deviate from the median of their window, and changes
 // nothing else.
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
 #include "base/quantiles.hpp"
 #include "classic/medians.hpp"
-#include "cleaner/live.hpp"
+#include "cleaner/method_row.hpp"
+#include "cleaner/pieces.hpp"
 #include "kinemend/extend/frames.hpp"
 #include "kinemend/extend/method_options.hpp"
 
@@ -99,90 +98,34 @@ struct HampelFilter {
   }
 };
 
-// The rule away from the ends, where windows are whole.
-template <class Sample>
-class HampelStep {
+class Hampel final : public OptionedCleaner<HampelOptions> {
  public:
-  explicit HampelStep(const Rule& rule) : rule_(rule), window_(2 * rule.half + 1) {
-    sums_.reserve(2 * rule.half + 1);
-    distances_.reserve(2 * rule.half + 1);
-    scratch_.reserve(2 * rule.half + 1);
-  }
-
-  Sample step(Sample newest) {
-    window_.push(newest);
-    const SampleTrack<Sample> samples = window_.samples();
-    const Sample own = samples[rule_.half];
-    const std::size_t middle = medoid(samples, sums_);
-    const double distance = chord(samples[middle], own);
-    if (distance <= rule_.least_distance) return own;
-    distances_.clear();
-    for (const Sample& sample : samples) distances_.push_back(chord(samples[middle], sample));
-    if (distance <= rule_.threshold * upper_median_of(distances_) / median_of_chi3) return own;
-    return l1_median(samples, middle, scratch_);
-  }
-
- private:
-  Rule rule_;
-  SlidingWindow<Sample> window_;
-  std::vector<double> sums_, distances_;
-  std::vector<Vec3> scratch_;
-};
-
-class Hampel final : public Cleaner {
- public:
-  explicit Hampel(const HampelOptions& options) : options_(options) {}
-
-  std::string_view name() const override { return "hampel"; }
-  OptionValues options() const override { return hampel_table().values(options_); }
+  using OptionedCleaner::OptionedCleaner;
 
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
-    filter_pieces(take, sink, progress, filter_for(take));
+    const double rate_hz = take.frame_rate_hz;
+    const std::size_t half = frames_in(options_.window_s / 2, window_rate_hz(rate_hz), 3);
+    HampelFilter filter;
+    for (const Track& track : take.tracks) {
+      filter.rules.push_back(
+          {half, options_.threshold, options_.minimum_deg * radians_per_degree * track.radian});
+    }
+    filter_pieces(take, sink, progress, filter);
     return {};
   }
-
-  LiveSupport live_support(double) const override { return {}; }
-
-  std::unique_ptr<LiveFilter> live(const TakeView& like) const override {
-    return windowed_filter<HampelStep>(
-        like, half_frames(like.frame_rate_hz),
-        [&](const kinemend::Track& track, auto sample) {
-          return HampelStep<decltype(sample)>(rule_for(track, like.frame_rate_hz));
-        },
-        filter_for(like));
-  }
-
- private:
-  std::size_t half_frames(double rate_hz) const {
-    return frames_in(options_.window_s / 2, window_rate_hz(rate_hz), 3);
-  }
-  Rule rule_for(const kinemend::Track& track, double rate_hz) const {
-    return {half_frames(rate_hz), options_.threshold,
-            options_.minimum_deg * radians_per_degree * track.radian};
-  }
-  HampelFilter filter_for(const TakeView& take) const {
-    HampelFilter filter;
-    for (const kinemend::Track& track : take.tracks)
-      filter.rules.push_back(rule_for(track, take.frame_rate_hz));
-    return filter;
-  }
-
-  HampelOptions options_;
 };
 
 }  // namespace
 
 std::unique_ptr<Cleaner> make_hampel(const HampelOptions& options) {
-  hampel_table().validate(options);
-  return std::make_unique<Hampel>(options);
+  return std::make_unique<Hampel>("hampel", hampel_table(), options);
 }
 
 Method hampel_method() {
-  return {"hampel",
-          "replaces spikes by the median of their window; all other samples stay unchanged",
-          "Hampel 1974; Davies & Gather 1993", hampel_table().specs(),
-          [](const OptionValues& values) { return make_hampel(hampel_table().parse(values)); }};
+  return method_row<hampel_table, make_hampel>(
+      "hampel", "replaces spikes by the median of their window; all other samples stay unchanged",
+      "Hampel 1974; Davies & Gather 1993");
 }
 
 }  // namespace kinemend

@@ -4,6 +4,7 @@
 
 #include "classic/track_kalman.hpp"
 #include "cleaner/live.hpp"
+#include "cleaner/method_row.hpp"
 #include "kinemend/extend/method_options.hpp"
 #include "metrics/track_noise.hpp"
 
@@ -102,12 +103,9 @@ class LiveTrack {
   bool started_ = false;
 };
 
-class Kalman final : public Cleaner {
+class Kalman final : public OptionedCleaner<KalmanOptions> {
  public:
-  explicit Kalman(const KalmanOptions& options) : options_(options) {}
-
-  std::string_view name() const override { return "kalman"; }
-  OptionValues options() const override { return kalman_table().values(options_); }
+  using OptionedCleaner::OptionedCleaner;
 
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
@@ -160,22 +158,18 @@ class Kalman final : public Cleaner {
     });
     return noise;
   }
-
-  KalmanOptions options_;
 };
 
 }  // namespace
 
 std::unique_ptr<Cleaner> make_kalman(const KalmanOptions& options) {
-  kalman_table().validate(options);
-  return std::make_unique<Kalman>(options);
+  return std::make_unique<Kalman>("kalman", kalman_table(), options);
 }
 
 Method kalman_method() {
-  return {"kalman", "Kalman smoother or live filter that assumes steady motion",
-          "Kalman 1960; Rauch, Tung & Striebel 1965; baseline of Lou & Chai 2010",
-          kalman_table().specs(),
-          [](const OptionValues& values) { return make_kalman(kalman_table().parse(values)); }};
+  return method_row<kalman_table, make_kalman>(
+      "kalman", "Kalman smoother or live filter that assumes steady motion",
+      "Kalman 1960; Rauch, Tung & Striebel 1965; baseline of Lou & Chai 2010");
 }
 
 }  // namespace kinemend

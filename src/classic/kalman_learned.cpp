@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "classic/linear_dynamics.hpp"
+#include "cleaner/method_row.hpp"
 #include "kinemend/extend/method_options.hpp"
 #include "kinemend/extend/model.hpp"
 #include "methods/prior/prior_cleaning.hpp"
@@ -85,14 +86,9 @@ std::unique_ptr<Cleaner> make_kalman_learned(const KalmanLearnedOptions& options
 }
 
 Method kalman_learned_method() {
-  return {"kalman-learned",
-          "Kalman smoother with a model of motion that was learned from clean clips",
-          "data-driven Kalman filter of Lou & Chai 2010, section 4.2",
-          kalman_learned_table().specs(),
-          [](const OptionValues& values) {
-            return make_kalman_learned(kalman_learned_table().parse(values));
-          },
-          true};
+  return learned_method_row<kalman_learned_table, make_kalman_learned>(
+      "kalman-learned", "Kalman smoother with a model of motion that was learned from clean clips",
+      "data-driven Kalman filter of Lou & Chai 2010, section 4.2");
 }
 
 }  // namespace kinemend

@@ -3,6 +3,7 @@
 
 #include "classic/medians.hpp"
 #include "cleaner/live.hpp"
+#include "cleaner/method_row.hpp"
 #include "kinemend/extend/frames.hpp"
 #include "kinemend/extend/method_options.hpp"
 
@@ -98,12 +99,9 @@ class MedianStep {
   std::vector<Vec3> scratch_;
 };
 
-class Median final : public Cleaner {
+class Median final : public OptionedCleaner<MedianOptions> {
  public:
-  explicit Median(const MedianOptions& options) : options_(options) {}
-
-  std::string_view name() const override { return "median"; }
-  OptionValues options() const override { return median_table().values(options_); }
+  using OptionedCleaner::OptionedCleaner;
 
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
@@ -130,22 +128,18 @@ class Median final : public Cleaner {
   std::size_t half_frames(double rate_hz) const {
     return frames_in(options_.window_s / 2, window_rate_hz(rate_hz), 1);
   }
-
-  MedianOptions options_;
 };
 
 }  // namespace
 
 std::unique_ptr<Cleaner> make_median(const MedianOptions& options) {
-  median_table().validate(options);
-  return std::make_unique<Median>(options);
+  return std::make_unique<Median>("median", median_table(), options);
 }
 
 Method median_method() {
-  return {"median", "running median: removes short spikes and keeps sudden moves",
-          "Tukey 1977; the median of rotations is Hartley et al.'s L1 mean (2011)",
-          median_table().specs(),
-          [](const OptionValues& values) { return make_median(median_table().parse(values)); }};
+  return method_row<median_table, make_median>(
+      "median", "running median: removes short spikes and keeps sudden moves",
+      "Tukey 1977; the median of rotations is Hartley et al.'s L1 mean (2011)");
 }
 
 }  // namespace kinemend

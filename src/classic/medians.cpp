@@ -88,21 +88,13 @@ Vec3 spatial_median(std::span<const Vec3> points, std::size_t start) {
   return best;
 }
 
-// Twice |a - b| with the nearer signs for rotations, |a - b| for points.
-double distance_of(Quat a, Quat b) {
-  const Quat d{a.w - b.w, a.x - b.x, a.y - b.y, a.z - b.z};
-  const double same = dot(d, d);
-  return 2 * std::sqrt(std::min(same, std::max(0.0, 4 - same)));
-}
-double distance_of(Vec3 a, Vec3 b) { return norm(a - b); }
-
 // Sums distances in the same order as `MovingMedoid`.
 template <class Sample>
 std::size_t least_sum(std::span<const Sample> samples, std::vector<double>& sums) {
   sums.assign(samples.size(), 0.0);
   for (std::size_t s = 1; s < samples.size(); ++s) {
     for (std::size_t i = 0; i < s; ++i) {
-      const double d = distance_of(samples[s], samples[i]);
+      const double d = chord(samples[s], samples[i]);
       sums[s] += d;
       sums[i] += d;
     }
@@ -112,7 +104,12 @@ std::size_t least_sum(std::span<const Sample> samples, std::vector<double>& sums
 
 }  // namespace
 
-double chord(Quat a, Quat b) { return distance_of(a, b); }
+// Twice |a - b| with the nearer signs.
+double chord(Quat a, Quat b) {
+  const Quat d{a.w - b.w, a.x - b.x, a.y - b.y, a.z - b.z};
+  const double same = dot(d, d);
+  return 2 * std::sqrt(std::min(same, std::max(0.0, 4 - same)));
+}
 
 std::size_t medoid(std::span<const Quat> samples) {
   return MovingMedoid<Quat>(samples, samples.size()).find(0, samples.size() - 1);
@@ -159,7 +156,7 @@ void MovingMedoid<Sample>::take_in(std::size_t frame) {
   const std::size_t row = frame % longest_;
   const std::size_t oldest = std::max(first_, frame + 1 - std::min(frame + 1, longest_));
   for (std::size_t other = oldest; other <= frame; ++other) {
-    const double d = distance_of(track_[frame], track_[other]);
+    const double d = chord(track_[frame], track_[other]);
     distances_[row * longest_ + other % longest_] = d;
     distances_[(other % longest_) * longest_ + row] = d;
   }

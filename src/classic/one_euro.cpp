@@ -2,6 +2,7 @@
 #include "classic/filter_channels.hpp"
 #include "classic/track_kalman.hpp"
 #include "cleaner/live.hpp"
+#include "cleaner/method_row.hpp"
 #include "kinemend/extend/method_options.hpp"
 
 namespace kinemend {
@@ -57,12 +58,9 @@ class OneEuroTrack {
   bool started_ = false;
 };
 
-class OneEuro final : public Cleaner {
+class OneEuro final : public OptionedCleaner<OneEuroOptions> {
  public:
-  explicit OneEuro(const OneEuroOptions& options) : options_(options) {}
-
-  std::string_view name() const override { return "one-euro"; }
-  OptionValues options() const override { return one_euro_table().values(options_); }
+  using OptionedCleaner::OptionedCleaner;
 
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
@@ -86,21 +84,18 @@ class OneEuro final : public Cleaner {
     return cutoff_warning("min_cutoff_hz", options_.min_cutoff_hz, rate_hz) +
            "; a pose that is held is hardly smoothed";
   }
-
-  OneEuroOptions options_;
 };
 
 }  // namespace
 
 std::unique_ptr<Cleaner> make_one_euro(const OneEuroOptions& options) {
-  one_euro_table().validate(options);
-  return std::make_unique<OneEuro>(options);
+  return std::make_unique<OneEuro>("one-euro", one_euro_table(), options);
 }
 
 Method one_euro_method() {
-  return {"one-euro", "live filter that smooths much at rest and little in motion",
-          "Casiez, Roussel & Vogel 2012", one_euro_table().specs(),
-          [](const OptionValues& values) { return make_one_euro(one_euro_table().parse(values)); }};
+  return method_row<one_euro_table, make_one_euro>(
+      "one-euro", "live filter that smooths much at rest and little in motion",
+      "Casiez, Roussel & Vogel 2012");
 }
 
 }  // namespace kinemend

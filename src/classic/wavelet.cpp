@@ -1,5 +1,6 @@
 // The method `wavelet`: shrinks the wavelet coefficients of a take's channels.
 #include "classic/filter_channels.hpp"
+#include "cleaner/method_row.hpp"
 #include "kinemend/extend/method_options.hpp"
 #include "kinemend/extend/signal.hpp"
 
@@ -38,12 +39,9 @@ WaveletOptions signal_options(const WaveletCleanerOptions& options) {
   return result;
 }
 
-class Wavelet final : public Cleaner {
+class Wavelet final : public OptionedCleaner<WaveletCleanerOptions> {
  public:
-  explicit Wavelet(const WaveletCleanerOptions& options) : options_(options) {}
-
-  std::string_view name() const override { return "wavelet"; }
-  OptionValues options() const override { return wavelet_table().values(options_); }
+  using OptionedCleaner::OptionedCleaner;
 
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
@@ -53,22 +51,18 @@ class Wavelet final : public Cleaner {
                     });
     return {};
   }
-
- private:
-  WaveletCleanerOptions options_;
 };
 
 }  // namespace
 
 std::unique_ptr<Cleaner> make_wavelet(const WaveletCleanerOptions& options) {
-  wavelet_table().validate(options);
-  return std::make_unique<Wavelet>(options);
+  return std::make_unique<Wavelet>("wavelet", wavelet_table(), options);
 }
 
 Method wavelet_method() {
-  return {"wavelet", "wavelet shrinkage: adapts to the noise and keeps sudden motion",
-          "Donoho & Johnstone 1994, 1995", wavelet_table().specs(),
-          [](const OptionValues& values) { return make_wavelet(wavelet_table().parse(values)); }};
+  return method_row<wavelet_table, make_wavelet>(
+      "wavelet", "wavelet shrinkage: adapts to the noise and keeps sudden motion",
+      "Donoho & Johnstone 1994, 1995");
 }
 
 }  // namespace kinemend

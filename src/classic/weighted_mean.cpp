@@ -2,6 +2,7 @@
 #include "body/representation.hpp"
 #include "classic/filter_channels.hpp"
 #include "cleaner/live.hpp"
+#include "cleaner/method_row.hpp"
 #include "kinemend/extend/method_options.hpp"
 #include "kinemend/extend/signal.hpp"
 
@@ -56,12 +57,9 @@ class WeightedMeanStep {
   SignContinuation sign_;
 };
 
-class WeightedMean final : public Cleaner {
+class WeightedMean final : public OptionedCleaner<WeightedMeanOptions> {
  public:
-  explicit WeightedMean(const WeightedMeanOptions& options) : options_(options) {}
-
-  std::string_view name() const override { return "weighted-mean"; }
-  OptionValues options() const override { return weighted_mean_table().values(options_); }
+  using OptionedCleaner::OptionedCleaner;
 
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
@@ -84,23 +82,18 @@ class WeightedMean final : public Cleaner {
   std::function<void(PoseMatrix&)> channel_filter() const {
     return [passes = passes()](PoseMatrix& channels) { weighted_mean_filter(channels, passes); };
   }
-
-  WeightedMeanOptions options_;
 };
 
 }  // namespace
 
 std::unique_ptr<Cleaner> make_weighted_mean(const WeightedMeanOptions& options) {
-  weighted_mean_table().validate(options);
-  return std::make_unique<WeightedMean>(options);
+  return std::make_unique<WeightedMean>("weighted-mean", weighted_mean_table(), options);
 }
 
 Method weighted_mean_method() {
-  return {"weighted-mean", "weighted moving mean of five frames, like Smooth Keys in Blender",
-          "Smooth Keys of Blender's graph editor", weighted_mean_table().specs(),
-          [](const OptionValues& values) {
-            return make_weighted_mean(weighted_mean_table().parse(values));
-          }};
+  return method_row<weighted_mean_table, make_weighted_mean>(
+      "weighted-mean", "weighted moving mean of five frames, like Smooth Keys in Blender",
+      "Smooth Keys of Blender's graph editor");
 }
 
 }  // namespace kinemend

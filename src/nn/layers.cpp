@@ -1,5 +1,4 @@
-// Reads dense, convolutional and LSTM layers from tensors, and runs them as matrix products, over a
-// sequence or one step at a time.
+// Reads dense, convolutional and LSTM layers from tensors, and runs them as matrix products.
 #include "nn/layers.hpp"
 
 #include <fmt/format.h>
@@ -116,23 +115,6 @@ void check_gates(const std::string& name, const Dense& input, const Dense& state
                           input.outputs(), state.outputs(), state.inputs()));
 }
 
-// Completes a step from the input's contribution to the gates.
-void step_from_gates(const Lstm& layer, RecurrentState& state) {
-  multiply(row_of(state.hidden), layer.state, mutable_row(state.gates), Product::add);
-  lstm_gates(state.gates.data(), layer.units(), state.cell.data(), state.hidden.data());
-}
-
-// Steps through the frames, given the inputs' contributions to the gates.
-void go_on(const Lstm& layer, Direction direction, const MatrixViewF& gates, RecurrentState& state,
-           const MutableMatrixViewF& y) {
-  for (std::size_t i = 0; i < gates.rows; ++i) {
-    const std::size_t t = direction == Direction::forward ? i : gates.rows - 1 - i;
-    std::copy_n(gates.values + t * gates.row_stride, gates.columns, state.gates.data());
-    step_from_gates(layer, state);
-    std::copy(state.hidden.begin(), state.hidden.end(), y.values + t * y.row_stride);
-  }
-}
-
 }  // namespace
 
 Lstm read_lstm(const NamedTensors& tensors, const std::string& name) {
@@ -151,11 +133,6 @@ RecurrentState start(const Lstm& layer) {
           std::vector<float>(gate_count * units)};
 }
 
-void step(const Lstm& layer, std::span<const float> x, RecurrentState& state) {
-  run(layer.input, row_of(x), mutable_row(state.gates));
-  step_from_gates(layer, state);
-}
-
 void restart(RecurrentState& state) {
   std::fill(state.hidden.begin(), state.hidden.end(), 0.0F);
   std::fill(state.cell.begin(), state.cell.end(), 0.0F);
@@ -165,7 +142,13 @@ void run_on(const Lstm& layer, Direction direction, const MatrixViewF& gates, Re
             const MutableMatrixViewF& y) {
   assert(gates.columns == layer.input.outputs() && y.columns == layer.units() &&
          gates.rows == y.rows);
-  go_on(layer, direction, gates, state, y);
+  for (std::size_t i = 0; i < gates.rows; ++i) {
+    const std::size_t t = direction == Direction::forward ? i : gates.rows - 1 - i;
+    std::copy_n(gates.values + t * gates.row_stride, gates.columns, state.gates.data());
+    multiply(row_of(state.hidden), layer.state, mutable_row(state.gates), Product::add);
+    lstm_gates(state.gates.data(), layer.units(), state.cell.data(), state.hidden.data());
+    std::copy(state.hidden.begin(), state.hidden.end(), y.values + t * y.row_stride);
+  }
 }
 
 // The products with the inputs of all frames are computed together.
@@ -176,7 +159,7 @@ void run(const Lstm& layer, Direction direction, const MatrixViewF& x,
   std::vector<float> gates(x.rows * width);
   run(layer.input, x, {gates.data(), x.rows, width, width});
   RecurrentState state = start(layer);
-  go_on(layer, direction, {gates.data(), x.rows, width, width}, state, y);
+  run_on(layer, direction, {gates.data(), x.rows, width, width}, state, y);
 }
 
 void activate(Activation activation, std::span<float> values) {

@@ -1,5 +1,5 @@
 // Runs layers of networks in single precision, for inference: they map T rows of one width to T
-// rows of another, and LSTM layers also run step by step. Their weights have the shapes and the
+// rows of another, and LSTM layers also run on from a state. Their weights have the shapes and the
 // order of gates of LibTorch.
 #pragma once
 
@@ -86,16 +86,13 @@ struct Lstm {
 /// `<name>.input.bias`, `<name>.state.bias`. Errors: as of `read_dense`.
 Lstm read_lstm(const NamedTensors& tensors, const std::string& name);
 
-/// The state of such a layer between frames, and the scratch of a step.
+/// The state of such a layer between frames, and the scratch of a frame.
 struct RecurrentState {
   std::vector<float> hidden;  ///< H
   std::vector<float> cell;    ///< H
   std::vector<float> gates;   ///< 4 H
 };
 RecurrentState start(const Lstm& layer);
-
-/// Runs one frame; `state.hidden` is the output. Does not allocate.
-void step(const Lstm& layer, std::span<const float> x, RecurrentState& state);
 
 /// Resets the state to zeros.
 void restart(RecurrentState& state);

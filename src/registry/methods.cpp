@@ -32,27 +32,12 @@ Method learned_method();
 Method one_euro_method();
 
 std::span<const Method> methods() {
-  static const std::vector<Method> table = [] {
-    std::vector<Method> list;
-    list.push_back(auto_method());
-    list.push_back(bilateral_method());
-    list.push_back(nonlocal_method());
-    list.push_back(gaussian_method());
-    list.push_back(butterworth_method());
-    list.push_back(median_method());
-    list.push_back(hampel_method());
-    list.push_back(wavelet_method());
-    list.push_back(weighted_mean_method());
-    list.push_back(kalman_method());
-    list.push_back(example_method());
-    list.push_back(wiener_method());
-    list.push_back(sparse_method());
-    list.push_back(kalman_learned_method());
-    list.push_back(recurrent_method());
-    list.push_back(learned_method());
-    list.push_back(one_euro_method());
-    return list;
-  }();
+  static const std::vector<Method> table = {
+      auto_method(),          bilateral_method(),      nonlocal_method(),  gaussian_method(),
+      butterworth_method(),   median_method(),         hampel_method(),    wavelet_method(),
+      weighted_mean_method(), kalman_method(),         example_method(),   wiener_method(),
+      sparse_method(),        kalman_learned_method(), recurrent_method(), learned_method(),
+      one_euro_method()};
   return table;
 }
 

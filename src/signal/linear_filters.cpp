@@ -1,9 +1,8 @@
 // Designs Butterworth low-pass filters, and runs recursive and symmetric FIR filters (the Gaussian
-// and the weighted mean) over a matrix, forward and backward or causally.
+// and the weighted mean) over a matrix.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -140,19 +139,6 @@ void filter_zero_phase(PoseMatrix& matrix, const std::vector<Biquad>& sections,
   signal::filter_rows({last_row, -stride, matrix.frames, channels}, sections, memory.data());
 }
 
-void CausalState::step(std::span<double> frame) {
-  if (!started_) {
-    channels_ = frame.size();
-    start_at_rest(sections_, frame.data(), channels_, memory_);
-    started_ = true;
-  }
-  // Only a frame of the wrong size may cost an allocation, for the message.
-  if (frame.size() != channels_)
-    throw Error(ErrorKind::usage, "a frame with another number of channels than the first");
-  signal::filter_rows({frame.data(), static_cast<std::ptrdiff_t>(channels_), 1, channels_},
-                      sections_, memory_.data());
-}
-
 namespace {
 
 void symmetric_fir(PoseMatrix& matrix, const std::vector<double>& half_weights) {
@@ -165,41 +151,6 @@ void symmetric_fir(PoseMatrix& matrix, const std::vector<double>& half_weights) 
 
 // By definition: Smooth Keys of Blender.
 constexpr double mean_weights[] = {2.0 / 12, 3.0 / 12, 2.0 / 12};  // at distance 0, 1 and 2
-
-// The frames next to the ends as in Blender. The second neighbour before frame 2 is frame 0, but
-// Blender's test for it (index - 2 > 0) leaves it out.
-struct BlenderEnds {
-  std::vector<std::pair<std::size_t, std::vector<double>>> rows;
-
-  explicit BlenderEnds(const PoseMatrix& matrix) {
-    const std::size_t last = matrix.frames - 1;
-    std::array<std::size_t, 5> wanted = {0, 1, 2, last - 1, last};
-    std::sort(wanted.begin(), wanted.end());
-    const auto end = std::unique(wanted.begin(), wanted.end());
-    for (auto frame = wanted.begin(); frame != end; ++frame)
-      rows.emplace_back(*frame, row(matrix, *frame));
-  }
-
-  static std::vector<double> row(const PoseMatrix& matrix, std::size_t t) {
-    const std::size_t last = matrix.frames - 1;
-    std::vector<double> result(matrix.row(t).begin(), matrix.row(t).end());
-    if (t == 0 || t == last) return result;
-    const std::size_t second_before = t > 2 ? t - 2 : t - 1;
-    const std::size_t second_behind = t + 2 <= last ? t + 2 : t + 1;
-    for (std::size_t c = 0; c < matrix.channels; ++c) {
-      result[c] = mean_weights[0] * matrix(t, c) +
-                  mean_weights[1] * (matrix(t - 1, c) + matrix(t + 1, c)) +
-                  mean_weights[2] * (matrix(second_before, c) + matrix(second_behind, c));
-    }
-    return result;
-  }
-
-  void put_into(PoseMatrix& matrix) const {
-    for (const auto& [frame, values] : rows) {
-      std::copy(values.begin(), values.end(), matrix.row(frame).begin());
-    }
-  }
-};
 
 }  // namespace
 
@@ -220,19 +171,11 @@ void gaussian_filter(PoseMatrix& matrix, double sigma_frames) {
   symmetric_fir(matrix, weights);
 }
 
-void weighted_mean_filter(PoseMatrix& matrix, int passes, WeightedMeanEnds ends) {
+void weighted_mean_filter(PoseMatrix& matrix, int passes) {
   signal::require(passes >= 0, fmt::format("{} passes make no sense", passes));
   if (matrix.frames < 3 || matrix.channels == 0) return;
   const std::vector<double> weights(std::begin(mean_weights), std::end(mean_weights));
-  for (int pass = 0; pass < passes; ++pass) {
-    if (ends == WeightedMeanEnds::blender) {
-      const BlenderEnds end_rows(matrix);
-      symmetric_fir(matrix, weights);
-      end_rows.put_into(matrix);
-    } else {
-      symmetric_fir(matrix, weights);
-    }
-  }
+  for (int pass = 0; pass < passes; ++pass) symmetric_fir(matrix, weights);
 }
 
 }  // namespace kinemend

@@ -189,10 +189,8 @@ double gain_at(const Cleaner& cleaner, double frequency_hz) {
   return turn / 0.02;
 }
 
-TEST(Butterworth, LetsHalfTheAmplitudePassAtItsCutoffBothWaysAndSevenTenthsOneWay) {
+TEST(Butterworth, LetsHalfTheAmplitudePassAtItsCutoff) {
   EXPECT_NEAR(gain_at(*make_butterworth({.cutoff_hz = 8}), 8), 0.5, 0.01);
-  EXPECT_NEAR(gain_at(*make_butterworth({.cutoff_hz = 8, .causal = true}), 8), std::sqrt(0.5),
-              0.01);
   EXPECT_NEAR(gain_at(*make_butterworth({.order = 2, .cutoff_hz = 8}), 4),
               1 / (1 + std::pow(0.5, 4)), 0.02);
   EXPECT_GT(gain_at(*make_butterworth({.cutoff_hz = 8}), 2), 0.999);

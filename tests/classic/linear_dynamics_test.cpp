@@ -8,6 +8,7 @@
 #include "classic/dynamics_support.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/lab/train.hpp"
+#include "lab/training/linear_dynamics_fit.hpp"
 
 namespace kinemend::test {
 namespace {

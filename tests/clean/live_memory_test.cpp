@@ -25,11 +25,9 @@ struct Live {
 };
 
 std::vector<Live> every_live_method() {
-  return {{"bilateral", {}},     {"nonlocal", {{"causal", true}}},
-          {"gaussian", {}},      {"butterworth", {{"causal", true}}},
-          {"median", {}},        {"hampel", {}},
-          {"weighted-mean", {}}, {"kalman", {{"smoother", false}}},
-          {"one-euro", {}}};
+  return {
+      {"bilateral", {}},     {"nonlocal", {{"causal", true}}},  {"gaussian", {}}, {"median", {}},
+      {"weighted-mean", {}}, {"kalman", {{"smoother", false}}}, {"one-euro", {}}};
 }
 
 std::vector<Frame> frames_of(const Take& clip) {

@@ -82,7 +82,7 @@ TEST_F(StreamCommand, RefusesAMethodThatNeedsTheWholeTakeAndNamesTheOthers) {
   EXPECT_THAT(
       ran.err,
       AllOf(IsOneLine(), HasSubstr("auto needs the whole take; methods that run live: bilateral"),
-            HasSubstr("butterworth --causal"), HasSubstr("one-euro")));
+            HasSubstr("nonlocal --causal"), HasSubstr("one-euro")));
 }
 
 TEST_F(StreamCommand, ListsTheMethodsThatRunLiveAlone) {

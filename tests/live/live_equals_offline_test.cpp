@@ -95,10 +95,10 @@ TEST(LiveMethods, AreAllThatRunLiveWithWhatMakesThem) {
     names.push_back(method.name);
     EXPECT_TRUE(make_cleaner(method.name, method.options)->live_support(120).runs());
   }
-  EXPECT_THAT(names,
-              testing::IsSupersetOf({"bilateral", "nonlocal", "gaussian", "butterworth", "median",
-                                     "hampel", "weighted-mean", "kalman", "one-euro", "learned"}));
-  EXPECT_THAT(names, testing::Not(testing::Contains("wavelet")));
+  EXPECT_THAT(names, testing::IsSupersetOf({"bilateral", "nonlocal", "gaussian", "median",
+                                            "weighted-mean", "kalman", "one-euro", "learned"}));
+  for (const char* method : {"wavelet", "butterworth", "hampel"})
+    EXPECT_THAT(names, testing::Not(testing::Contains(method)));
 }
 
 }  // namespace

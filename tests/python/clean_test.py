@@ -107,7 +107,7 @@ def test_options_are_given_in_three_ways(noisy):
     options = [kinemend.clean(noisy, *arguments, **words).report.options for arguments, words in (
         (("butterworth",), {"cutoff_hz": 6, "order": 2}), (("butterworth",), {"options": {"cutoff_hz": 6.0, "order": 2}}),
         ((kinemend.cleaners.butterworth(cutoff_hz=6, order=2),), {}))]
-    assert options[0] == options[1] == options[2] == {"causal": False, "cutoff_hz": 6.0, "order": 2}
+    assert options[0] == options[1] == options[2] == {"cutoff_hz": 6.0, "order": 2}
     assert kinemend.Cleaner("sparse", lambda_=0.2).options["lambda"] == 0.2
     assert kinemend.cleaners.sparse(lambda_=0.2).options["lambda"] == 0.2
     with pytest.raises(TypeError):

@@ -44,19 +44,6 @@ std::vector<double> smooth_keys(const std::vector<double>& x) {
   return y;
 }
 
-TEST(WeightedMean, IsBlendersSmoothKeys) {
-  for (const std::size_t frames : {3u, 4u, 5u, 6u, 150u}) {
-    const PoseMatrix input = noisy_sines(frames, 1, 2, 0.5);
-    std::vector<double> expected = input.values;
-    for (int pass = 1; pass <= 4; ++pass) {
-      expected = smooth_keys(expected);
-      PoseMatrix result = input;
-      weighted_mean_filter(result, pass, WeightedMeanEnds::blender);
-      EXPECT_LT(largest_difference(result.values, expected), 1e-13) << frames << " frames";
-    }
-  }
-}
-
 TEST(WeightedMean, WithReflectedEndsDiffersFromBlenderNearTheEndsOnly) {
   const PoseMatrix input = noisy_sines(50, 1, 3, 0.5);
   PoseMatrix reflected = input;

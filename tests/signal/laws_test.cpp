@@ -28,7 +28,6 @@ WaveletOptions wavelet(WaveletThreshold threshold, WaveletShrinkage shrinkage) {
 
 std::vector<Filter> all_filters() {
   const auto order_4 = butterworth_lowpass(4, 10, 120);
-  const auto order_3 = butterworth_lowpass(3, 10, 120);
   const std::size_t settled = settling_frames(order_4, 1e-13);
   using Wt = WaveletThreshold;
   using Ws = WaveletShrinkage;
@@ -49,17 +48,7 @@ std::vector<Filter> all_filters() {
         add("butterworth, settled", [=](PoseMatrix& m) { filter_zero_phase(m, order_4, settled); });
     f.time_symmetric = false;  // not bit for bit
   }
-  {
-    Filter& f = add("causal butterworth", [=](PoseMatrix& m) { filter_causally(m, order_3); });
-    f.keeps_lines = f.time_symmetric = false;
-  }
   add("weighted mean", [](PoseMatrix& m) { weighted_mean_filter(m, 3); }).reach = 6;
-  {
-    Filter& f = add("blender's weighted mean",
-                    [](PoseMatrix& m) { weighted_mean_filter(m, 3, WeightedMeanEnds::blender); });
-    f.keeps_lines = f.time_symmetric = false;
-    f.reach = 8;  // each pass extends the end rule by two frames
-  }
   {
     Filter& f = add("median", [](PoseMatrix& m) { median_filter(m, 3); });
     f.linear = false;
@@ -189,7 +178,7 @@ TEST(EveryFilter, IsLinearIfItIsSaidToBe) {
         << filter.name;
     ++checked;
   }
-  EXPECT_GE(checked, 7u);
+  EXPECT_GE(checked, 5u);
 }
 
 PoseMatrix reversed(const PoseMatrix& matrix) {
@@ -241,12 +230,11 @@ TEST(EveryFilter, GivesTheShiftedResultForTheShiftedSignal) {
     }
     ++checked;
   }
-  EXPECT_GE(checked, 4u);
+  EXPECT_GE(checked, 3u);
 }
 
 TEST(EveryOfflineFilter, LeavesAPulseWhereItWas) {
   for (const Filter& filter : all_filters()) {
-    if (filter.name == "causal butterworth") continue;
     PoseMatrix input(201, 1);
     Random random(13);
     for (std::size_t t = 0; t < 201; ++t) {
@@ -268,8 +256,7 @@ TEST(EveryDenoiser, BringsANoisySignalNearerToTheCleanOneAndBendsNoEnd) {
   const PoseMatrix clean = noisy_sines(400, 8, 14, 0.0);
   const PoseMatrix noisy = noisy_sines(400, 8, 14, 0.1);
   for (const Filter& filter : all_filters()) {
-    if (filter.name == "causal butterworth" || filter.name == "wide gaussian")
-      continue;  // lags, or is too strong for this signal
+    if (filter.name == "wide gaussian") continue;  // is too strong for this signal
     const PoseMatrix result = filtered(noisy, filter.apply);
     const double share = filter.name == "universal soft wavelet" ? 0.9 : 0.75;  // it flattens
     EXPECT_LT(rms(result.values, clean.values), share * rms(noisy.values, clean.values))

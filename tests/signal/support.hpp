@@ -78,11 +78,6 @@ inline PoseMatrix filtered(PoseMatrix matrix, const std::function<void(PoseMatri
   return matrix;
 }
 
-inline void filter_causally(PoseMatrix& matrix, const std::vector<Biquad>& sections) {
-  CausalState state(sections);
-  for (std::size_t t = 0; t < matrix.frames; ++t) state.step(matrix.row(t));
-}
-
 inline double rms(const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);

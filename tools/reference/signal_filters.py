@@ -30,8 +30,6 @@ record("input/long", long_take)
 for order, cutoff_hz in [(1, 6), (2, 6), (3, 10), (4, 6), (5, 20), (7, 12), (8, 30), (12, 15)]:
     sos = scipy.signal.butter(order, cutoff_hz, fs=RATE_HZ, output="sos")
     record(f"sosfiltfilt/{order}/{cutoff_hz}", scipy.signal.sosfiltfilt(sos, long_take))
-    start = scipy.signal.sosfilt_zi(sos) * long_take[0]
-    record(f"sosfilt/{order}/{cutoff_hz}", scipy.signal.sosfilt(sos, long_take, zi=start)[0])
 
 sos = scipy.signal.butter(4, 6, fs=RATE_HZ, output="sos")
 for frames in [2, 3, 9, 16]:

@@ -27,7 +27,7 @@ const wanted = readFileSync(join(folder, 'wanted.bvh'));
 // Live streams arrive in pieces that end anywhere.
 const marked = `MARKERS 100 A,B\n${Array.from({ length: 60 }, (_, f) => (f % 20 === 7 ? `${f},0,0,,,` : `${f + Math.sin(f * f)},0,0,5,${f},1`)).join('\n')}\n`;
 writeFileSync(join(folder, 'markers.txt'), marked);
-const streams = [['walk.bvh', {}], ['walk.bvh', { method: 'one-euro', min_cutoff_hz: 2, format: 'jsonl' }], ['walk.bvh', { method: 'butterworth', feet: true }],
+const streams = [['walk.bvh', {}], ['walk.bvh', { method: 'one-euro', min_cutoff_hz: 2, format: 'jsonl' }], ['walk.bvh', { method: 'gaussian', feet: true }],
   ['walk.bvh', { method: 'learned', strength: 0.5 }], ['markers.txt', { method: 'gaussian' }], ['markers.txt', { body_height: 1600, fps: 50 }]];
 const flags = (asked) => Object.entries(asked).flatMap(([name, value]) => (value === false ? [] : value === true ? [`--${name}`] : [`--${name.replaceAll('_', '-')}`, String(value)]));
 const streamed = streams.map(([input, asked]) => ({ input, asked, output: execFileSync(program, ['stream', ...flags(asked)],

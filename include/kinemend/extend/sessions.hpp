@@ -133,7 +133,7 @@ class LiveSession {
   std::unique_ptr<Work> work_;
 };
 
-/// A method that runs live, and the options that it needs to do so (`causal` for `butterworth`).
+/// A method that runs live, and the options that it needs to do so (`causal` for `nonlocal`).
 struct LiveMethod {
   std::string name;
   OptionValues options;

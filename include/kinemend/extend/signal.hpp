@@ -50,24 +50,6 @@ void filter_zero_phase(PoseMatrix& matrix, const std::vector<Biquad>& sections);
 void filter_zero_phase(PoseMatrix& matrix, const std::vector<Biquad>& sections,
                        std::size_t pad_frames);
 
-/// Runs the sections forward only, frame by frame, from the steady state of the first frame.
-class CausalState {
- public:
-  explicit CausalState(std::vector<Biquad> sections) : sections_(std::move(sections)) {}
-  /// Filters the next frame in place. The first frame sets the number of channels, and is not
-  /// changed if the gain at 0 Hz is 1. Errors: `ErrorKind::usage` if a later frame has another
-  /// number of channels.
-  void step(std::span<double> frame);
-  /// Forgets the past: the next frame is a first frame.
-  void reset() { memory_.clear(), started_ = false; }
-
- private:
-  std::vector<Biquad> sections_;
-  std::vector<double> memory_;
-  std::size_t channels_ = 0;
-  bool started_ = false;
-};
-
 /// Running median over 2 * half_window + 1 frames. Near the ends the window shrinks and stays
 /// centred; the first and the last frame follow Tukey's end-point rule, y0 = median(x0, y1, 3 y1 -
 /// 2 y2), so that a spike in these frames is removed too.
@@ -99,18 +81,11 @@ void wavelet_denoise(PoseMatrix& matrix, const WaveletOptions& options = {});
 /// spectral factorisation: minimum phase for Daubechies, nearest to linear phase for symlets.
 std::vector<double> wavelet_filter(WaveletFamily family, int vanishing_moments);
 
-/// How `weighted_mean_filter` extends the signal beyond its ends.
-enum class WeightedMeanEnds {
-  reflect,  ///< point reflection: straight lines are kept, time reversal changes nothing
-  blender   ///< as Blender: frames 0 and F - 1 are kept; 1, 2 and F - 2 use the nearest neighbour
-            ///< for the missing second
-};
-
 /// The weighted moving mean of Blender's "Smooth Keys", `passes` times (>= 0). Blender averages a
 /// mean that favours the past, weights 3:5:2:1:1 over five keys, and its mirror image: y[t] = (2
-/// x[t-2] + 3 x[t-1] + 2 x[t] + 3 x[t+1] + 2 x[t+2]) / 12. Under 3 frames nothing changes.
-void weighted_mean_filter(PoseMatrix& matrix, int passes,
-                          WeightedMeanEnds ends = WeightedMeanEnds::reflect);
+/// x[t-2] + 3 x[t-1] + 2 x[t] + 3 x[t+1] + 2 x[t+2]) / 12. The signal is
+/// extended by its point reflection, which keeps straight lines. Under 3 frames nothing changes.
+void weighted_mean_filter(PoseMatrix& matrix, int passes);
 
 /// Fills marked samples on the straight line between their unmarked neighbours; before the first
 /// and behind the last unmarked sample the value is held. A channel that is marked throughout is

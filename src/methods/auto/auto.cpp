@@ -9,6 +9,7 @@
 
 #include "base/parallel.hpp"
 #include "base/quantiles.hpp"
+#include "cleaner/method_row.hpp"
 #include "cleaner/pieces.hpp"
 #include "kinemend/methods.hpp"
 #include "methods/auto/track_cleaning.hpp"
@@ -75,12 +76,9 @@ TracksBySpace tracks_by_space(const TakeView& take) {
   return found;
 }
 
-class Auto final : public Cleaner {
+class Auto final : public OptionedCleaner<AutoOptions> {
  public:
-  explicit Auto(const AutoOptions& options) : options_(options) {}
-
-  std::string_view name() const override { return "auto"; }
-  OptionValues options() const override { return auto_table().values(options_); }
+  using OptionedCleaner::OptionedCleaner;
 
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& tell) const override {
@@ -151,8 +149,6 @@ class Auto final : public Cleaner {
                            const TrackSink& sink) {
     for (const std::size_t track : rotations) sink(track, assemble(rotation_piece(take, track)));
   }
-
-  AutoOptions options_;
 };
 
 }  // namespace
@@ -189,16 +185,15 @@ MeasuredNoise measure_noise(const TakeView& take) {
 }
 
 std::unique_ptr<Cleaner> make_auto(const AutoOptions& options) {
-  auto_table().validate(options);
-  return std::make_unique<Auto>(options);
+  return std::make_unique<Auto>("auto", auto_table(), options);
 }
 
 Method auto_method() {
-  return {"auto",
-          "measures the noise of each joint or marker, repairs spikes, smooths by the measured "
-          "noise, and leaves clean takes unchanged",
-          "Kinemend; smoothing by evidence after Eilers 2003 and Wahba 1985", auto_table().specs(),
-          [](const OptionValues& values) { return make_auto(auto_table().parse(values)); }};
+  return method_row<auto_table, make_auto>(
+      "auto",
+      "measures the noise of each joint or marker, repairs spikes, smooths by the measured "
+      "noise, and leaves clean takes unchanged",
+      "Kinemend; smoothing by evidence after Eilers 2003 and Wahba 1985");
 }
 
 }  // namespace kinemend

@@ -262,20 +262,13 @@ SamplePattern find_sample_pattern(const VectorTracks& tracks, const SampleMarks&
 }
 
 VectorTracks measured_samples(const VectorTracks& tracks, const SamplePattern& pattern) {
-  VectorTracks result(pattern.samples(tracks.frames()), tracks.tracks());
-  for (std::size_t n = 0; n < tracks.tracks(); ++n) {
-    for (std::size_t i = 0; i < result.frames(); ++i)
-      result.set(i, n, tracks.at(pattern.frame(i), n));
-  }
-  return result;
+  return {pattern.samples(tracks.frames()), tracks.tracks(),
+          [&](std::size_t i, std::size_t n) { return tracks.at(pattern.frame(i), n); }};
 }
 
 SampleMarks marks_of_samples(const SampleMarks& marks, const SamplePattern& pattern) {
-  SampleMarks result(pattern.samples(marks.frames), marks.tracks);
-  for (std::size_t n = 0; n < marks.tracks; ++n) {
-    for (std::size_t i = 0; i < result.frames; ++i) result(i, n) = marks(pattern.frame(i), n);
-  }
-  return result;
+  return {pattern.samples(marks.frames), marks.tracks,
+          [&](std::size_t i, std::size_t n) { return marks(pattern.frame(i), n) != 0; }};
 }
 
 SampleMarks spread_samples(const VectorTracks& samples, const SampleMarks& marked,

@@ -15,6 +15,7 @@
 #include "base/quantiles.hpp"
 #include "body/representation.hpp"
 #include "cleaner/live.hpp"
+#include "cleaner/method_row.hpp"
 #include "cleaner/pieces.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/extend/method_options.hpp"
@@ -278,12 +279,9 @@ class LiveLearned final : public Cleaner {
 }  // namespace
 
 Method learned_method() {
-  return {"learned",
-          "network that reads the take itself and finds noise of every kind, slow noise too",
-          "Kinemend; damage as in Mall et al. 2017, smoothers mixed by a network",
-          learned_table().specs(),
-          [](const OptionValues& values) { return make_learned(learned_table().parse(values)); },
-          true};
+  return learned_method_row<learned_table, make_learned>(
+      "learned", "network that reads the take itself and finds noise of every kind, slow noise too",
+      "Kinemend; damage as in Mall et al. 2017, smoothers mixed by a network");
 }
 
 std::unique_ptr<Cleaner> make_learned(const LearnedOptions& options,

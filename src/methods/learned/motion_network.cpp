@@ -181,6 +181,13 @@ MotionNetwork motion_network_of(const Model& model) {
   network.deviation = network_numbers(model, "deviation", network.slots, true);
   network.speed = network_numbers(model, "speed", network.slots, true);
   const auto& tensors = model.tensors;
+  // `outputs`: 0 for any number.
+  const auto dense = [&](const char* name, std::size_t inputs, std::size_t outputs) {
+    nn::Dense layer = nn::read_dense(tensors, name);
+    check_width(name, layer.inputs(), inputs);
+    if (outputs > 0) check_width(name, layer.outputs(), outputs);
+    return layer;
+  };
   network.encoder = nn::read_convolution(tensors, "encoder");
   check_width("encoder", network.encoder.inputs(), motion_features);
   const std::size_t width = network.encoded();
@@ -190,15 +197,10 @@ MotionNetwork motion_network_of(const Model& model) {
                            nn::Activation::relu);
   check_width("second_encoder", network.second_encoder.inputs(), width);
   check_width("second_encoder", network.second_encoder.outputs(), width);
-  network.of_take = nn::read_dense(tensors, "of_take");
-  check_width("of_take", network.of_take.inputs(), motion_take_features);
-  check_width("of_take", network.of_take.outputs(), width);
-  network.body = nn::read_dense(tensors, "body");
-  check_width("body", network.body.inputs(), network.slots * (width + 2));
-  network.pool = nn::read_dense(tensors, "pool");
-  check_width("pool", network.pool.inputs(), 2 * width);
+  network.of_take = dense("of_take", motion_take_features, width);
+  network.body = dense("body", network.slots * (width + 2), 0);
   const std::size_t hidden = network.body.outputs();
-  check_width("pool", network.pool.outputs(), hidden);
+  network.pool = dense("pool", 2 * width, hidden);
   const std::size_t blocks = whole_number(model, "blocks", 0, most_motion_blocks);
   for (std::size_t i = 0; i < blocks; ++i) {
     const std::string name = fmt::format("block{}", i);
@@ -212,21 +214,13 @@ MotionNetwork motion_network_of(const Model& model) {
     check_width(name, block.dense.outputs(), hidden);
     network.blocks.push_back(std::move(block));
   }
-  network.to_slots = nn::read_dense(tensors, "to_slots");
-  check_width("to_slots", network.to_slots.inputs(), hidden);
+  network.to_slots = dense("to_slots", hidden, 0);
   check_width("to_slots", network.to_slots.outputs() % network.slots, 0);
-  network.slot_corrections = nn::read_dense(tensors, "slot_corrections");
-  check_width("slot_corrections", network.slot_corrections.inputs(), hidden);
-  check_width("slot_corrections", network.slot_corrections.outputs(),
-              network.slots * motion_body_corrections);
-  network.to_all = nn::read_dense(tensors, "to_all");
-  network.head = nn::read_dense(tensors, "head");
-  network.output = nn::read_dense(tensors, "output");
-  check_width("to_all", network.to_all.inputs(), hidden);
-  check_width("to_all", network.to_all.outputs(), network.head.outputs());
-  check_width("head", network.head.inputs(), 2 * width + network.slot_units());
-  check_width("output", network.output.inputs(), network.head.outputs());
-  check_width("output", network.output.outputs(), motion_outputs);
+  network.slot_corrections =
+      dense("slot_corrections", hidden, network.slots * motion_body_corrections);
+  network.head = dense("head", 2 * width + network.slot_units(), 0);
+  network.to_all = dense("to_all", hidden, network.head.outputs());
+  network.output = dense("output", network.head.outputs(), motion_outputs);
   return network;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/quantiles.hpp"
+#include "cleaner/method_row.hpp"
 #include "kinemend/extend/method_options.hpp"
 #include "kinemend/extend/model.hpp"
 #include "methods/auto/smoothing.hpp"
@@ -157,12 +158,9 @@ std::unique_ptr<Cleaner> make_wiener(const WienerOptions& options,
 }
 
 Method wiener_method() {
-  return {"wiener",
-          "estimates short stretches of motion from what was learned of motion and noise",
-          "a stronger linear prior than Lou & Chai 2010",
-          wiener_table().specs(),
-          [](const OptionValues& values) { return make_wiener(wiener_table().parse(values)); },
-          true};
+  return learned_method_row<wiener_table, make_wiener>(
+      "wiener", "estimates short stretches of motion from what was learned of motion and noise",
+      "a stronger linear prior than Lou & Chai 2010");
 }
 
 }  // namespace kinemend

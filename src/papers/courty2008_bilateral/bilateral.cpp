@@ -5,6 +5,7 @@
 
 #include "base/portable.hpp"
 #include "cleaner/live.hpp"
+#include "cleaner/method_row.hpp"
 #include "cleaner/pieces.hpp"
 #include "kinemend/extend/frames.hpp"
 #include "kinemend/extend/method_options.hpp"
@@ -108,14 +109,9 @@ class BilateralStep {
   std::vector<BilateralPass<Sample>> passes_;
 };
 
-class BilateralCleaner final : public Cleaner {
+class BilateralCleaner final : public OptionedCleaner<BilateralOptions> {
  public:
-  explicit BilateralCleaner(const BilateralOptions& options) : options_(options) {
-    bilateral_table().validate(options);
-  }
-
-  std::string_view name() const override { return "bilateral"; }
-  OptionValues options() const override { return bilateral_table().values(options_); }
+  using OptionedCleaner::OptionedCleaner;
 
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
@@ -159,22 +155,19 @@ class BilateralCleaner final : public Cleaner {
     const double height = body_height(take.joints->skeleton);
     return height > 0 ? height : 1;
   }
-
-  BilateralOptions options_;
 };
 
 }  // namespace
 
 std::unique_ptr<Cleaner> make_bilateral(const BilateralOptions& options) {
-  return std::make_unique<BilateralCleaner>(options);
+  return std::make_unique<BilateralCleaner>("bilateral", bilateral_table(), options);
 }
 
 Method bilateral_method() {
-  return {
+  return method_row<bilateral_table, make_bilateral>(
       "bilateral",
       "edge-preserving average of rotations: smooths slow motion and keeps quick moves",
-      "Courty 2008, Bilateral Human Motion Filtering", bilateral_table().specs(),
-      [](const OptionValues& values) { return make_bilateral(bilateral_table().parse(values)); }};
+      "Courty 2008, Bilateral Human Motion Filtering");
 }
 
 }  // namespace kinemend

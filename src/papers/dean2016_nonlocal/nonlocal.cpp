@@ -11,6 +11,7 @@
 #include "base/portable.hpp"
 #include "base/quantiles.hpp"
 #include "cleaner/live.hpp"
+#include "cleaner/method_row.hpp"
 #include "cleaner/pieces.hpp"
 #include "kinemend/extend/cleaner.hpp"
 #include "kinemend/extend/frames.hpp"
@@ -292,17 +293,14 @@ class NonlocalWindow final : public WindowedFilter {
   const Cleaner& cleaner_;
 };
 
-class NonlocalCleaner final : public Cleaner {
+class NonlocalCleaner final : public OptionedCleaner<NonlocalOptions> {
  public:
-  explicit NonlocalCleaner(const NonlocalOptions& options) : options_(options) {
-    nonlocal_table().validate(options);
+  explicit NonlocalCleaner(const NonlocalOptions& options)
+      : OptionedCleaner("nonlocal", nonlocal_table(), options) {
     if (options.causal && options.window_s == 0) {
       throw Error(ErrorKind::usage, "window_s: 0 (the whole take) is not to be had with causal");
     }
   }
-
-  std::string_view name() const override { return "nonlocal"; }
-  OptionValues options() const override { return nonlocal_table().values(options_); }
 
   CleanTrace clean(const TakeView& take, const TrackSink& sink,
                    const std::function<void(double)>& progress) const override {
@@ -444,8 +442,6 @@ class NonlocalCleaner final : public Cleaner {
     settings.bandwidth = best_bandwidth(pose.take, settings, variance);
     return true;
   }
-
-  NonlocalOptions options_;
 };
 
 }  // namespace
@@ -455,10 +451,9 @@ std::unique_ptr<Cleaner> make_nonlocal(const NonlocalOptions& options) {
 }
 
 Method nonlocal_method() {
-  return {"nonlocal", "averages poses that occur in similar stretches of motion",
-          "Dean 2016, Non-local Pose Means for Denoising Motion Capture Data",
-          nonlocal_table().specs(),
-          [](const OptionValues& values) { return make_nonlocal(nonlocal_table().parse(values)); }};
+  return method_row<nonlocal_table, make_nonlocal>(
+      "nonlocal", "averages poses that occur in similar stretches of motion",
+      "Dean 2016, Non-local Pose Means for Denoising Motion Capture Data");
 }
 
 }  // namespace kinemend

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/portable.hpp"
+#include "cleaner/method_row.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/extend/method_options.hpp"
 #include "kinemend/extend/model.hpp"
@@ -227,12 +228,9 @@ std::unique_ptr<Cleaner> make_tuned_example(const ExampleOptions& options,
 }
 
 Method example_method() {
-  return {"example",
-          "keeps the motion that patterns learned from clean clips can express",
-          "Lou & Chai 2010, Example-based Human Motion Denoising",
-          example_table().specs(),
-          [](const OptionValues& values) { return make_example(example_table().parse(values)); },
-          true};
+  return learned_method_row<example_table, make_example>(
+      "example", "keeps the motion that patterns learned from clean clips can express",
+      "Lou & Chai 2010, Example-based Human Motion Denoising");
 }
 
 namespace {

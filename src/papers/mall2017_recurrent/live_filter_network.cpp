@@ -1,4 +1,4 @@
-// Keeps the last frames and states, and spreads each backward pass over the incoming frames.
+// Keeps the last frames and states, and runs a backward pass for every third frame.
 #include "papers/mall2017_recurrent/live_filter_network.hpp"
 
 #include <algorithm>
@@ -11,9 +11,8 @@ namespace kinemend {
 namespace {
 
 constexpr std::size_t reach = predicted_filter_reach;
-// Frames of a pass, from its first frame on: before the end of the stream, and at its end. By
+// Most frames of a pass, from its first frame on, which is one at the end of the stream. By
 // definition.
-constexpr std::size_t pass_rows = reach + 2 - LiveFilterNetwork::period;
 constexpr std::size_t most_rows = reach + 1;
 // The second differences about the first of these frames need one frame more than its window. By
 // definition.
@@ -34,10 +33,6 @@ std::size_t most_gates(const FilterNetwork& network) {
   for (const FilterNetwork::BothWays& layer : network.recurrent)
     gates = std::max(gates, layer.forward.input.outputs());
   return gates;
-}
-
-double products_of(const nn::Dense& layer) {
-  return static_cast<double>(layer.inputs() * layer.outputs());
 }
 
 }  // namespace
@@ -63,7 +58,6 @@ LiveFilterNetwork::LiveFilterNetwork(const FilterNetwork& network, double frame_
   for (const FilterNetwork::BothWays& layer : network.recurrent)
     layers_.push_back(
         {nn::start(layer.forward), nn::start(layer.forward), nn::start(layer.backward)});
-  plan_parts();
 }
 
 void LiveFilterNetwork::check(const FilterNetwork& network) {
@@ -74,8 +68,7 @@ void LiveFilterNetwork::check(const FilterNetwork& network) {
 }
 
 void LiveFilterNetwork::reset() {
-  base_ = count_ = next_ = known_ = first_known_ = 0;
-  is_ending_ = is_passing_ = false;
+  base_ = count_ = next_ = known_ = 0;
   std::fill(missed_.begin(), missed_.end(), 0);
   std::fill(seen_.begin(), seen_.end(), 0);
   std::fill(features_.begin(), features_.end(), 0.0F);
@@ -85,15 +78,13 @@ void LiveFilterNetwork::reset() {
 bool LiveFilterNetwork::push(const Input& in, std::span<float> out) {
   append(in);
   const std::size_t frames = base_ + count_;
-  if (is_recurrent() && !is_passing_ && frames + period > known_ + delay + 1) begin_pass(period);
-  if (is_passing_) run_parts(shares_done_ + 1);
+  if (is_recurrent() && frames + period > known_ + delay + 1) run_pass(period);
   if (frames <= next_ + delay) return false;
   give(out);
   return true;
 }
 
 bool LiveFilterNetwork::flush(std::span<float> out) {
-  is_ending_ = true;
   if (next_ >= base_ + count_) return false;
   give(out);
   return true;
@@ -140,84 +131,27 @@ void LiveFilterNetwork::bridge(std::size_t track, std::size_t missed) {
 }
 
 void LiveFilterNetwork::give(std::span<float> out) {
-  if (next_ >= known_) {
-    if (!is_passing_) begin_pass(is_recurrent() ? base_ + count_ - next_ : 1);
-    run_parts(period);
-  }
+  if (next_ >= known_) run_pass(is_recurrent() ? base_ + count_ - next_ : 1);
   const std::size_t width = network_.decoder.back().outputs();
   const std::span<const float> values(values_.data(), count_ * channels_);
   filter_.apply(
       network_.head,
       {count_, channels_, values, network_.statistics.deviation, network_.statistics.mean},
-      next_ - base_, {outputs_.data() + (next_ - first_known_) * width, width}, out);
+      next_ - base_, {outputs_.data() + next_ % most_rows * width, width}, out);
   ++next_;
 }
 
-// Lists the parts of a pass; parts that run with the same frame are adjacent.
-void LiveFilterNetwork::plan_parts() {
-  const auto add = [&](Part::Kind kind, std::size_t layer, double products) {
-    parts_.push_back({kind, layer, products, 0});
-  };
-  const double rows = is_recurrent() ? static_cast<double>(pass_rows) : 1;
-  const double wanted = is_recurrent() ? static_cast<double>(period) : 1;
-  double products = 0;
-  for (const nn::Dense& layer : network_.encoder) products += rows * products_of(layer);
-  add(Part::Kind::encode, 0, products);
-  for (std::size_t i = 0; i < layers_.size(); ++i) {
-    const auto& [forward, backward] = network_.recurrent[i];
-    const auto of_state = [](const nn::Lstm& way) {
-      return static_cast<double>(way.state.rows() * way.state.columns());
-    };
-    const double onward = i + 1 == layers_.size() ? wanted : rows;
-    add(Part::Kind::go_on, i, onward * (products_of(forward.input) + of_state(forward)));
-    add(Part::Kind::look_back, i, rows * products_of(backward.input));
-    add(Part::Kind::go_back, i, rows * of_state(backward));
-  }
-  products = 0;
-  for (const nn::Dense& layer : network_.decoder) products += wanted * products_of(layer);
-  add(Part::Kind::decode, 0, products);
-  double all = 0, before = 0;
-  for (const Part& part : parts_) all += part.products;
-  for (Part& part : parts_) {
-    const double middle = (before + 0.5 * part.products) / all;
-    const auto share = static_cast<std::size_t>(middle * static_cast<double>(period));
-    part.share = std::min(share, period - 1);
-    before += part.products;
-  }
-}
-
-// Starts a pass for the outputs of the `wanted` frames after the known ones, from all frames so
-// far.
-void LiveFilterNetwork::begin_pass(std::size_t wanted) {
-  is_passing_ = true;
-  next_part_ = shares_done_ = 0;
+// Computes the outputs of the `wanted` frames after the known ones, from all frames so far.
+void LiveFilterNetwork::run_pass(std::size_t wanted) {
   rows_ = base_ + count_ - known_;
   wanted_ = std::min(wanted, rows_);
-}
-
-void LiveFilterNetwork::run_parts(std::size_t shares) {
-  for (; next_part_ < parts_.size() && parts_[next_part_].share < shares; ++next_part_)
-    run_part(parts_[next_part_]);
-  shares_done_ = shares;
-  if (next_part_ < parts_.size()) return;
-  is_passing_ = false;
-  first_known_ = known_;
-  known_ += wanted_;
-}
-
-void LiveFilterNetwork::run_part(const Part& part) {
-  switch (part.kind) {
-    case Part::Kind::encode:
-      return encode();
-    case Part::Kind::go_on:
-      return go_on(part.layer);
-    case Part::Kind::look_back:
-      return look_back(part.layer);
-    case Part::Kind::go_back:
-      return go_back(part.layer);
-    case Part::Kind::decode:
-      return decode();
+  encode();
+  for (std::size_t layer = 0; layer < layers_.size(); ++layer) {
+    go_on(layer);
+    go_back(layer);
   }
+  decode();
+  known_ += wanted_;
 }
 
 void LiveFilterNetwork::encode() {
@@ -258,17 +192,12 @@ void LiveFilterNetwork::go_on(std::size_t number) {
              own.ahead, both.block(wanted_, 0, onward - wanted_, units));
 }
 
-void LiveFilterNetwork::look_back(std::size_t number) {
-  const nn::Lstm& layer = network_.recurrent[number].backward;
-  const std::size_t width = layer.input.outputs();
-  nn::run(layer.input, x_, {gates_.data(), rows_, width, width});
-}
-
 void LiveFilterNetwork::go_back(std::size_t number) {
   const nn::Lstm& layer = network_.recurrent[number].backward;
   Layer& own = layers_[number];
   const std::size_t units = layer.units(), width = layer.input.outputs();
   const nn::MutableMatrixViewF both{there_.data(), rows_, 2 * units, 2 * units};
+  nn::run(layer.input, x_, {gates_.data(), rows_, width, width});
   nn::restart(own.backward);
   nn::run_on(layer, nn::Direction::backward, {gates_.data(), rows_, width, width}, own.backward,
              both.block(0, units, rows_, units));
@@ -284,7 +213,8 @@ void LiveFilterNetwork::decode() {
   }
   for (const nn::Dense& layer : network_.decoder) run_dense(layer);
   for (std::size_t i = 0; i < wanted_; ++i)
-    std::copy_n(x_.values + i * x_.row_stride, x_.columns, outputs_.data() + i * x_.columns);
+    std::copy_n(x_.values + i * x_.row_stride, x_.columns,
+                outputs_.data() + (known_ + i) % most_rows * x_.columns);
 }
 
 void LiveFilterNetwork::fill_features() {
@@ -343,12 +273,6 @@ Vec3 LiveFilterNetwork::turning(std::size_t row) const {
   const std::size_t before = row > 0 ? row - 1 : row, after = std::min(row + 1, count_ - 1);
   const double steps = static_cast<double>(std::max<std::size_t>(after - before, 1));
   return rate_hz_ * degrees_per_radian / steps * log(conjugate(roots_[before]) * roots_[after]);
-}
-
-double LiveFilterNetwork::products_per_frame() const {
-  double products = 0;
-  for (const Part& part : parts_) products += part.products;
-  return products / (is_recurrent() ? static_cast<double>(period) : 1);
 }
 
 }  // namespace kinemend

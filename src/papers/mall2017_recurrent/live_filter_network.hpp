@@ -13,11 +13,10 @@ namespace kinemend {
 
 /// A network of Mall et al. frame by frame: frame t enters, frame t - 15 leaves, filtered from the
 /// frames about it. Recurrent layers keep their forward states from the past; backward passes start
-/// at the newest frame. A backward pass serves three frames, t, t + 1 and t + 2, and starts as soon
-/// as frame t + 13 is received; its work is spread over the next three frames. The pass therefore
-/// sees 13, 12 and 11 frames ahead of them, and the network's inputs (roughness, turning) end there
-/// too. Their filters see all 15 frames. A network of dense layers alone runs for each frame, and
-/// sees 15.
+/// at the newest frame. A backward pass serves three frames, t, t + 1 and t + 2, and runs when
+/// frame t + 13 is received. The pass therefore sees 13, 12 and 11 frames ahead of them, and the
+/// network's inputs (roughness, turning) end there too. Their filters see all 15 frames. A network
+/// of dense layers alone runs for each frame, and sees 15.
 ///
 /// A missing sample holds the one before until the next is seen. Then frames of the gap that are
 /// not yet out are interpolated linearly.
@@ -45,34 +44,19 @@ class LiveFilterNetwork {
   bool flush(std::span<float> out);
   void reset();
 
-  /// Multiply-adds for a frame, averaged over `period` frames.
-  double products_per_frame() const;
-
  private:
   struct Layer {
     nn::RecurrentState forward;  ///< after the last frame whose outputs are known
     nn::RecurrentState ahead, backward;
-  };
-  /// A part of a pass. All passes of a network have the same parts in the same order.
-  struct Part {
-    enum class Kind : std::uint8_t { encode, go_on, look_back, go_back, decode };
-    Kind kind;
-    std::size_t layer;
-    double products;
-    std::size_t share;  ///< of `period`: the frame with which it runs
   };
 
   float* value_row(std::size_t row) { return values_.data() + row * channels_; }
   void append(const Input& in);
   void bridge(std::size_t track, std::size_t missed);
   void give(std::span<float> out);
-  void plan_parts();
-  void begin_pass(std::size_t wanted);
-  void run_parts(std::size_t shares);
-  void run_part(const Part& part);
+  void run_pass(std::size_t wanted);
   void encode();
   void go_on(std::size_t layer);
-  void look_back(std::size_t layer);
   void go_back(std::size_t layer);
   void decode();
   void run_dense(const nn::Dense& layer);
@@ -90,23 +74,19 @@ class LiveFilterNetwork {
   std::size_t base_ = 0;   ///< number of the first of these frames
   std::size_t count_ = 0;  ///< number of these frames
   std::size_t next_ = 0;   ///< number of the next output frame
-  std::size_t known_ = 0;  ///< outputs exist for frames [first_known_, known_)
-  std::size_t first_known_ = 0;
-  bool is_ending_ = false;
+  std::size_t known_ = 0;  ///< outputs exist for frames [next_, known_)
   // The current pass, for outputs of the frames from `known_` on.
-  bool is_passing_ = false;
-  std::size_t next_part_ = 0, shares_done_ = 0;
   std::size_t rows_ = 0;             ///< frames of its input
   std::size_t wanted_ = 0;           ///< frames of its output, the first of these
   nn::MatrixViewF x_;                ///< output of the layers so far
   std::vector<std::size_t> missed_;  ///< C / 3, frames since the joint was seen
   std::vector<std::uint8_t> seen_;   ///< C / 3, 1 if the joint was ever seen
   // Scratch.
-  std::vector<float> features_, outputs_;
+  std::vector<float> features_;
+  std::vector<float> outputs_;               ///< a ring of frames
   std::vector<float> here_, there_, gates_;  ///< rows of layers
   std::vector<double> squares_, sums_;
   std::vector<Layer> layers_;
-  std::vector<Part> parts_;
   PredictedFilterRow filter_;
 };
 

@@ -9,6 +9,7 @@
 
 #include "base/portable.hpp"
 #include "base/quantiles.hpp"
+#include "cleaner/method_row.hpp"
 #include "kinemend/extend/method_options.hpp"
 #include "kinemend/extend/model.hpp"
 #include "methods/prior/prior_cleaning.hpp"
@@ -311,12 +312,9 @@ std::unique_ptr<Cleaner> make_tuned_sparse(const SparseOptions& options,
 }
 
 Method sparse_method() {
-  return {"sparse",
-          "rebuilds each part of the body from a few learned pieces of motion",
-          "Xiao et al. 2015, Sparse motion bases selection for human motion denoising",
-          sparse_table().specs(),
-          [](const OptionValues& values) { return make_sparse(sparse_table().parse(values)); },
-          true};
+  return learned_method_row<sparse_table, make_sparse>(
+      "sparse", "rebuilds each part of the body from a few learned pieces of motion",
+      "Xiao et al. 2015, Sparse motion bases selection for human motion denoising");
 }
 
 }  // namespace kinemend

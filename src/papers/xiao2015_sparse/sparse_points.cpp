@@ -13,7 +13,6 @@
 
 #include "base/parallel.hpp"
 #include "body/representation.hpp"
-#include "kinemend/extend/motion.hpp"
 #include "motion/rotation.hpp"
 
 namespace kinemend {
@@ -26,8 +25,7 @@ using Eigen::Vector3d;
 // The arc of a channel's degree: one radian is a quarter of the body height. By definition
 // (docs/details/bodies.md). The lengths are chosen by hand, not swept.
 constexpr double degrees_per_height = 4 * degrees_per_radian;
-constexpr double least_bone = 1e-4;                      // body heights
-constexpr double shortest_end = 0.02, usual_end = 0.05;  // for bones of unknown length
+constexpr double least_bone = 1e-4;  // body heights
 
 void put(PoseMatrix& values, std::size_t frame, std::size_t part, Vec3 v) {
   values(frame, 3 * part) = v.x;
@@ -38,18 +36,6 @@ void put(PoseMatrix& values, std::size_t frame, std::size_t part, Vec3 v) {
 Quat local_rotation(const BodyLayout& layout, const PoseMatrix& channels, std::size_t frame,
                     std::size_t track) {
   return layout.references[track] * exp(radians_per_degree * vector_at(channels, frame, track));
-}
-
-// Rotations of all tracks in the body's frame.
-std::vector<Quat> global_rotations(const BodyLayout& layout, const PoseMatrix& channels,
-                                   std::size_t frame) {
-  std::vector<Quat> global(layout.track_count());
-  for (std::size_t i = 0; i < global.size(); ++i) {
-    const Quat local = local_rotation(layout, channels, frame, i);
-    global[i] =
-        i == 0 ? local : normalized(global[static_cast<std::size_t>(layout.parents[i])] * local);
-  }
-  return global;
 }
 
 Vector3d eigen(Vec3 v) { return {v.x, v.y, v.z}; }
@@ -71,51 +57,15 @@ Quat nearest_rotation(const Matrix3d& m) {
 
 }  // namespace
 
-SparsePointsBuilder::SparsePointsBuilder(const BodyLayout& layout)
-    : layout_(layout), sums_(layout.track_count()), counts_(layout.track_count(), 0) {}
-
-void SparsePointsBuilder::add(const Take& clip) {
-  if (clip.frame_count() == 0) return;
-  const BodyMatch match = match_body(layout_, clip);
-  const BodyChannels channels = encode_body(clip, layout_, match);
-  const std::vector<Quat> global = global_rotations(layout_, channels.poses, 0);
-  const std::vector<Vec3> positions = joint_positions(clip, false);
-  const Quat ahead = exp({0, -channels.headings[0], 0});
-  const auto position = [&](std::size_t track) {
-    return rotate(ahead * match.upright, positions[static_cast<std::size_t>(match.tracks[track])]);
-  };
-  for (std::size_t i = 1; i < sums_.size(); ++i) {
-    const auto parent = static_cast<std::size_t>(layout_.parents[i]);
-    if (match.tracks[i] < 0 || match.tracks[parent] < 0) continue;
-    const Vec3 bone = (1 / match.body_height) * (position(i) - position(parent));
-    sums_[i] += rotate(conjugate(global[parent]), bone);
-    counts_[i] += 1;
+std::vector<Quat> global_rotations(const BodyLayout& layout, const PoseMatrix& channels,
+                                   std::size_t frame) {
+  std::vector<Quat> global(layout.track_count());
+  for (std::size_t i = 0; i < global.size(); ++i) {
+    const Quat local = local_rotation(layout, channels, frame, i);
+    global[i] =
+        i == 0 ? local : normalized(global[static_cast<std::size_t>(layout.parents[i])] * local);
   }
-}
-
-SparsePoints SparsePointsBuilder::finish() const {
-  SparsePoints points;
-  points.parents = layout_.parents;
-  std::vector<bool> carries(sums_.size(), false);
-  for (std::size_t i = 0; i < sums_.size(); ++i) {
-    points.offsets.push_back((1 / std::max(counts_[i], 1.0)) * sums_[i]);
-    if (i > 0) carries[static_cast<std::size_t>(layout_.parents[i])] = true;
-  }
-  for (std::size_t i = 0; i < sums_.size(); ++i) {
-    if (carries[i] || norm(layout_.bones[i]) < 0.5) continue;
-    const double length = norm(points.offsets[i]);
-    points.parents.push_back(static_cast<std::int32_t>(i));
-    points.offsets.push_back((length > shortest_end ? length : usual_end) * layout_.bones[i]);
-  }
-  return points;
-}
-
-SparsePoints marker_points(const BodyLayout& layout) {
-  SparsePoints points;
-  points.kind = BodyKind::markers;
-  points.parents.assign(layout.track_count(), -1);
-  points.offsets = layout.means;
-  return points;
+  return global;
 }
 
 PoseMatrix points_of(const SparsePoints& points, const BodyLayout& layout,

@@ -24,20 +24,9 @@ struct SparsePoints {
   std::size_t count() const noexcept { return offsets.size(); }
 };
 
-/// Averages the vectors from joints to their children over takes; one frame of each is enough.
-class SparsePointsBuilder {
- public:
-  explicit SparsePointsBuilder(const BodyLayout& layout);
-  void add(const Take& clip);
-  SparsePoints finish() const;
-
- private:
-  const BodyLayout& layout_;
-  std::vector<Vec3> sums_;
-  std::vector<double> counts_;
-};
-/// The points of a marker layout, which determines them fully.
-SparsePoints marker_points(const BodyLayout& layout);
+/// The rotations of all tracks of a layout of joints in the body's frame.
+std::vector<Quat> global_rotations(const BodyLayout& layout, const PoseMatrix& channels,
+                                   std::size_t frame);
 
 /// F x 3 P positions; for joints the first joint is at the origin.
 PoseMatrix points_of(const SparsePoints& points, const BodyLayout& layout,

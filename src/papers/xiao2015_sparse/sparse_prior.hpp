@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "kinemend/extend/model.hpp"
@@ -32,27 +31,6 @@ struct SparsePrior {
   LocalPoints local;
   std::vector<SparsePoselet> poselets;
 };
-
-/// Torso with head, arms and legs (section 3.1.2), without means and dictionaries, by the names of
-/// the tracks and the hierarchy; markers without a known name by their position. Joints that
-/// connect arms and legs to the torso are in both. Parts without points are left out; `whole`: one
-/// part of all points.
-std::vector<SparsePoselet> find_poselets(const BodyLayout& layout, const SparsePoints& points,
-                                         bool whole = false);
-
-/// Reads them from a file instead, one per line:
-///
-///     torso: Hips, Spine*, Neck, Head, *Shoulder    # a comment
-///
-/// Names of joints or markers, or shell patterns, in any poselet; a free end of a bone belongs to
-/// its joint. `name` is the file's, for errors. Errors: `ErrorKind::usage`, `<name>:<line>: ...`,
-/// for a malformed line, an empty or repeated poselet, and a name that the body lacks; also, with
-/// their names, for tracks that are in no poselet.
-std::vector<SparsePoselet> parse_poselets(std::string_view text, std::string_view name,
-                                          const BodyLayout& layout, const SparsePoints& points);
-
-/// The points of section 3.1.1, found by name.
-LocalPoints find_local_points(const BodyLayout& layout);
 
 /// Convert to and from tensors of the model file; atoms in 16 bits. Errors:
 /// `ErrorKind::unreadable_input` naming the inconsistent tensor.

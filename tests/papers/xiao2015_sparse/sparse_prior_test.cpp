@@ -17,6 +17,7 @@
 #include "kinemend/extend/random.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "kinemend/lab/train.hpp"
+#include "lab/training/sparse_body.hpp"
 #include "papers/xiao2015_sparse/sparse_filter.hpp"
 #include "papers/xiao2015_sparse/sparse_prior.hpp"
 

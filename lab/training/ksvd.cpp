@@ -1,7 +1,7 @@
 // Learns a dictionary: codes the signals, updates the atoms one after the other, and replaces those
 // that are hardly used. Codes by choosing atoms one by one by the Gram matrix, with a Cholesky
 // factor that grows with them.
-#include "papers/xiao2015_sparse/dictionary.hpp"
+#include "lab/training/ksvd.hpp"
 
 #include <Eigen/Core>
 

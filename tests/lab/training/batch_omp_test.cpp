@@ -1,5 +1,5 @@
 // Tests of batch orthogonal matching pursuit against a direct implementation.
-#include "papers/xiao2015_sparse/dictionary.hpp"
+#include "lab/training/ksvd.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Tests of K-SVD, on signals of a known dictionary.
-#include "papers/xiao2015_sparse/dictionary.hpp"
+#include "lab/training/ksvd.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
