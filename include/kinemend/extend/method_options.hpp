@@ -25,7 +25,6 @@ std::unique_ptr<Cleaner> make_gaussian(const GaussianOptions& options = {});
 struct ButterworthOptions {
   std::int64_t order = 4;  ///< filter order of each pass, 1 to 12
   double cutoff_hz = 8;    ///< half power of one pass; below half of the frame rate
-  bool causal = false;     ///< forward pass only: delays the motion, and can run live
 };
 std::unique_ptr<Cleaner> make_butterworth(const ButterworthOptions& options = {});
 
