@@ -77,7 +77,7 @@ Command clean_command() {
       {"kinemend clean walk.bvh", "writes walk.clean.bvh with the default method"},
       {"kinemend clean walk.bvh --method butterworth --cutoff-hz 6 -o smooth.bvh",
        "one method with one of its options"},
-      {"kinemend clean *.bvh --output-dir clean --preset sport", "many takes in parallel"},
+      {"kinemend clean *.bvh --output-dir clean", "many takes in parallel"},
       {"kinemend clean take.bvh --joints 'Left*' --exclude LeftHand --range 2s:5s",
        "part of the body, part of the time"},
       {"kinemend clean walk.bvh --feet auto", "also stop standing feet from sliding"},

@@ -54,7 +54,8 @@ Flag method_flag() {
 }
 
 Flag preset_flag() {
-  Flag flag = text_flag("preset", "", "Cleaning", "settings for a kind of motion");
+  Flag flag =
+      text_flag("preset", "", "Cleaning", "settings of a live stream or of a gait laboratory");
   for (const Preset& preset : presets()) flag.spec.choices.emplace_back(preset.name);
   flag.details =
       "kinemend help presets describes them. --config and the command line override them.";
