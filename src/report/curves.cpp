@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string_view>
 
 #include "base/portable.hpp"
@@ -13,6 +14,8 @@
 #include "kinemend/experimental/frame_numbers.hpp"
 #include "kinemend/experimental/svg.hpp"
 #include "kinemend/experimental/text.hpp"
+#include "kinemend/report.hpp"
+#include "motion/rotation.hpp"
 #include "report/drawing.hpp"
 
 namespace kinemend {
@@ -26,19 +29,39 @@ void check_track(std::size_t track, std::size_t before, std::size_t after) {
     throw Error(ErrorKind::usage, fmt::format("curves: there is no track {}", track));
 }
 
-TrackCurves empty_curves(std::vector<std::string> axes, std::size_t frames) {
+TrackCurves empty_curves(const Take& take, const std::string& name, std::vector<std::string> axes) {
   TrackCurves curves;
-  curves.before.assign(axes.size(), std::vector<double>(frames, missing));
+  curves.name = name;
+  curves.first_frame = first_frame_number(take);
+  curves.frame_rate_hz = take.frame_rate_hz;
+  curves.before.assign(axes.size(), std::vector<double>(take.frame_count(), missing));
   curves.after = curves.before;
-  curves.difference.assign(frames, missing);
+  curves.difference.assign(take.frame_count(), missing);
   curves.axes = std::move(axes);
   return curves;
 }
 
-void put(Vec3 position, std::size_t frame, std::vector<std::vector<double>>& curves) {
-  curves[0][frame] = position.x;
-  curves[1][frame] = position.y;
-  curves[2][frame] = position.z;
+void put(const std::optional<Vec3>& position, std::size_t frame,
+         std::vector<std::vector<double>>& curves) {
+  for (std::size_t axis = 0; position && axis < 3; ++axis)
+    curves[axis][frame] = component(*position, axis);
+}
+
+// `position_in(take, frame)`: the position; none where it was not observed.
+template <typename PositionIn>
+TrackCurves position_curves(const Take& before, const Take& after, const std::string& name,
+                            const PositionIn& position_in) {
+  TrackCurves curves = empty_curves(before, name, {"X", "Y", "Z"});
+  curves.quantity = "position";
+  curves.unit = take_facts(before).unit;
+  for (std::size_t f = 0; f < before.frame_count(); ++f) {
+    const std::optional<Vec3> old_position = position_in(before, f);
+    const std::optional<Vec3> new_position = position_in(after, f);
+    put(old_position, f, curves.before);
+    put(new_position, f, curves.after);
+    if (old_position && new_position) curves.difference[f] = norm(*new_position - *old_position);
+  }
+  return curves;
 }
 
 }  // namespace
@@ -51,12 +74,9 @@ TrackCurves rotation_curves(const Take& before, const Take& after, std::size_t j
   const std::string letters = to_string(order);
   std::vector<std::string> axes;
   for (const char letter : letters) axes.emplace_back(1, letter);
-  TrackCurves curves = empty_curves(std::move(axes), before.frame_count());
-  curves.name = before.skeleton.names[joint];
+  TrackCurves curves = empty_curves(before, before.skeleton.names[joint], std::move(axes));
   curves.quantity = "rotation";
   curves.unit = "deg";
-  curves.first_frame = first_frame_number(before);
-  curves.frame_rate_hz = before.frame_rate_hz;
   std::array<double, 3> angles{};
   for (std::size_t f = 0; f < before.frame_count(); ++f) {
     const bool has_before = before.is_observed(f, joint), has_after = after.is_observed(f, joint);
@@ -78,41 +98,17 @@ TrackCurves rotation_curves(const Take& before, const Take& after, std::size_t j
 TrackCurves root_curves(const Take& before, const Take& after) {
   check_frame_counts("curves", before, after);
   check_track(0, before.joint_count(), after.joint_count());
-  TrackCurves curves = empty_curves({"X", "Y", "Z"}, before.frame_count());
-  curves.name = before.skeleton.names[0];
-  curves.quantity = "position";
-  curves.unit = take_facts(before).unit;
-  curves.first_frame = first_frame_number(before);
-  curves.frame_rate_hz = before.frame_rate_hz;
-  for (std::size_t f = 0; f < before.frame_count(); ++f) {
-    const bool has_before = before.is_position_observed(f, 0);
-    const bool has_after = after.is_position_observed(f, 0);
-    if (has_before) put(before.root_position(f), f, curves.before);
-    if (has_after) put(after.root_position(f), f, curves.after);
-    if (has_before && has_after)
-      curves.difference[f] = norm(after.root_position(f) - before.root_position(f));
-  }
-  return curves;
+  return position_curves(before, after, before.skeleton.names[0], [](const Take& take, auto f) {
+    return take.is_position_observed(f, 0) ? std::optional(take.root_position(f)) : std::nullopt;
+  });
 }
 
 TrackCurves marker_curves(const Take& before, const Take& after, std::size_t marker) {
   check_frame_counts("curves", before, after);
   check_track(marker, before.marker_count(), after.marker_count());
-  TrackCurves curves = empty_curves({"X", "Y", "Z"}, before.frame_count());
-  curves.name = before.names[marker];
-  curves.quantity = "position";
-  curves.unit = before.unit;
-  curves.first_frame = first_frame_number(before);
-  curves.frame_rate_hz = before.frame_rate_hz;
-  for (std::size_t f = 0; f < before.frame_count(); ++f) {
-    const bool has_before = before.is_observed(f, marker);
-    const bool has_after = after.is_observed(f, marker);
-    if (has_before) put(before.position(f, marker), f, curves.before);
-    if (has_after) put(after.position(f, marker), f, curves.after);
-    if (has_before && has_after)
-      curves.difference[f] = norm(after.position(f, marker) - before.position(f, marker));
-  }
-  return curves;
+  return position_curves(before, after, before.names[marker], [&](const Take& take, auto f) {
+    return take.is_observed(f, marker) ? std::optional(take.position(f, marker)) : std::nullopt;
+  });
 }
 
 namespace {
@@ -120,15 +116,15 @@ namespace {
 using Point = Svg::Point;
 
 // Chosen by hand.
-constexpr double left = 64, right = 12, top = 28, bottom = 22, space = 10;  // pixels
+constexpr double curves_width = 960, panel_height = 120;  // pixels
+constexpr double left = 64, right = 12, top = 28, bottom = 22, space = 10;
 // The drawn frames and their horizontal positions.
 struct Span {
   std::size_t first = 0, count = 0;
-  double width = 0;
 
   double x(double frame) const {
     const double steps = std::max(static_cast<double>(count) - 1, 1.0);
-    return left + (width - left - right) * (frame - static_cast<double>(first)) / steps;
+    return left + (curves_width - left - right) * (frame - static_cast<double>(first)) / steps;
   }
 };
 
@@ -137,13 +133,6 @@ struct Panel {
 
   double y(double value) const { return top + height * (high - value) / (high - low); }
 };
-
-std::string_view band_colour(std::string_view kind) {
-  if (kind == "spike") return "#ffa8a8";
-  if (kind == "gap") return "#ffd43b";
-  if (kind == "slide") return "#b197fc";
-  return "#dee2e6";
-}
 
 void widen(const std::vector<double>& curve, const Span& span, double& low, double& high) {
   for (std::size_t i = 0; i < span.count; ++i) {
@@ -169,7 +158,7 @@ Panel panel_of(const std::vector<const std::vector<double>*>& curves, const Span
 // represent them.
 std::vector<std::vector<Point>> lines_of(const std::vector<double>& curve, const Span& span,
                                          const Panel& panel) {
-  const auto pixels = static_cast<std::size_t>(span.width);
+  const auto pixels = static_cast<std::size_t>(curves_width);
   const std::size_t stride =
       std::max(span.count / std::max(pixels, std::size_t{1}), std::size_t{1});
   std::vector<std::vector<Point>> lines(1);
@@ -216,7 +205,7 @@ void draw_levels(Svg& svg, const Panel& panel, const Span& span) {
   svg.open_group(fmt::format("font-size=\"11\" fill=\"{}\" text-anchor=\"end\"", inks::quiet));
   for (double k = std::ceil(panel.low / step); k * step <= panel.high; ++k) {
     const double y = panel.y(k * step);
-    svg.line({left, y}, {span.width - right, y}, fmt::format("stroke=\"{}\"", inks::grid));
+    svg.line({left, y}, {curves_width - right, y}, fmt::format("stroke=\"{}\"", inks::grid));
     svg.text(left - 5, y + 4, "", fmt::format("{:.4g}", k == 0 ? 0.0 : k * step));
   }
   svg.close_group();
@@ -236,24 +225,6 @@ void draw_frames(Svg& svg, const TrackCurves& curves, const Span& span, double y
   svg.close_group();
 }
 
-void draw_bands(Svg& svg, const TrackCurves& curves, std::span<const ReportFinding> findings,
-                const Span& span, double bottom_y) {
-  const std::size_t last = span.first + span.count;
-  for (const ReportFinding& finding : findings) {
-    const bool is_other = !finding.quantity.empty() && finding.quantity != curves.quantity;
-    const bool is_here = !is_other && finding.track == curves.name &&
-                         finding.last_frame >= span.first && finding.first_frame < last;
-    // Continuous smoothing would cover the whole drawing.
-    if (!is_here || finding.kind == "noise") continue;
-    const double from =
-        span.x(static_cast<double>(std::max(finding.first_frame, span.first)) - 0.5);
-    const double to = span.x(static_cast<double>(std::min(finding.last_frame, last - 1)) + 0.5);
-    const double x = std::max(from, left), width = std::min(to, span.width - right) - x;
-    svg.rectangle(x, top, std::max(width, 1.0), bottom_y - top,
-                  fmt::format("fill=\"{}\" opacity=\".5\"", band_colour(finding.kind)));
-  }
-}
-
 void draw_curve(Svg& svg, const std::vector<double>& curve, const Span& span, const Panel& panel,
                 std::string_view ink, double width) {
   svg.path(lines_of(curve, span, panel),
@@ -268,39 +239,37 @@ void draw_key(Svg& svg, double x, std::string_view ink, std::string_view name) {
 
 }  // namespace
 
-std::string curves_svg(const TrackCurves& curves, std::span<const ReportFinding> findings,
-                       const CurveStyle& style) {
+std::string curves_svg(const TrackCurves& curves, const CurveStyle& style) {
   const std::size_t frames = curves.difference.size();
   const std::size_t first = std::min(style.first_frame, frames);
   const std::size_t last = frames == 0 ? 0 : std::min(style.last_frame, frames - 1);
-  const Span span{first, last < first || frames == 0 ? 0 : last - first + 1, style.width};
+  const Span span{first, last < first || frames == 0 ? 0 : last - first + 1};
   const std::size_t panels = curves.axes.size() + (style.one_take ? 0 : 1);
-  const double last_y = top + static_cast<double>(panels) * (style.panel_height + space) - space;
+  const double last_y = top + static_cast<double>(panels) * (panel_height + space) - space;
   const std::string name = xml_escaped(printable_name(curves.name));
   const std::string unit = curves.unit.empty() ? "" : ", " + xml_escaped(printable(curves.unit));
-  Svg svg(style.width, last_y + bottom, style.one_take ? name : name + " before and after");
+  Svg svg(curves_width, last_y + bottom, style.one_take ? name : name + " before and after");
   svg.open_group(inks::font);
   svg.text(left, 18, fmt::format("font-weight=\"600\" fill=\"{}\"", inks::text), name + unit);
   if (!style.one_take) {
-    draw_key(svg, style.width - 310, inks::before, "before");
-    draw_key(svg, style.width - 215, inks::after, "after");
-    draw_key(svg, style.width - 130, inks::difference, "difference");
+    draw_key(svg, curves_width - 310, inks::before, "before");
+    draw_key(svg, curves_width - 215, inks::after, "after");
+    draw_key(svg, curves_width - 130, inks::difference, "difference");
   }
   for (std::size_t p = 0; p < panels; ++p) {
-    const double y = top + static_cast<double>(p) * (style.panel_height + space);
-    svg.rectangle(left, y, style.width - left - right, style.panel_height, "fill=\"#f8f9fa\"");
+    const double y = top + static_cast<double>(p) * (panel_height + space);
+    svg.rectangle(left, y, curves_width - left - right, panel_height, "fill=\"#f8f9fa\"");
   }
-  draw_bands(svg, curves, findings, span, last_y);
   // Nearly constant curves are not magnified to fill their panel. File units, or degrees. Chosen by
   // hand.
   constexpr double least_range = 1e-6;
   for (std::size_t p = 0; p < panels; ++p) {
     const bool is_axis = p < curves.axes.size();
-    const double y = top + static_cast<double>(p) * (style.panel_height + space);
+    const double y = top + static_cast<double>(p) * (panel_height + space);
     const Panel panel =
-        is_axis ? panel_of({&curves.before[p], &curves.after[p]}, span, y, style.panel_height,
-                           least_range)
-                : panel_of({&curves.difference}, span, y, style.panel_height, least_range);
+        is_axis
+            ? panel_of({&curves.before[p], &curves.after[p]}, span, y, panel_height, least_range)
+            : panel_of({&curves.difference}, span, y, panel_height, least_range);
     draw_levels(svg, panel, span);
     if (is_axis) {
       if (!style.one_take) draw_curve(svg, curves.before[p], span, panel, inks::before, 1);

@@ -12,7 +12,7 @@ class Plot : public Program {};
 
 TEST_F(Plot, DrawsEveryKindOfOneTakeAndOfTwo) {
   noisy("noisy.bvh", "1");
-  for (const char* what : {"curves", "strip", "spectrum", "gaps"}) {
+  for (const char* what : {"curves", "strip", "spectrum"}) {
     const Ran two = run({"plot", "truth.bvh", "noisy.bvh", "--what", what, "-o", "-"});
     EXPECT_EQ(two.code, 0) << two.err;
     EXPECT_THAT(two.out, StartsWith("<svg ")) << what;

@@ -3,11 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "kinemend/report.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {
@@ -36,15 +34,13 @@ TrackCurves root_curves(const Take& before, const Take& after);
 TrackCurves marker_curves(const Take& before, const Take& after, std::size_t marker);
 
 struct CurveStyle {
-  double width = 960, panel_height = 120;  ///< pixels
   /// Frames [first, last] to draw, counted from 0; frames beyond the take are ignored.
   std::size_t first_frame = 0, last_frame = SIZE_MAX;
   bool one_take = false;  ///< only the curve after, without a difference
 };
 /// Draws a panel for each axis with the curve before under the curve after, and a panel of the
-/// difference. Findings of the track and quantity are bands behind the curves. If there are more
-/// frames than pixels, each pixel shows the smallest and the largest value of its frames.
-std::string curves_svg(const TrackCurves& curves, std::span<const ReportFinding> findings = {},
-                       const CurveStyle& style = {});
+/// difference. If there are more frames than pixels, each pixel shows the smallest and the largest
+/// value of its frames.
+std::string curves_svg(const TrackCurves& curves, const CurveStyle& style = {});
 
 }  // namespace kinemend

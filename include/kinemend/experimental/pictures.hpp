@@ -28,10 +28,6 @@ std::string film_strip_svg(const Take& before, const Take* after, FrameSpanToDra
 /// than 1800 poses (a minute).
 std::string moving_picture_svg(const Take& before, const Take* after, FrameSpanToDraw frames);
 
-/// Draws the gaps: a row per track, a bar per gap, and the missing share of each track. A second
-/// take's gaps are drawn below the first take's. Tracks without gaps are counted, not drawn.
-std::string gap_chart_svg(const Take& before, const Take* after);
-
 /// Power density of a track over frequency.
 struct TrackSpectrum {
   std::vector<double> hertz;
