@@ -35,13 +35,10 @@ int run_clean(const Arguments& arguments) {
     throw Error(ErrorKind::usage, "clean: IN is missing (see kinemend clean -h)");
   const CleanPlan plan = make_clean_plan(arguments);
   plan.reports.check_free(plan.force);
-  TakeRun run{"clean", plan.reports};
-  run.out_is_taken =
+  const bool out_is_taken =
       plan.reports.on_out() || (!plan.dry_run && plan.takes.jobs.front().output == "-");
-  run.quiet = plan.quiet;
-  run.json = plan.json;
-  run.force = plan.force;
-  run.threads = plan.threads;
+  const TakeRun run{"clean",   plan.reports, out_is_taken, plan.quiet,
+                    plan.json, plan.force,   plan.threads};
   return run_take_jobs(plan.takes, run, [&](const TakeJob& job, const TakeProgress& progress) {
     return clean_file(job, plan, progress);
   });

@@ -67,6 +67,29 @@ Flag text_flag(std::string name, std::string value_name, std::string group, std:
   return flag;
 }
 
+Flag file_flag(std::string name, std::string value_name, std::string group, std::string help,
+               std::string details, Completion completion) {
+  Flag flag = text_flag(std::move(name), std::move(value_name), std::move(group), std::move(help),
+                        std::move(details));
+  flag.completion = completion;
+  return flag;
+}
+
+Flag choice_flag(std::string name, std::string group, std::string help,
+                 std::vector<std::string> choices, std::string default_choice,
+                 std::string details) {
+  Flag flag = text_flag(std::move(name), "", std::move(group), std::move(help), std::move(details));
+  flag.spec.choices = std::move(choices);
+  flag.has_default = !default_choice.empty();
+  flag.spec.default_value = std::move(default_choice);
+  return flag;
+}
+
+Flag without_default(Flag flag) {
+  flag.has_default = false;
+  return flag;
+}
+
 bool is_on_by_default(const Flag& flag) {
   const bool* is_on = std::get_if<bool>(&flag.spec.default_value);
   return is_on && *is_on;

@@ -113,6 +113,15 @@ Flag whole_flag(std::string name, std::int64_t default_value, double minimum, do
                 std::string group, std::string help, std::string details = {});
 Flag text_flag(std::string name, std::string value_name, std::string group, std::string help,
                std::string details = {});
+/// Its value is a path, which shells complete.
+Flag file_flag(std::string name, std::string value_name, std::string group, std::string help,
+               std::string details = {}, Completion completion = Completion::file);
+/// Its value is one of `choices`. An empty `default_choice` means that it has no default.
+Flag choice_flag(std::string name, std::string group, std::string help,
+                 std::vector<std::string> choices, std::string default_choice = {},
+                 std::string details = {});
+/// Returns the flag with no default, so that `Arguments::given` decides whether it applies.
+Flag without_default(Flag flag);
 
 /// Returns whether a switch is on unless `--no-...` turns it off.
 bool is_on_by_default(const Flag& flag);

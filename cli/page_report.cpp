@@ -93,9 +93,7 @@ PageSettings page_settings(const Arguments& arguments) {
 }
 
 Flag report_flag(std::string help, std::string details) {
-  Flag flag = text_flag("report", "FILE", "Output", std::move(help), std::move(details));
-  flag.completion = Completion::file;
-  return flag;
+  return file_flag("report", "FILE", "Output", std::move(help), std::move(details));
 }
 
 Flag reports_flag(std::string help, const std::string& details) {

@@ -114,12 +114,6 @@ Drawing drawing_of(const Arguments& arguments) {
   return drawing;
 }
 
-Take read_and_warn(const std::string& input, const Arguments& arguments) {
-  TakeResult result = read_take(fs::path(input), read_options(arguments));
-  warn_of_repairs(result.take.source, result.diagnostics);
-  return std::move(result.take);
-}
-
 int run_plot(const Arguments& arguments) {
   const std::vector<std::string>& inputs = arguments.positionals;
   std::string output = arguments.text("output");
@@ -134,9 +128,10 @@ int run_plot(const Arguments& arguments) {
   check_only_ending(output, ".svg");
   check_free(output, force);
   const Drawing drawing = drawing_of(arguments);
-  const Take before = read_and_warn(inputs[0], arguments);
+  const ReadOptions reading = read_options(arguments);
+  const Take before = read_and_warn(inputs[0], reading).take;
   std::optional<Take> after;
-  if (inputs.size() > 1) after = read_and_warn(inputs[1], arguments);
+  if (inputs.size() > 1) after = read_and_warn(inputs[1], reading).take;
   if (after && after->has_joints() != before.has_joints()) {
     throw Error(ErrorKind::usage, fmt::format("plot: {} and {} are not both joints or both markers",
                                               inputs[0], inputs[1]));
@@ -165,14 +160,11 @@ Command plot_command() {
       "the one that moves most.";
   command.positionals = {{"TAKE", "take to draw; - is standard input", 1, 1, {}},
                          {"OTHER", "the same take after something was done", 0, 1, {}}};
-  Flag what = text_flag("what", "", "Drawing", "what to draw");
-  what.spec.default_value = std::string("curves");
-  what.spec.choices = {"curves", "strip", "motion", "spectrum"};
-  what.has_default = true;
   command.flags = {
       output_flag("where to write; - is standard output"),
       force_flag(),
-      what,
+      choice_flag("what", "Drawing", "what to draw", {"curves", "strip", "motion", "spectrum"},
+                  "curves"),
       std::move(joints[0]),
       std::move(joints[1]),
       switch_flag("root_position", "Drawing", "curves of the root's position, not of a rotation"),

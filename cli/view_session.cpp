@@ -16,7 +16,6 @@
 #include "clean_plan.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
-#include "compare_page.hpp"
 #include "config.hpp"
 #include "fill_take.hpp"
 #include "kinemend/experimental/text.hpp"
