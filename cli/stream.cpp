@@ -105,11 +105,7 @@ void tell_summary(const LiveSession& session, const LiveOutput& output) {
   if (output.latency().empty()) return;
   const double delay_ms =
       1000 * static_cast<double>(session.latency_frames()) / session.frame_rate_hz();
-  say(
-      fmt::format("latency: {:.3g} ms median, {:.3g} ms at the 99th percentile, {:.3g} ms maximum, "
-                  "plus {:.3g} ms of delay",
-                  1000 * output.latency().quantile_s(0.5), 1000 * output.latency().quantile_s(0.99),
-                  1000 * output.latency().most_s(), delay_ms));
+  say(latency_text(output.latency(), delay_ms));
 }
 
 std::unique_ptr<LiveStatus> status_of(const Arguments& arguments) {
