@@ -99,6 +99,31 @@ bool names_file(const OptionSpec& spec) {
   return spec.choices.empty() && std::holds_alternative<std::string>(spec.default_value);
 }
 
+std::string single_quoted(std::string_view text) {
+  std::string result = "'";
+  for (const char c : text) {
+    if (c == '\'') {
+      result += "'\\''";
+    } else {
+      result += c;
+    }
+  }
+  return result + "'";
+}
+
+std::string shell_word(std::string_view word) {
+  constexpr std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:,=+@%";
+  const bool is_plain = !word.empty() && word.find_first_not_of(plain) == word.npos;
+  return is_plain ? std::string(word) : single_quoted(word);
+}
+
+std::string shell_line(const std::vector<std::string>& words) {
+  std::string line = "kinemend";
+  for (const std::string& word : words) line += " " + shell_word(word);
+  return line;
+}
+
 std::string dashed(std::string_view name) {
   std::string result(name);
   std::replace(result.begin(), result.end(), '_', '-');

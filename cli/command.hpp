@@ -127,6 +127,12 @@ Flag without_default(Flag flag);
 bool is_on_by_default(const Flag& flag);
 /// Returns whether an option of a group names a file: its text has no fixed choices.
 bool names_file(const OptionSpec& spec);
+/// Quotes a text for a shell: 'it'\''s'.
+std::string single_quoted(std::string_view text);
+/// A word as it is typed in a shell, in quotes only if it needs them.
+std::string shell_word(std::string_view word);
+/// The words of a command line, as typed in a shell: "kinemend clean walk.bvh".
+std::string shell_line(const std::vector<std::string>& words);
 /// `max_change_deg` to `max-change-deg`.
 std::string dashed(std::string_view name);
 /// The placeholder of a value in the help: "FILE", "X", "N", "a|b".

@@ -90,18 +90,6 @@ std::string summary_text(const ModelFile& file, double training_s) {
   return text + table.text();
 }
 
-/// A word quoted for a shell.
-std::string shell_word(const std::string& word) {
-  const bool is_plain =
-      !word.empty() && word.find_first_not_of(
-                           "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-                           "_-./:,=+@%") == word.npos;
-  if (is_plain) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 /// The command for the card, without options that do not affect the model.
 std::string command_text(const Arguments& arguments) {
   static constexpr std::array<std::string_view, 10> aside = {
@@ -221,9 +209,7 @@ std::string resuming_command(const Arguments& arguments) {
   // Words after -- are not options.
   if (!arguments.flag("resume"))
     words.insert(std::find(words.begin(), words.end(), "--"), "--resume");
-  std::string text = "kinemend";
-  for (const std::string& word : words) text += " " + shell_word(word);
-  return text;
+  return shell_line(words);
 }
 
 /// Tells the user how to continue a stopped training.
