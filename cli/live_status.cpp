@@ -59,7 +59,7 @@ Json json_of(const std::vector<TrackChange>& changes) {
 namespace {
 
 // Milliseconds: median, 99th percentile, maximum and bars.
-Json json_of(const LatencyHistogram& latency) {
+Json latency_json(const LatencyHistogram& latency) {
   if (latency.empty()) return nullptr;
   Json bars = Json::array();
   for (const LatencyHistogram::Bar& bar : latency.bars())
@@ -74,9 +74,9 @@ Json json_of(const LatencyHistogram& latency) {
 
 Json status_report(std::string_view method, LiveDelay delay, const LatencyHistogram& latency,
                    Json senders) {
-  return {{"kinemend", "live-status/1"},  {"method", method},
-          {"delay_frames", delay.frames}, {"delay_ms", delay.ms},
-          {"latency", json_of(latency)},  {"senders", std::move(senders)}};
+  return {{"kinemend", "live-status/1"},      {"method", method},
+          {"delay_frames", delay.frames},     {"delay_ms", delay.ms},
+          {"latency", latency_json(latency)}, {"senders", std::move(senders)}};
 }
 
 Json stream_report(std::string_view method, const LiveSession& session, const LiveOutput& output) {
