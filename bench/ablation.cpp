@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/model.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/methods.hpp"
 #include "page.hpp"
 

@@ -2,8 +2,8 @@
 // body. The arguments are the rate in hertz and the duration in seconds.
 #include <benchmark/benchmark.h>
 
-#include "kinemend/experimental/body.hpp"
-#include "kinemend/experimental/convert.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/lab/synth.hpp"
 
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string>
 
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/experimental/threads.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/random.hpp"
+#include "kinemend/extend/system.hpp"
 
 namespace {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "kinemend/clean.hpp"
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/random.hpp"
 #include "methods/prior/window_bases.hpp"
 #include "nn/gemm.hpp"
 #include "noisy_walk.hpp"

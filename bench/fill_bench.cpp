@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/fill.hpp"
-#include "kinemend/gaps.hpp"
 #include "kinemend/lab/synth.hpp"
+#include "kinemend/take.hpp"
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include "io/motion/motion_columns.hpp"
 #include "io/motion/motion_rows.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/io.hpp"
 
 namespace {

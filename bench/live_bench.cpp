@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "frame_times.hpp"
-#include "kinemend/experimental/live.hpp"
+#include "kinemend/extend/sessions.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/stream.hpp"
+#include "kinemend/live.hpp"
 #include "noisy_walk.hpp"
 
 namespace {

@@ -2,7 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include "kinemend/clean.hpp"
-#include "kinemend/experimental/convert.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "kinemend/lab/synth.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "kinemend/lab/synth.hpp"
 

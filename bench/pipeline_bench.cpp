@@ -8,11 +8,11 @@
 #include <string>
 
 #include "kinemend/clean.hpp"
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/experimental/representation.hpp"
-#include "kinemend/experimental/threads.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/random.hpp"
+#include "kinemend/extend/system.hpp"
+#include "kinemend/live.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/stream.hpp"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "frame_times.hpp"
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/model.hpp"
 #include "papers/mall2017_recurrent/filter_network.hpp"
 #include "papers/mall2017_recurrent/live_filter_network.hpp"
 #ifdef KINEMEND_HAS_TRAINING

@@ -6,10 +6,11 @@
 #include <string>
 
 #include "kinemend/clean.hpp"
-#include "kinemend/cleaner.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/lab/synth.hpp"
+#include "kinemend/methods.hpp"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/experimental/signal.hpp"
+#include "kinemend/extend/random.hpp"
+#include "kinemend/extend/signal.hpp"
 
 namespace {
 

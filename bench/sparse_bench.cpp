@@ -8,11 +8,11 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/cleaner.hpp"
-#include "kinemend/experimental/body.hpp"
-#include "kinemend/experimental/model.hpp"
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/model.hpp"
+#include "kinemend/extend/random.hpp"
 #include "noisy_walk.hpp"
 #include "papers/xiao2015_sparse/descent_solver.hpp"
 #include "papers/xiao2015_sparse/dictionary.hpp"

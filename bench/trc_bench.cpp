@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/text/cells.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/io.hpp"
 
 namespace {

@@ -6,10 +6,10 @@
 #include <memory>
 #include <vector>
 
-#include "kinemend/cleaner.hpp"
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/model.hpp"
 #include "kinemend/lab/train.hpp"
-#include "kinemend/methods.hpp"
 #include "noisy_walk.hpp"
 
 namespace {

@@ -9,9 +9,8 @@
 #include <fstream>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/content_hash.hpp"
-#include "kinemend/experimental/text.hpp"
-#include "kinemend/experimental/wildcards.hpp"
+#include "kinemend/extend/system.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/io.hpp"
 #include "run_files.hpp"
 

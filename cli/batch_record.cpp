@@ -19,8 +19,8 @@
 
 #include "json.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/content_hash.hpp"
-#include "kinemend/experimental/json_depth.hpp"
+#include "kinemend/extend/system.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/io.hpp"
 
 namespace kinemend::cli {

@@ -11,7 +11,7 @@
 
 #include "batch_list.hpp"
 #include "command.hpp"
-#include "kinemend/experimental/batch_rows.hpp"
+#include "kinemend/extend/pages.hpp"
 #include "platform/system.hpp"
 
 namespace kinemend::cli {

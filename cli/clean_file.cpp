@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "fit_format.hpp"
-#include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/experimental/pictures.hpp"
-#include "kinemend/gaps.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/pages.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"
+#include "kinemend/take.hpp"
 #include "page_report.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"

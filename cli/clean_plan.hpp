@@ -12,7 +12,7 @@
 #include "config.hpp"
 #include "frame_range.hpp"
 #include "kinemend/clean.hpp"
-#include "kinemend/experimental/page.hpp"
+#include "kinemend/extend/pages.hpp"
 #include "kinemend/io.hpp"
 #include "page_report.hpp"
 #include "run_files.hpp"

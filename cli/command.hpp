@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/options.hpp"
+#include "kinemend/extend/options.hpp"
 
 namespace kinemend::cli {
 

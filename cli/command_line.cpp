@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "kinemend/experimental/letter_case.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/io.hpp"
 
 namespace kinemend::cli {

@@ -6,8 +6,9 @@
 
 #include <algorithm>
 
-#include "kinemend/cleaner.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/text.hpp"
+#include "kinemend/methods.hpp"
 #include "method_options.hpp"
 
 namespace kinemend::cli {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/gaps.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/take.hpp"
 #include "page_report.hpp"
 #include "takes.hpp"
 

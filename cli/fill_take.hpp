@@ -8,7 +8,7 @@
 
 #include "command.hpp"
 #include "frame_range.hpp"
-#include "kinemend/experimental/gap_plan.hpp"
+#include "kinemend/extend/gap_plan.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"

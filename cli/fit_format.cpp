@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "kinemend/experimental/convert.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "takes.hpp"
 
 namespace kinemend::cli {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "kinemend/options.hpp"
+#include "kinemend/extend/options.hpp"
 
 namespace kinemend::cli {
 

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/experimental/model.hpp"
-#include "kinemend/experimental/text.hpp"
-#include "kinemend/experimental/version.hpp"
+#include "kinemend/extend/model.hpp"
+#include "kinemend/extend/system.hpp"
+#include "kinemend/extend/text.hpp"
 #include "platform/console.hpp"
 #include "terminal.hpp"
 #include "topics.hpp"

@@ -6,7 +6,7 @@
 
 #include "commands.hpp"
 #include "help.hpp"
-#include "kinemend/options.hpp"
+#include "kinemend/extend/options.hpp"
 #include "terminal.hpp"
 #include "topics.hpp"
 

@@ -18,7 +18,7 @@
 #include <utility>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/letter_case.hpp"
+#include "kinemend/extend/text.hpp"
 #include "platform/network.hpp"
 
 namespace kinemend::cli {

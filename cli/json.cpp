@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "kinemend/experimental/json_depth.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/report.hpp"
 
 namespace kinemend::cli {

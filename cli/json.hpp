@@ -5,7 +5,7 @@
 #include <string>
 
 #include "kinemend/error.hpp"
-#include "kinemend/options.hpp"
+#include "kinemend/extend/options.hpp"
 
 namespace kinemend::cli {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "kinemend/experimental/live.hpp"
+#include "kinemend/extend/sessions.hpp"
 #include "live_output.hpp"
 #include "live_sockets.hpp"
 #include "live_status.hpp"

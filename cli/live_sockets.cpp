@@ -10,7 +10,7 @@
 #include <memory>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 #include "platform/network.hpp"
 
 namespace kinemend::cli {

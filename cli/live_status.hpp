@@ -9,7 +9,7 @@
 
 #include "http_server.hpp"
 #include "json.hpp"
-#include "kinemend/experimental/live.hpp"
+#include "kinemend/extend/sessions.hpp"
 #include "live_output.hpp"
 
 namespace kinemend::cli {

@@ -1,7 +1,7 @@
 // Relays VMC between senders and a receiver: datagrams come in and leave with cleaned bones.
 #pragma once
 
-#include "kinemend/experimental/vmc.hpp"
+#include "kinemend/extend/sessions.hpp"
 #include "live_sockets.hpp"
 #include "live_status.hpp"
 

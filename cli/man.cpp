@@ -5,7 +5,7 @@
 #include "commands.hpp"
 #include "config.hpp"
 #include "help.hpp"
-#include "kinemend/experimental/version.hpp"
+#include "kinemend/extend/system.hpp"
 #include "terminal.hpp"
 #include "topics.hpp"
 

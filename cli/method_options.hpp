@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "command.hpp"
-#include "kinemend/cleaner.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/methods.hpp"
 
 namespace kinemend::cli {
 

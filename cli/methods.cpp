@@ -5,7 +5,7 @@
 #include "commands.hpp"
 #include "help.hpp"
 #include "json.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 #include "method_options.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "json.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 

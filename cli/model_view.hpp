@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/model.hpp"
 
 namespace kinemend::cli {
 

@@ -6,8 +6,8 @@
 
 #include "commands.hpp"
 #include "json.hpp"
-#include "kinemend/experimental/model.hpp"
-#include "kinemend/experimental/version.hpp"
+#include "kinemend/extend/model.hpp"
+#include "kinemend/extend/system.hpp"
 #include "kinemend/io.hpp"
 #include "model_view.hpp"
 #include "run_files.hpp"

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/letter_case.hpp"
+#include "kinemend/extend/text.hpp"
 #include "takes.hpp"
 
 namespace kinemend::cli {

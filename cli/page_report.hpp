@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "command.hpp"
-#include "kinemend/experimental/page.hpp"
+#include "kinemend/extend/pages.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"
 #include "run_files.hpp"

@@ -12,9 +12,8 @@
 
 #include "commands.hpp"
 #include "frame_range.hpp"
-#include "kinemend/experimental/curves.hpp"
-#include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/experimental/pictures.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/pages.hpp"
 #include "kinemend/io.hpp"
 #include "run_files.hpp"
 #include "takes.hpp"

@@ -9,7 +9,7 @@
 #include <unordered_map>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 #include "platform/system.hpp"
 
 namespace kinemend::cli {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "kinemend/experimental/live.hpp"
+#include "kinemend/extend/sessions.hpp"
 #include "kinemend/io.hpp"
 #include "live_loop.hpp"
 #include "live_output.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "command.hpp"
-#include "kinemend/experimental/live.hpp"
+#include "kinemend/extend/sessions.hpp"
 #include "kinemend/methods.hpp"
 
 namespace kinemend::cli {

@@ -15,8 +15,8 @@
 #include <set>
 #include <utility>
 
-#include "kinemend/experimental/text.hpp"
-#include "kinemend/experimental/threads.hpp"
+#include "kinemend/extend/system.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/report.hpp"
 #include "run_files.hpp"
 #include "takes.hpp"

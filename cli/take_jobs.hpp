@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "command.hpp"
-#include "kinemend/experimental/batch_rows.hpp"
+#include "kinemend/extend/pages.hpp"
 #include "kinemend/io.hpp"
 #include "page_report.hpp"
 

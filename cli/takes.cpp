@@ -11,12 +11,11 @@
 #include <iterator>
 #include <limits>
 
-#include "kinemend/experimental/body.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
-#include "kinemend/experimental/letter_case.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/report.hpp"
-#include "kinemend/source.hpp"
+#include "kinemend/take.hpp"
 #include "run_files.hpp"
 #include "terminal.hpp"
 

@@ -12,7 +12,7 @@
 #include "command.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"
-#include "kinemend/skeleton.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::cli {
 

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend::cli {
 

@@ -10,7 +10,7 @@
 
 #include "commands.hpp"
 #include "http_server.hpp"
-#include "kinemend/experimental/page.hpp"
+#include "kinemend/extend/pages.hpp"
 #include "kinemend/io.hpp"
 #include "platform/system.hpp"
 #include "run_files.hpp"

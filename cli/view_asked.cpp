@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/json_depth.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend::cli {
 

@@ -10,8 +10,8 @@
 
 #include "command.hpp"
 #include "config.hpp"
-#include "kinemend/experimental/method_choice.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/fill.hpp"
 #include "method_options.hpp"
 

@@ -18,7 +18,7 @@
 #include "commands.hpp"
 #include "config.hpp"
 #include "fill_take.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/feet.hpp"
 #include "kinemend/fill.hpp"
 #include "method_options.hpp"

@@ -7,7 +7,7 @@
 
 #include "io/acclaim/amc.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/io.hpp"
 #include "laws.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/io.hpp"
 #include "laws.hpp"
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/gaps.hpp"
+#include "kinemend/take.hpp"
 #include "laws.hpp"
 #include "small_takes.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include "kinemend/experimental/live.hpp"
+#include "kinemend/extend/sessions.hpp"
 #include "kinemend/methods.hpp"
 #include "laws.hpp"
 

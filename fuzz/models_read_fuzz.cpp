@@ -3,9 +3,9 @@
 #include <cmath>
 #include <memory>
 
-#include "kinemend/cleaner.hpp"
-#include "kinemend/experimental/model.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/model.hpp"
 #include "laws.hpp"
 #include "small_takes.hpp"
 

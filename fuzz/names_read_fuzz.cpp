@@ -1,8 +1,8 @@
 // Reads any bytes as a file of names (`--map`): names that fit a take, or a one-line error.
 #include <vector>
 
-#include "kinemend/experimental/body.hpp"
-#include "kinemend/skeleton.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/take.hpp"
 #include "laws.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -2,7 +2,7 @@
 // written back as the same plan, as a table and as JSON, or a one-line error that names the file.
 #include <vector>
 
-#include "kinemend/experimental/gap_plan.hpp"
+#include "kinemend/extend/gap_plan.hpp"
 #include "laws.hpp"
 #include "small_takes.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/tensor.hpp"
+#include "kinemend/extend/tensor.hpp"
 #include "laws.hpp"
 
 namespace {

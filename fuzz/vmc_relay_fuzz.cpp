@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/experimental/vmc.hpp"
+#include "kinemend/extend/sessions.hpp"
 #include "kinemend/methods.hpp"
 #include "laws.hpp"
 #include "live/osc.hpp"

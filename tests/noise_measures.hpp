@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend::test {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend::test {
 

@@ -16,7 +16,7 @@
 
 #include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/stream.hpp"
+#include "kinemend/live.hpp"
 
 namespace {
 

@@ -9,11 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/cleaner.hpp"
+#include "kinemend/extend/cleaner.hpp"
 #include "kinemend/feet.hpp"
-#include "kinemend/gaps.hpp"
-#include "kinemend/skeleton.hpp"
-#include "kinemend/source.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {

@@ -12,12 +12,10 @@
 #include <vector>
 
 #include "kinemend/check.hpp"
-#include "kinemend/cleaner.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/options.hpp"
 #include "kinemend/feet.hpp"
 #include "kinemend/fill.hpp"
-#include "kinemend/gaps.hpp"
-#include "kinemend/options.hpp"
-#include "kinemend/source.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/skeleton.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {

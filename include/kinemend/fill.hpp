@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "kinemend/gaps.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {

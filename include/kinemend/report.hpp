@@ -13,10 +13,10 @@
 #include "kinemend/check.hpp"
 #include "kinemend/clean.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/extend/options.hpp"
 #include "kinemend/feet.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/metrics.hpp"
-#include "kinemend/options.hpp"
 
 namespace kinemend {
 

@@ -1,17 +1,144 @@
-// The data type that everything works on: a take, which is the motion of a skeleton or of markers.
+// The data that everything works on: a take, which is the motion of a skeleton or of markers. Its
+// skeleton, the system that recorded it, and its gaps.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <map>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "kinemend/rotation.hpp"
-#include "kinemend/skeleton.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend {
+
+/// One column of a joint in the file.
+enum class Channel : std::uint8_t {
+  x_position,
+  y_position,
+  z_position,
+  x_rotation,
+  y_rotation,
+  z_rotation
+};
+
+inline bool is_rotation(Channel channel) { return channel >= Channel::x_rotation; }
+inline Axis axis_of(Channel channel) { return static_cast<Axis>(static_cast<int>(channel) % 3); }
+
+/// The end of a chain: a point that has no rotation of its own.
+struct EndSite {
+  std::int32_t parent = 0;
+  Vec3 offset;
+  std::string name;  ///< often empty
+};
+
+/// How far a channel may go, degrees for rotations and file units for positions.
+struct ChannelLimit {
+  double minimum = -std::numeric_limits<double>::infinity();
+  double maximum = std::numeric_limits<double>::infinity();
+};
+
+/// A tree of joints as parallel arrays, depth first.
+struct Skeleton {
+  std::vector<std::string> names;
+  std::vector<std::int32_t> parents;  ///< -1 for a root
+  std::vector<Vec3> offsets;          ///< from the parent joint, in its frame, file units
+  /// The joint's frame in its parent's when its local rotation is identity.
+  std::vector<Quat> rest_rotations;
+  /// In the order of the file; empty for a fixed joint.
+  std::vector<std::vector<Channel>> channels;
+  std::vector<EndSite> end_sites;
+  /// J, one limit per channel if the file states them (ASF); else empty.
+  std::vector<std::vector<ChannelLimit>> limits;
+
+  std::size_t joint_count() const noexcept { return names.size(); }
+  /// Returns the index of the first joint of that name, or -1.
+  std::int32_t find(std::string_view name) const noexcept;
+  /// The rotation channels of a joint in file order.
+  RotationOrder rotation_order(std::size_t joint) const;
+  bool has_position_channels(std::size_t joint) const;
+  /// Appends a joint and returns its index.
+  std::int32_t add_joint(std::string name, std::int32_t parent, Vec3 offset,
+                         std::vector<Channel> joint_channels);
+
+  /// Checks the rules: all arrays have one length; every parent precedes its child; joint 0 is a
+  /// root; offsets are finite; rest rotations have unit norm (1e-9); no channel occurs twice in a
+  /// joint, except a rotation axis that does not follow itself directly (at most 3 rotation
+  /// channels); end sites have joints that exist. Names may repeat and may be empty. Errors:
+  /// `ErrorKind::usage` naming the first joint that breaks a rule.
+  void validate() const;
+};
+
+/// Largest extent of the rest pose along an axis (end sites included), file units: the height, or
+/// the arm span of a T-pose, which is nearly equal.
+double body_height(const Skeleton& skeleton);
+
+/// A length unit that files are written in.
+struct LengthUnit {
+  std::string_view name;  ///< "cm"
+  double metres = 1;
+};
+/// The unit in which a skeleton of this height is a person of 1.2 to 2.5 m: m, mm, cm, inch, or the
+/// unit of the CMU files (1 / 0.45 inch); empty if no unit fits.
+std::optional<LengthUnit> guess_length_unit(const Skeleton& skeleton);
+
+/// Returns position channels in the order x, y, z if asked for, then rotations in the given order.
+std::vector<Channel> make_channels(bool with_position, RotationOrder order);
+
+/// Maps known names ("LeftFoot", "LTOE") to names in a take ("bone_17", "M3"); empty: the take has
+/// no such part. `parse_name_map` reads it.
+using KnownNames = std::map<std::string, std::string, std::less<>>;
+
+/// Returns the names of a take with the mapped names replaced by the known names. The subject is
+/// kept: if "LTOE" is mapped to "M3", "Ann:M3" becomes "Ann:LTOE". Another part whose name is a
+/// known name of the map becomes "part 3", by its place. Errors: `ErrorKind::usage` for a name that
+/// the take does not have, or that occurs more than once.
+std::vector<std::string> known_names(const std::vector<std::string>& names, const KnownNames& map);
+
+/// The kind of system that recorded the motion of a take. `Take::source`, in contrast, is the file
+/// that holds it.
+enum class Source : std::uint8_t {
+  /// The source is not known. Methods remove the noise that the take itself shows.
+  unknown,
+  /// Markers that several cameras see, and skeletons solved from them. As `unknown`: noise of such
+  /// systems shows in the take.
+  optical,
+  /// Inertial or magnetic sensors on the body. Slow noise is likely, and methods that know it
+  /// remove it.
+  suit,
+  /// Pose estimation from video, of one or several cameras, without markers. As `suit`.
+  video,
+  /// Skeletons from a depth camera. As `suit`.
+  depth,
+  /// Keys set by hand. They contain no measurement noise, so `auto` and `learned` change only gaps.
+  keyframed
+};
+
+/// "unknown", "optical", ...
+std::string_view to_string(Source source);
+/// Returns the source of that name. Errors: `ErrorKind::usage` for an unknown name; the message
+/// suggests the most similar name and lists all names.
+Source parse_source(std::string_view name);
+/// The names of all sources, `unknown` last.
+std::vector<std::string> source_names();
+
+/// Whether noise that is too slow to show from frame to frame is likely: true for video, depth and
+/// suit.
+bool expects_slow_noise(Source source) noexcept;
+
+/// The source that is used for a take, and why.
+struct TakeSource {
+  Source source = Source::unknown;
+  /// "given", "not known", or the place in the file: "read from the file, software: Vicon Nexus".
+  std::string reason = "not known";
+
+  friend bool operator==(const TakeSource&, const TakeSource&) = default;
+};
 
 /// The parts of a file that a reader keeps so that the file can be written back faithfully. Each
 /// format has its own derived class, which only that format reads.
@@ -180,5 +307,48 @@ double likely_metres_per_unit(const Take& take);
 
 /// Returns the name without its subject: `LASI` for `Ann:LASI`.
 std::string_view without_subject(std::string_view name);
+
+/// Returns `given` if it is not `unknown`, else the source that the take's file implies by naming
+/// the program that recorded it. A program that also edits or solves the motion of other systems
+/// implies no source.
+TakeSource source_of(const Take& take, Source given = Source::unknown);
+
+/// A run of consecutive missing samples of one joint or marker.
+struct Gap {
+  /// Joint or marker; for positions of joints 0 is joint 0 and k + 1 is translated joint k.
+  std::size_t track = 0;
+  std::size_t first_frame = 0;
+  std::size_t last_frame = 0;  ///< inclusive
+
+  std::size_t length() const noexcept { return last_frame - first_frame + 1; }
+  friend bool operator==(const Gap&, const Gap&) = default;
+};
+
+/// Returns the runs of samples that are not observed, sorted by track, then frame. Points of a
+/// marker clip that are not positions have no gaps.
+std::vector<Gap> find_gaps(const Take& take);
+/// Returns the gaps of `Take::observed_positions`.
+std::vector<Gap> find_position_gaps(const Take& clip);
+
+/// A gap as a side file states it, for formats that cannot store gaps.
+struct NamedGap {
+  std::string name;  ///< a joint or marker, or a shell pattern (`*` matches all)
+  std::size_t first_frame = 0;
+  std::size_t last_frame = 0;  ///< inclusive, counted from 0
+};
+
+/// Marks the samples as not observed, so that nothing uses their values. A gap of a joint is a gap
+/// of its rotation and, where it has position channels, of its position too. Errors:
+/// `ErrorKind::usage` for a name or a frame that the take does not have.
+void mark_gaps(Take& take, std::span<const NamedGap> gaps);
+
+/// Reads a side file: lines `name,first,last`, in the frame numbers of the take, last frame
+/// inclusive. `first_frame` is the number of the take's first frame (`first_frame_number(clip)`). A
+/// heading line, `#` comments, blank lines and quoted names are allowed. `name` appears in
+/// messages. Errors: `unreadable_input` with the line, also for a number below `first_frame`.
+std::vector<NamedGap> parse_gaps(std::string_view text, std::string_view name,
+                                 std::int64_t first_frame);
+/// Returns the text of such a side file.
+std::string gaps_text(std::span<const NamedGap> gaps, std::int64_t first_frame);
 
 }  // namespace kinemend

@@ -5,7 +5,7 @@
 #include <array>
 #include <cctype>
 
-#include "kinemend/experimental/letter_case.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend::corrupt {

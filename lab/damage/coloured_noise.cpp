@@ -7,7 +7,7 @@
 #include <complex>
 
 #include "base/portable.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/extend/frames.hpp"
 
 namespace kinemend::corrupt {
 

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/random.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend::corrupt {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/portable.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend::corrupt {
 

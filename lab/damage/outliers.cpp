@@ -1,6 +1,6 @@
 // Damages that displace single samples: random jumps, jumps of one size, and values multiplied by a
 // factor.
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "lab/damage/damage_kind.hpp"
 #include "lab/damage/normal_vector.hpp"
 #include "lab/damage/position_targets.hpp"

@@ -7,7 +7,7 @@
 
 #include "base/portable.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "lab/damage/body_parts.hpp"
 #include "lab/damage/damage_kind.hpp"
 #include "lab/damage/position_targets.hpp"

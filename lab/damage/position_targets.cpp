@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "lab/damage/refit.hpp"
 
 namespace kinemend::corrupt {

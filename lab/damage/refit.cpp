@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "lab/damage/targets.hpp"
 #include "motion/rotation.hpp"
 

@@ -4,9 +4,8 @@
 #include <cmath>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/take_view.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/take_view.hpp"
 #include "lab/damage/body_parts.hpp"
 #include "lab/damage/damage_kind.hpp"
 #include "lab/damage/drift.hpp"

@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "lab/damage/damage_kind.hpp"
 #include "lab/damage/targets.hpp"
 #include "motion/take.hpp"

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "kinemend/extend/options.hpp"
 #include "kinemend/lab/corrupt.hpp"
-#include "kinemend/options.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend::corrupt {

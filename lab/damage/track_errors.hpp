@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/random.hpp"
+#include "kinemend/extend/rotation.hpp"
 #include "lab/damage/system_noise.hpp"
 
 namespace kinemend::corrupt {

@@ -7,8 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "methods/auto/track_cleaning.hpp"
 #include "methods/auto/track_vectors.hpp"
 #include "motion/rotation.hpp"

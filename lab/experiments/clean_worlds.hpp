@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "experiment.hpp"
-#include "kinemend/experimental/convert.hpp"
+#include "kinemend/extend/motion.hpp"
 
 namespace kinemend::papers {
 

@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "experiment.hpp"
-#include "kinemend/cleaner.hpp"
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/figures.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/lab/corrupt.hpp"
-#include "kinemend/methods.hpp"
-#include "kinemend/metrics.hpp"
 
 namespace kinemend::papers {
 namespace {

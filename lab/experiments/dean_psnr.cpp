@@ -6,10 +6,10 @@
 #include <limits>
 
 #include "experiment.hpp"
-#include "kinemend/cleaner.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/figures.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/metrics.hpp"
 
 namespace kinemend::papers {
 namespace {

@@ -6,11 +6,11 @@
 
 #include "experiment.hpp"
 #include "kinemend/clean.hpp"
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/figures.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/feet.hpp"
 #include "kinemend/lab/corrupt.hpp"
-#include "kinemend/methods.hpp"
-#include "kinemend/metrics.hpp"
 
 namespace kinemend::papers {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "kinemend/stream.hpp"
+#include "kinemend/live.hpp"
 #include "page.hpp"
 
 namespace kinemend::papers {

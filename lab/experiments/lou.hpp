@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "experiment.hpp"
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/model.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "kinemend/lab/train.hpp"
-#include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
 
 namespace kinemend::papers {

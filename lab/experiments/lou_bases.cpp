@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinemend/experimental/body.hpp"
+#include "kinemend/extend/body.hpp"
 #include "lou.hpp"
 
 namespace kinemend::papers {

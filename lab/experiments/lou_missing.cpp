@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "lou.hpp"
 
 namespace kinemend::papers {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinemend/gaps.hpp"
+#include "kinemend/take.hpp"
 #include "lou.hpp"
 
 namespace kinemend::papers {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "kinemend/metrics.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/figures.hpp"
+#include "kinemend/extend/rotation.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend::papers {

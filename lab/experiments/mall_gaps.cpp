@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "kinemend/extend/rotation.hpp"
 #include "kinemend/fill.hpp"
-#include "kinemend/rotation.hpp"
 #include "mall_networks.hpp"
 #include "page.hpp"
 #include "papers/mall2017_recurrent/filter_network.hpp"

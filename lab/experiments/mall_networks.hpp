@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "experiment.hpp"
-#include "kinemend/experimental/body.hpp"
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/model.hpp"
 #include "papers/mall2017_recurrent/filter_network.hpp"
 
 namespace kinemend::papers {

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <string>
 
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend::papers {

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <functional>
 
-#include "kinemend/experimental/pose_matrix.hpp"
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/experimental/signal.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/random.hpp"
+#include "kinemend/extend/rotation.hpp"
+#include "kinemend/extend/signal.hpp"
 #include "kinemend/take.hpp"
 #include "motion/rotation.hpp"
 

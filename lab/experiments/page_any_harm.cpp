@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "compared.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 #include "page.hpp"
 
 namespace kinemend::papers {

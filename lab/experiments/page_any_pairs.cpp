@@ -7,7 +7,7 @@
 
 #include "base/quantiles.hpp"
 #include "compared.hpp"
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/model.hpp"
 #include "made_pairs.hpp"
 #include "methods/learned/motion_filter.hpp"
 #include "page.hpp"

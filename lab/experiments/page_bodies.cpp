@@ -8,7 +8,7 @@
 
 #include "body/body_takes.hpp"
 #include "body/body_trend.hpp"
-#include "kinemend/experimental/convert.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "page.hpp"
 
 namespace kinemend::papers {

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <array>
 
-#include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "page.hpp"
 
 namespace kinemend::papers {

@@ -4,9 +4,9 @@
 #include <memory>
 #include <set>
 
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/model.hpp"
 #include "kinemend/lab/train.hpp"
-#include "kinemend/methods.hpp"
 #include "page.hpp"
 
 namespace kinemend::papers {

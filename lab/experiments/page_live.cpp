@@ -1,5 +1,5 @@
 // Figures of docs/live.md: the noise that each live method leaves, and its delay.
-#include "kinemend/experimental/live.hpp"
+#include "kinemend/extend/sessions.hpp"
 #include "live_takes.hpp"
 
 namespace kinemend::papers {

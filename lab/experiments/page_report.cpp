@@ -1,6 +1,6 @@
 // Figures of docs/report-html.md: the size of a page for takes of 31 joints at 120 Hz.
 #include "kinemend/clean.hpp"
-#include "kinemend/experimental/page.hpp"
+#include "kinemend/extend/pages.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/report.hpp"
 #include "page.hpp"

@@ -5,7 +5,7 @@
 #include <functional>
 #include <set>
 
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "page.hpp"
 #include "quality/lower_rate.hpp"
 

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "experiment.hpp"
-#include "kinemend/experimental/signal.hpp"
+#include "kinemend/extend/signal.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "lab/damage/system_noise.hpp"
 #include "made_pairs.hpp"

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "cleaner/pieces.hpp"
-#include "kinemend/experimental/representation.hpp"
-#include "kinemend/experimental/signal.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/rotation.hpp"
+#include "kinemend/extend/signal.hpp"
 #include "kinemend/take.hpp"
 #include "lab/samples/motion_samples.hpp"
 #include "methods/learned/motion_channels.hpp"

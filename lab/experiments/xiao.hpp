@@ -9,9 +9,10 @@
 #include <vector>
 
 #include "experiment.hpp"
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/model.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/figures.hpp"
+#include "kinemend/extend/model.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/lab/train.hpp"
 #include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/experimental/body.hpp"
-#include "kinemend/experimental/pose_matrix.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/frames.hpp"
 #include "kinemend/take.hpp"
 #include "papers/xiao2015_sparse/sparse_prior.hpp"
 

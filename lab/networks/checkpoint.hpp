@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "kinemend/experimental/tensor.hpp"
+#include "kinemend/extend/tensor.hpp"
 
 namespace kinemend::train {
 

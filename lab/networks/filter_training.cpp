@@ -9,7 +9,7 @@
 
 #include "checkpoint.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/signal.hpp"
+#include "kinemend/extend/signal.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "network_model.hpp"
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/experimental/model.hpp"
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/options.hpp"
+#include "kinemend/extend/model.hpp"
+#include "kinemend/extend/options.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/take.hpp"
 #include "lab/samples/motion_forms.hpp"
 #include "papers/mall2017_recurrent/filter_network.hpp"

@@ -11,7 +11,7 @@
 #include "base/files.hpp"
 #include "cleaner/pieces.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/convert.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/io.hpp"
 #include "methods/learned/motion_channels.hpp"
 #include "motion_training.hpp"

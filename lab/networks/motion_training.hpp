@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/model.hpp"
 #include "lab/samples/motion_samples.hpp"
 #include "motion_descent.hpp"
 

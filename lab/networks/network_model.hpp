@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/model.hpp"
 #include "sequence_network.hpp"
 
 namespace kinemend::train {

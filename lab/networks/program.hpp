@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/model.hpp"
 #include "kinemend/lab/train.hpp"
 #include "lab/training/training_sequences.hpp"
 #include "sequence_network.hpp"

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "motion_training.hpp"
 
 using namespace kinemend;

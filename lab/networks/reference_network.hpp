@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/experimental/tensor.hpp"
+#include "kinemend/extend/random.hpp"
+#include "kinemend/extend/tensor.hpp"
 #include "sequence_network.hpp"
 
 namespace kinemend::train {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/experimental/tensor.hpp"
+#include "kinemend/extend/tensor.hpp"
 
 namespace kinemend::train {
 

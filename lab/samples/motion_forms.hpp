@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "kinemend/experimental/body.hpp"
+#include "kinemend/extend/body.hpp"
 
 namespace kinemend {
 

@@ -9,8 +9,8 @@
 
 #include "base/frame_span.hpp"
 #include "base/portable.hpp"
-#include "kinemend/experimental/signal.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
+#include "kinemend/extend/signal.hpp"
 #include "lab/samples/sequence_damage.hpp"
 
 namespace kinemend {

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/experimental/pose_matrix.hpp"
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/random.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend {
 

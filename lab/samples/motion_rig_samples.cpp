@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/portable.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 #include "lab/samples/motion_noise.hpp"
 #include "lab/samples/motion_samples.hpp"
 #include "lab/samples/sequence_damage.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/portable.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 #include "lab/samples/motion_noise.hpp"
 #include "lab/samples/sequence_damage.hpp"
 #include "lab/samples/warped_sequence.hpp"

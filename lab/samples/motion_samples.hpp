@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "lab/samples/motion_forms.hpp"
 #include "lab/training/training_sequences.hpp"
 #include "methods/learned/motion_steps.hpp"

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/portable.hpp"
-#include "kinemend/experimental/signal.hpp"
+#include "kinemend/extend/signal.hpp"
 
 namespace kinemend {
 

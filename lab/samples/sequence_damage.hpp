@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/experimental/body.hpp"
-#include "kinemend/experimental/pose_matrix.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/frames.hpp"
 #include "kinemend/lab/corrupt.hpp"
 
 namespace kinemend {

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "kinemend/experimental/pose_matrix.hpp"
+#include "kinemend/extend/frames.hpp"
 
 namespace kinemend {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/portable.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend::synth {
 

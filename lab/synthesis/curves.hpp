@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend::synth {
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string_view>
 
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "lab/synthesis/body.hpp"
 
 namespace kinemend::synth {

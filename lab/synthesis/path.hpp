@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend::synth {
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "lab/synthesis/motions.hpp"
 #include "lab/synthesis/spin.hpp"

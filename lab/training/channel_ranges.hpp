@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "kinemend/experimental/pose_matrix.hpp"
+#include "kinemend/extend/frames.hpp"
 
 namespace kinemend {
 

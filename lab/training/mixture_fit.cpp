@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/portable.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend {
 

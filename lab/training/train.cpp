@@ -8,7 +8,7 @@
 
 #include "base/options.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/version.hpp"
+#include "kinemend/extend/system.hpp"
 #include "lab/training/training_stages.hpp"
 #include "lab/training/trainings.hpp"
 

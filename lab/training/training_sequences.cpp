@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/convert.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "lab/training/take_store.hpp"
 #include "lab/training/training_stages.hpp"
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/files.hpp"
-#include "kinemend/experimental/body.hpp"
-#include "kinemend/experimental/pose_matrix.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/frames.hpp"
 #include "kinemend/lab/train.hpp"
 
 namespace kinemend {

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/content_hash.hpp"
+#include "kinemend/extend/system.hpp"
 
 namespace kinemend {
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "lab/training/mixture_fit.hpp"
 #include "methods/prior/window_bases.hpp"
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/experimental/pose_matrix.hpp"
+#include "kinemend/extend/frames.hpp"
 #include "lab/training/training_stages.hpp"
 #include "lab/training/window_moments.hpp"
 #include "methods/wiener/wiener_prior.hpp"

@@ -11,7 +11,7 @@
 #include "conversions.hpp"
 #include "held.hpp"
 #include "kinemend/clean.hpp"
-#include "kinemend/experimental/threads.hpp"
+#include "kinemend/extend/system.hpp"
 #include "reports.hpp"
 #include "running.hpp"
 

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/options.hpp"
-#include "kinemend/rotation.hpp"
-#include "kinemend/skeleton.hpp"
+#include "kinemend/extend/options.hpp"
+#include "kinemend/extend/rotation.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::python {
 

@@ -6,8 +6,8 @@
 #include <atomic>
 #include <memory>
 
-#include "kinemend/cleaner.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/extend/cleaner.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend::python {

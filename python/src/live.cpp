@@ -10,7 +10,7 @@
 
 #include "conversions.hpp"
 #include "held.hpp"
-#include "kinemend/stream.hpp"
+#include "kinemend/live.hpp"
 
 namespace kinemend::python {
 

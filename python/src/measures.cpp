@@ -13,10 +13,10 @@
 #include "conversions.hpp"
 #include "held.hpp"
 #include "kinemend/check.hpp"
+#include "kinemend/extend/method_options.hpp"
 #include "kinemend/feet.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/lab/corrupt.hpp"
-#include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
 #include "reports.hpp"
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "kinemend/experimental/threads.hpp"
+#include "kinemend/extend/system.hpp"
 
 namespace kinemend::python {
 

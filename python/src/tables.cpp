@@ -6,13 +6,14 @@
 #include "conversions.hpp"
 #include "held.hpp"
 #include "kinemend/clean.hpp"
-#include "kinemend/cleaner.hpp"
-#include "kinemend/experimental/live.hpp"
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/model.hpp"
+#include "kinemend/extend/sessions.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "kinemend/lab/train.hpp"
+#include "kinemend/methods.hpp"
 
 namespace kinemend::python {
 

@@ -14,7 +14,7 @@
 
 #include "conversions.hpp"
 #include "held.hpp"
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 
 namespace kinemend::python {
 

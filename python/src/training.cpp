@@ -13,8 +13,8 @@
 
 #include "conversions.hpp"
 #include "held.hpp"
-#include "kinemend/experimental/model.hpp"
-#include "kinemend/experimental/threads.hpp"
+#include "kinemend/extend/model.hpp"
+#include "kinemend/extend/system.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/lab/train.hpp"

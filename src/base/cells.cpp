@@ -6,8 +6,7 @@
 #include <charconv>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/json_depth.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

@@ -19,7 +19,7 @@
 
 #include "base/platform/files.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/content_hash.hpp"
+#include "kinemend/extend/system.hpp"
 
 namespace kinemend {
 

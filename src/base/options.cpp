@@ -12,8 +12,8 @@
 #include <optional>
 #include <type_traits>
 
-#include "kinemend/experimental/frame_rate.hpp"
-#include "kinemend/options.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/options.hpp"
 
 namespace kinemend {
 

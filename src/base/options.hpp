@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/text.hpp"
-#include "kinemend/options.hpp"
+#include "kinemend/extend/options.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

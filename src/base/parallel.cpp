@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-#include "kinemend/experimental/threads.hpp"
+#include "kinemend/extend/system.hpp"
 
 // Threads of the standard library, which start when they are first needed, for systems without
 // oneTBB.

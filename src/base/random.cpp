@@ -1,5 +1,5 @@
 // Generates random numbers that are the same on every machine.
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 
 #include <bit>
 #include <cmath>

@@ -8,8 +8,7 @@
 #include <cmath>
 
 #include "base/portable.hpp"
-#include "kinemend/experimental/letter_case.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

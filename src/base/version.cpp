@@ -1,5 +1,5 @@
 // The version of the program.
-#include "kinemend/experimental/version.hpp"
+#include "kinemend/extend/system.hpp"
 
 namespace kinemend {
 

@@ -9,9 +9,8 @@
 #include "body/body_correspondence.hpp"
 #include "body/body_frame.hpp"
 #include "body/body_rotations.hpp"
-#include "kinemend/experimental/body.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
-#include "kinemend/experimental/representation.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/frames.hpp"
 
 namespace kinemend::representation {
 

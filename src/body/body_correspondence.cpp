@@ -9,8 +9,8 @@
 #include "base/cells.hpp"
 #include "body/body_names.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/body.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend::representation {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/experimental/body.hpp"
+#include "kinemend/extend/body.hpp"
 
 namespace kinemend::representation {
 

@@ -10,7 +10,7 @@
 #include "body/body_anchors.hpp"
 #include "body/body_learning.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/body.hpp"
+#include "kinemend/extend/body.hpp"
 #include "motion/take.hpp"
 
 namespace kinemend {

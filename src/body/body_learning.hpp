@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/experimental/body.hpp"
+#include "kinemend/extend/body.hpp"
 #include "motion/rotation.hpp"
 
 namespace kinemend::representation {

@@ -12,7 +12,7 @@
 #include "body/body_names.hpp"
 #include "body/body_rest.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/convert.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "motion/names.hpp"
 
 namespace kinemend::representation {

@@ -1,6 +1,6 @@
 // Splits names into words and interprets each by the names of its neighbours.
 #include "body/body_names.hpp"
-#include "kinemend/experimental/letter_case.hpp"
+#include "kinemend/extend/text.hpp"
 
 #include <algorithm>
 #include <array>

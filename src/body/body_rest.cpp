@@ -7,8 +7,7 @@
 #include <optional>
 
 #include "base/portable.hpp"
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "motion/rotation.hpp"
 
 namespace kinemend::representation {

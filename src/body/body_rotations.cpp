@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "body/representation.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
-#include "kinemend/experimental/representation.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/frames.hpp"
 
 namespace kinemend::representation {
 

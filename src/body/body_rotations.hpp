@@ -8,7 +8,7 @@
 
 #include "body/body_frame.hpp"
 #include "body/body_rest.hpp"
-#include "kinemend/experimental/body.hpp"
+#include "kinemend/extend/body.hpp"
 
 namespace kinemend::representation {
 

@@ -11,7 +11,7 @@
 #include "base/portable.hpp"
 #include "base/quantiles.hpp"
 #include "body/representation.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/extend/frames.hpp"
 
 namespace kinemend::representation {
 

@@ -8,7 +8,7 @@
 
 #include "base/portable.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/representation.hpp"
+#include "kinemend/extend/body.hpp"
 #include "motion/take.hpp"
 
 namespace kinemend {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include "kinemend/experimental/representation.hpp"
+#include "kinemend/extend/body.hpp"
 
 namespace kinemend {
 

@@ -11,7 +11,7 @@
 #include "base/frame_span.hpp"
 #include "base/quantiles.hpp"
 #include "kinemend/check.hpp"
-#include "kinemend/experimental/subjects.hpp"
+#include "kinemend/extend/motion.hpp"
 
 namespace kinemend::check {
 

@@ -13,8 +13,7 @@
 #include "check/checks.hpp"
 #include "check/feet.hpp"
 #include "feet/floor.hpp"
-#include "kinemend/experimental/text.hpp"
-#include "kinemend/experimental/wildcards.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/feet.hpp"
 #include "motion/take.hpp"
 

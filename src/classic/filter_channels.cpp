@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "body/representation.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

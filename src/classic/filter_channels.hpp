@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "cleaner/pieces.hpp"
-#include "kinemend/experimental/pose_matrix.hpp"
+#include "kinemend/extend/frames.hpp"
 
 namespace kinemend {
 

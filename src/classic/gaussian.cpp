@@ -8,8 +8,8 @@
 #include "cleaner/live.hpp"
 #include "cleaner/orientation_filter.hpp"
 #include "cleaner/pieces.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/method_options.hpp"
 #include "motion/rotation.hpp"
 
 namespace kinemend {

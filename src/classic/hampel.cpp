@@ -7,8 +7,8 @@
 #include "base/quantiles.hpp"
 #include "classic/medians.hpp"
 #include "cleaner/live.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/method_options.hpp"
 
 namespace kinemend {
 

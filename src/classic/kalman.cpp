@@ -4,7 +4,7 @@
 
 #include "classic/track_kalman.hpp"
 #include "cleaner/live.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/method_options.hpp"
 #include "metrics/track_noise.hpp"
 
 namespace kinemend {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "classic/linear_dynamics.hpp"
-#include "kinemend/experimental/model.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/model.hpp"
 #include "methods/prior/prior_cleaning.hpp"
 #include "methods/prior/prior_fall_backs.hpp"
 #include "models/model_reading.hpp"

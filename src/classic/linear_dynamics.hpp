@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <span>
 
-#include "kinemend/experimental/model.hpp"
-#include "kinemend/experimental/pose_matrix.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/model.hpp"
 
 namespace kinemend {
 

@@ -3,8 +3,8 @@
 
 #include "classic/medians.hpp"
 #include "cleaner/live.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/method_options.hpp"
 
 namespace kinemend {
 

@@ -2,7 +2,7 @@
 #include "classic/filter_channels.hpp"
 #include "classic/track_kalman.hpp"
 #include "cleaner/live.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/method_options.hpp"
 
 namespace kinemend {
 

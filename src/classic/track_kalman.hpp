@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend {
 

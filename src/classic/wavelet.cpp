@@ -1,7 +1,7 @@
 // The method `wavelet`: shrinks the wavelet coefficients of a take's channels.
 #include "classic/filter_channels.hpp"
-#include "kinemend/experimental/signal.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/signal.hpp"
 
 namespace kinemend {
 

@@ -1,9 +1,9 @@
 // The method `weighted-mean`: repeated means of neighbouring samples.
 #include "classic/filter_channels.hpp"
 #include "cleaner/live.hpp"
-#include "kinemend/experimental/representation.hpp"
-#include "kinemend/experimental/signal.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/signal.hpp"
 
 namespace kinemend {
 

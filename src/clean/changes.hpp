@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "kinemend/clean.hpp"
-#include "kinemend/cleaner.hpp"
+#include "kinemend/extend/cleaner.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {

@@ -13,7 +13,7 @@
 #include "clean/changes.hpp"
 #include "clean/steps.hpp"
 #include "cleaner/pieces.hpp"
-#include "kinemend/experimental/threads.hpp"
+#include "kinemend/extend/system.hpp"
 #include "methods/auto/auto.hpp"
 #include "motion/take.hpp"
 

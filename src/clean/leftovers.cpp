@@ -13,7 +13,7 @@
 
 #include "clean/changes.hpp"
 #include "kinemend/check.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "kinemend/clean.hpp"
-#include "kinemend/cleaner.hpp"
-#include "kinemend/experimental/gap_plan.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/gap_plan.hpp"
 #include "kinemend/feet.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/take.hpp"

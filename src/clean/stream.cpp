@@ -1,5 +1,5 @@
 // Checks the frames of a stream and passes them to the live filter of the cleaner.
-#include "kinemend/stream.hpp"
+#include "kinemend/live.hpp"
 
 #include <utility>
 

@@ -1,6 +1,6 @@
 // The parts of cleaners that do not depend on a method: names of actions, the spectrum of found
 // noise, and cleaning in place.
-#include "kinemend/cleaner.hpp"
+#include "kinemend/extend/cleaner.hpp"
 
 #include <utility>
 

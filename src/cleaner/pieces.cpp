@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "base/portable.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/extend/frames.hpp"
 
 namespace kinemend {
 

@@ -11,8 +11,8 @@
 
 #include "base/frame_span.hpp"
 #include "base/parallel.hpp"
-#include "kinemend/cleaner.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend {
 

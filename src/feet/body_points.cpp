@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/experimental/letter_case.hpp"
+#include "kinemend/extend/figures.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/feet.hpp"
-#include "kinemend/metrics.hpp"
 #include "kinemend/take.hpp"
 #include "motion/take.hpp"
 

@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/rotation.hpp"
-#include "kinemend/skeleton.hpp"
+#include "kinemend/extend/rotation.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend::feet {

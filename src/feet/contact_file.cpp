@@ -10,9 +10,8 @@
 
 #include "base/text.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/experimental/letter_case.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/feet.hpp"
 
 namespace kinemend {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "feet/floor.hpp"
-#include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/experimental/letter_case.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend::feet {
 

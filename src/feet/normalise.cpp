@@ -1,5 +1,5 @@
 // Puts the floor of a take at height 0, and its first frame at the origin, facing forward.
-#include "kinemend/experimental/normalise.hpp"
+#include "kinemend/extend/normalise.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "feet/body_points.hpp"
 #include "feet/floor.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/feet.hpp"
 #include "motion/conversions.hpp"
 #include "motion/names.hpp"

@@ -9,7 +9,7 @@
 #include "base/portable.hpp"
 #include "base/quantiles.hpp"
 #include "fill/natural_spline.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend::fill {
 

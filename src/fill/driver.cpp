@@ -9,7 +9,7 @@
 
 #include "base/parallel.hpp"
 #include "base/text.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend::fill {
 

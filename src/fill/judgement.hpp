@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "fill/track.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend::fill {
 

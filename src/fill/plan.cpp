@@ -11,8 +11,8 @@
 #include "base/text.hpp"
 #include "fill/driver.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/experimental/gap_plan.hpp"
+#include "kinemend/extend/gap_plan.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "motion/names.hpp"
 
 namespace kinemend {

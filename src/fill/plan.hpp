@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "fill/driver.hpp"
-#include "kinemend/experimental/gap_plan.hpp"
-#include "kinemend/gaps.hpp"
+#include "kinemend/extend/gap_plan.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::fill {
 

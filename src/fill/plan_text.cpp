@@ -14,10 +14,9 @@
 #include "base/text.hpp"
 #include "fill/plan.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/experimental/gap_plan.hpp"
-#include "kinemend/experimental/json_depth.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/gap_plan.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

@@ -10,7 +10,7 @@
 #include "fill/methods.hpp"
 #include "fill/plan.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/gap_plan.hpp"
+#include "kinemend/extend/gap_plan.hpp"
 #include "motion/take.hpp"
 
 namespace kinemend {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/frame_span.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 #include "kinemend/take.hpp"
 #include "motion/rotation.hpp"
 

@@ -15,8 +15,8 @@
 #include "io/table/tables.hpp"
 #include "io/text/text.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/io.hpp"
 
 namespace kinemend {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {

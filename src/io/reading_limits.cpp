@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/extend/frames.hpp"
 
 namespace kinemend {
 

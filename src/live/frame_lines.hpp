@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "io/motion/motion_columns.hpp"
-#include "kinemend/cleaner.hpp"
-#include "kinemend/experimental/live.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/sessions.hpp"
 #include "live/live_lines.hpp"
 
 namespace kinemend {

@@ -11,9 +11,9 @@
 #include "io/bvh/bvh_hierarchy.hpp"
 #include "io/text/number.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
-#include "kinemend/experimental/text.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/rotation.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

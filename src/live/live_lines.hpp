@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/skeleton.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "feet/live_feet.hpp"
-#include "kinemend/experimental/live.hpp"
-#include "kinemend/stream.hpp"
+#include "kinemend/extend/sessions.hpp"
+#include "kinemend/live.hpp"
 #include "live/frame_lines.hpp"
 #include "live/live_lines.hpp"
 #include "live/stream_measures.hpp"

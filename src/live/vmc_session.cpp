@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/text.hpp"
-#include "kinemend/experimental/vmc.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
+#include "kinemend/extend/sessions.hpp"
+#include "kinemend/extend/text.hpp"
 #include "live/osc.hpp"
 #include "live/stream_measures.hpp"
 #include "live/vmc_stream.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "kinemend/experimental/letter_case.hpp"
+#include "kinemend/extend/text.hpp"
 #include "motion/names.hpp"
 
 namespace kinemend {

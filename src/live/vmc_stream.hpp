@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "feet/live_feet.hpp"
-#include "kinemend/stream.hpp"
+#include "kinemend/live.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {

@@ -10,6 +10,7 @@
 
 #include "base/quantiles.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/extend/figures.hpp"
 #include "kinemend/metrics.hpp"
 #include "metrics/track_noise.hpp"
 #include "motion/take.hpp"

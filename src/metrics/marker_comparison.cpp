@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
-#include "kinemend/experimental/signal.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/signal.hpp"
 #include "kinemend/metrics.hpp"
 #include "metrics/compare.hpp"
 #include "motion/rotation.hpp"

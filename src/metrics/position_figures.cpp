@@ -8,8 +8,9 @@
 #include <string>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/experimental/letter_case.hpp"
+#include "kinemend/extend/figures.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/metrics.hpp"
 #include "metrics/compare.hpp"
 #include "motion/rotation.hpp"

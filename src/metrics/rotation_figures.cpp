@@ -9,7 +9,7 @@
 
 #include "base/portable.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/metrics.hpp"
+#include "kinemend/extend/figures.hpp"
 #include "metrics/compare.hpp"
 
 namespace kinemend {

@@ -11,8 +11,8 @@
 
 #include "base/portable.hpp"
 #include "base/quantiles.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend {
 

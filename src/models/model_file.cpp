@@ -13,9 +13,9 @@
 
 #include "base/text.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/content_hash.hpp"
-#include "kinemend/experimental/json_depth.hpp"
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/model.hpp"
+#include "kinemend/extend/system.hpp"
+#include "kinemend/extend/text.hpp"
 #include "models/model_reading.hpp"
 
 namespace kinemend {

@@ -14,7 +14,7 @@
 #include "base/files.hpp"
 #include "base/options.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/model.hpp"
 #include "nn/layers.hpp"
 
 namespace kinemend {

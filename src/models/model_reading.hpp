@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/model.hpp"
 
 namespace kinemend {
 

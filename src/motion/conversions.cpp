@@ -8,8 +8,7 @@
 #include <limits>
 #include <string>
 
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "motion/rotation.hpp"
 
 namespace kinemend {

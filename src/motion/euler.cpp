@@ -4,7 +4,7 @@
 
 #include "base/portable.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend {
 

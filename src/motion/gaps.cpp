@@ -7,7 +7,7 @@
 
 #include "base/cells.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/gaps.hpp"
+#include "kinemend/take.hpp"
 #include "motion/names.hpp"
 #include "motion/take.hpp"
 

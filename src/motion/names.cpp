@@ -10,11 +10,8 @@
 #include <string>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/letter_case.hpp"
-#include "kinemend/experimental/subjects.hpp"
-#include "kinemend/experimental/text.hpp"
-#include "kinemend/experimental/wildcards.hpp"
-#include "kinemend/skeleton.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/experimental/subjects.hpp"
+#include "kinemend/extend/motion.hpp"
 
 namespace kinemend {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "motion/conversions.hpp"
 
 namespace kinemend {

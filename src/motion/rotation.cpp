@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "base/portable.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend {
 

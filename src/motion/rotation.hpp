@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "kinemend/experimental/pose_matrix.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend {
 

@@ -12,8 +12,7 @@
 
 #include "base/quantiles.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/skeleton.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/take.hpp"
 #include "motion/take.hpp"
 

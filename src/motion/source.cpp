@@ -1,5 +1,5 @@
 // Names of sources, and of the programs whose name in a file shows what recorded its motion.
-#include "kinemend/source.hpp"
+#include "kinemend/take.hpp"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,7 @@
 #include <utility>
 
 #include "base/options.hpp"
-#include "kinemend/experimental/letter_case.hpp"
-#include "kinemend/experimental/text.hpp"
-#include "kinemend/take.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

@@ -17,10 +17,9 @@
 
 #include "base/quantiles.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
-#include "kinemend/experimental/letter_case.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {

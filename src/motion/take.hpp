@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {

@@ -1,5 +1,5 @@
 // Makes the tracks of a take, and writes cleaned samples back into it.
-#include "kinemend/take_view.hpp"
+#include "kinemend/extend/take_view.hpp"
 
 #include <algorithm>
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/experimental/tensor.hpp"
+#include "kinemend/extend/tensor.hpp"
 #include "nn/gemm.hpp"
 
 namespace kinemend::nn {

@@ -24,7 +24,7 @@
 #include "base/portable.hpp"
 #include "base/text.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/tensor.hpp"
+#include "kinemend/extend/tensor.hpp"
 #include "nn/half.hpp"
 
 namespace kinemend {

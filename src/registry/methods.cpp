@@ -5,10 +5,9 @@
 #include <vector>
 
 #include "base/options.hpp"
-#include "kinemend/cleaner.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/method_choice.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/method_options.hpp"
 #include "methods/prior/prior_cleaning.hpp"
 
 namespace kinemend {

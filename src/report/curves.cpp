@@ -12,13 +12,11 @@
 
 #include "base/portable.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/curves.hpp"
-#include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/experimental/pictures.hpp"
-#include "kinemend/experimental/svg.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/pages.hpp"
+#include "kinemend/extend/rotation.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/report.hpp"
-#include "kinemend/rotation.hpp"
 #include "motion/rotation.hpp"
 #include "report/drawing.hpp"
 

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/experimental/svg.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/pages.hpp"
 #include "motion/rotation.hpp"
 
 namespace kinemend {

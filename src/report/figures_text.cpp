@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/text.hpp"
-#include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/text.hpp"
 #include "report/figures.hpp"
 #include "report/texts.hpp"
 

@@ -5,8 +5,8 @@
 #include <map>
 
 #include "base/text.hpp"
-#include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/text.hpp"
 #include "report/figures.hpp"
 #include "report/texts.hpp"
 

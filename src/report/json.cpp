@@ -9,11 +9,10 @@
 #include <string_view>
 #include <utility>
 
-#include "kinemend/experimental/batch_rows.hpp"
-#include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/experimental/json_depth.hpp"
-#include "kinemend/experimental/text.hpp"
-#include "kinemend/experimental/version.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/pages.hpp"
+#include "kinemend/extend/system.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/report.hpp"
 #include "report/figures.hpp"
 #include "report/texts.hpp"

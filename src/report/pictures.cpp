@@ -9,10 +9,8 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/experimental/pictures.hpp"
-#include "kinemend/experimental/svg.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/pages.hpp"
 #include "motion/rotation.hpp"
 #include "report/drawing.hpp"
 

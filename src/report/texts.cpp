@@ -10,8 +10,8 @@
 #include <string>
 
 #include "base/text.hpp"
-#include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/report.hpp"
 
 namespace kinemend {

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/report.hpp"
 #include "report/figures.hpp"
 #include "report/texts.hpp"

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/experimental/pose_matrix.hpp"
+#include "kinemend/extend/frames.hpp"
 #include "signal/whittaker.hpp"
 
 namespace kinemend::signal {

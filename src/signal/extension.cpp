@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "kinemend/experimental/signal.hpp"
+#include "kinemend/extend/signal.hpp"
 
 namespace kinemend::signal {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/pose_matrix.hpp"
+#include "kinemend/extend/frames.hpp"
 
 namespace kinemend::signal {
 

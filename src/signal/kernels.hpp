@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "kinemend/experimental/signal.hpp"
+#include "kinemend/extend/signal.hpp"
 
 namespace kinemend::signal {
 

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "base/portable.hpp"
-#include "kinemend/experimental/signal.hpp"
+#include "kinemend/extend/signal.hpp"
 #include "signal/extension.hpp"
 #include "signal/kernels.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "kinemend/experimental/signal.hpp"
+#include "kinemend/extend/signal.hpp"
 #include "signal/extension.hpp"
 #include "signal/kernels.hpp"
 

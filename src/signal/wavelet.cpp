@@ -9,7 +9,7 @@
 
 #include "base/portable.hpp"
 #include "base/quantiles.hpp"
-#include "kinemend/experimental/signal.hpp"
+#include "kinemend/extend/signal.hpp"
 #include "signal/extension.hpp"
 #include "signal/kernels.hpp"
 #include "signal/median.hpp"

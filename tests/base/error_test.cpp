@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "kinemend/experimental/version.hpp"
+#include "kinemend/extend/system.hpp"
 
 namespace kinemend {
 namespace {

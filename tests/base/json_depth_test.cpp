@@ -1,5 +1,5 @@
 // Tests of the bound on nested JSON, on text alone.
-#include "kinemend/experimental/json_depth.hpp"
+#include "kinemend/extend/text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Lower case changes the letters A to Z and no other byte.
-#include "kinemend/experimental/letter_case.hpp"
+#include "kinemend/extend/text.hpp"
 
 #include <gtest/gtest.h>
 

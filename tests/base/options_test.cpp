@@ -1,5 +1,5 @@
 // Tests of option tables: defaults, ranges, texts, and the messages for values that do not fit.
-#include "kinemend/options.hpp"
+#include "kinemend/extend/options.hpp"
 
 #include <gmock/gmock.h>
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/experimental/threads.hpp"
+#include "kinemend/extend/system.hpp"
 
 namespace kinemend {
 namespace {

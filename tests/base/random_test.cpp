@@ -1,6 +1,6 @@
 // Tests of the random numbers: the sequence of the published generator, moments, and independent
 // forks.
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 
 #include <gtest/gtest.h>
 

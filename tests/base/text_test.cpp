@@ -1,5 +1,5 @@
 // Tests of text for people: figures, tables, names that hold terminal control codes, and colours.
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 
 #include <gtest/gtest.h>
 

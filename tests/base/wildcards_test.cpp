@@ -1,5 +1,5 @@
 // Patterns of names: known cases, and agreement with the system's own matching.
-#include "kinemend/experimental/wildcards.hpp"
+#include "kinemend/extend/text.hpp"
 
 #include <gtest/gtest.h>
 #ifdef __GLIBC__

@@ -4,7 +4,7 @@
 
 #include "body/body_takes.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 
 namespace kinemend {
 namespace {

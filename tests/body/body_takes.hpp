@@ -6,9 +6,9 @@
 #include <map>
 #include <string>
 
-#include "kinemend/experimental/body.hpp"
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/lab/synth.hpp"
 
 namespace kinemend::body_test {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/random.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend::representation {
 namespace {

@@ -1,5 +1,5 @@
 // Tests of the channels that encode rotations: decoding is exact, and half a turn causes no jump.
-#include "kinemend/experimental/representation.hpp"
+#include "kinemend/extend/body.hpp"
 
 #include <gtest/gtest.h>
 

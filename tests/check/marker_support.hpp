@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "kinemend/check.hpp"
-#include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/lab/synth.hpp"
 
 namespace kinemend::test {

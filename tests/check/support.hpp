@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kinemend/check.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "kinemend/lab/synth.hpp"
 

@@ -6,8 +6,8 @@
 
 #include "classic/linear_dynamics.hpp"
 #include "dense_algebra.hpp"
-#include "kinemend/experimental/pose_matrix.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend::test {
 

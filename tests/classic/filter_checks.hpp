@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "kinemend/cleaner.hpp"
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/random.hpp"
+#include "kinemend/extend/rotation.hpp"
 #include "kinemend/take.hpp"
 #include "motion/random_rotations.hpp"
 #include "registry/takes.hpp"

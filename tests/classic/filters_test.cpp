@@ -6,8 +6,8 @@
 
 #include "classic/track_kalman.hpp"
 #include "kinemend/clean.hpp"
-#include "kinemend/experimental/signal.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/signal.hpp"
 #include "registry/takes.hpp"
 
 namespace kinemend::test {

@@ -12,7 +12,7 @@
 #include "cleaner/orientation_filter.hpp"
 #include "hwy/targets.h"
 #include "kinemend/error.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/method_options.hpp"
 
 namespace kinemend::test {
 namespace {

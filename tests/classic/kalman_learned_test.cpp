@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
+#include "kinemend/extend/figures.hpp"
+#include "kinemend/extend/method_options.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "kinemend/lab/train.hpp"
-#include "kinemend/methods.hpp"
-#include "kinemend/metrics.hpp"
 
 namespace kinemend::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "kinemend/clean.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/method_options.hpp"
 #include "metrics/track_noise.hpp"
 #include "registry/takes.hpp"
 

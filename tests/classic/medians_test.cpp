@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend::test {
 namespace {

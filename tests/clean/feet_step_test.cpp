@@ -10,11 +10,11 @@
 
 #include "kinemend/clean.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/convert.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "kinemend/lab/train.hpp"
-#include "kinemend/methods.hpp"
 
 namespace kinemend::test {
 namespace {

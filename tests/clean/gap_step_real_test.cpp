@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "kinemend/clean.hpp"
-#include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::test {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "kinemend/clean.hpp"
-#include "kinemend/gaps.hpp"
 #include "kinemend/lab/synth.hpp"
+#include "kinemend/take.hpp"
 #include "registry/marker_takes.hpp"
 #include "registry/takes.hpp"
 

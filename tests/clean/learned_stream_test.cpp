@@ -8,11 +8,11 @@
 
 #include "kinemend/clean.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/extend/figures.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "kinemend/lab/synth.hpp"
+#include "kinemend/live.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/metrics.hpp"
-#include "kinemend/stream.hpp"
 #include "methods/learned/motion_support.hpp"
 #include "registry/marker_takes.hpp"
 

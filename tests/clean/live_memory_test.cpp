@@ -6,9 +6,9 @@
 #include <limits>
 #include <ostream>
 
+#include "kinemend/extend/method_options.hpp"
 #include "kinemend/lab/synth.hpp"
-#include "kinemend/methods.hpp"
-#include "kinemend/stream.hpp"
+#include "kinemend/live.hpp"
 #include "methods/learned/motion_support.hpp"
 #include "papers/mall2017_recurrent/random_filter_model.hpp"
 #include "registry/marker_takes.hpp"

@@ -4,7 +4,7 @@
 
 #include "kinemend/clean.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/method_options.hpp"
 #include "registry/marker_takes.hpp"
 
 namespace kinemend::test {

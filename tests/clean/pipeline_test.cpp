@@ -6,7 +6,7 @@
 
 #include "kinemend/clean.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/method_options.hpp"
 #include "registry/takes.hpp"
 #include "translations.hpp"
 

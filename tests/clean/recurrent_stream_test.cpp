@@ -11,12 +11,12 @@
 
 #include "kinemend/clean.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/model.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "kinemend/lab/synth.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/live.hpp"
 #include "kinemend/metrics.hpp"
-#include "kinemend/stream.hpp"
 #include "papers/mall2017_recurrent/random_filter_model.hpp"
 
 namespace kinemend::test {

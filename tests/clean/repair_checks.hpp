@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "kinemend/clean.hpp"
-#include "kinemend/cleaner.hpp"
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/random.hpp"
+#include "kinemend/extend/rotation.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend::test {

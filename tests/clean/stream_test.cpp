@@ -5,8 +5,8 @@
 #include <ostream>
 
 #include "kinemend/error.hpp"
-#include "kinemend/methods.hpp"
-#include "kinemend/stream.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/live.hpp"
 #include "registry/marker_takes.hpp"
 #include "registry/takes.hpp"
 

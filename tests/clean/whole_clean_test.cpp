@@ -9,9 +9,9 @@
 #include "check/marker_support.hpp"
 #include "check/support.hpp"
 #include "kinemend/clean.hpp"
-#include "kinemend/methods.hpp"
-#include "kinemend/source.hpp"
-#include "kinemend/stream.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/live.hpp"
+#include "kinemend/take.hpp"
 #include "registry/takes.hpp"
 
 namespace kinemend::test {

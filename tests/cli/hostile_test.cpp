@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cli/program.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend::test {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "dense_algebra.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend::feet {
 namespace {

@@ -7,7 +7,7 @@
 #include "feet/leg_solver.hpp"
 #include "feet/support.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/metrics.hpp"
+#include "kinemend/extend/figures.hpp"
 #include "translations.hpp"
 
 namespace kinemend {

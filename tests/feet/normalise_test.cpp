@@ -3,9 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/experimental/normalise.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/normalise.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "motion/conversions.hpp"
 

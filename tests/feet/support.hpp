@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/feet.hpp"
 #include "kinemend/lab/synth.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "base/csv.hpp"
 #include "fill/natural_spline.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend::fill {
 namespace {

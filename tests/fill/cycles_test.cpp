@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend::fill {
 namespace {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/fill.hpp"
-#include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 namespace {

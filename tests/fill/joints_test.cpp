@@ -7,7 +7,7 @@
 
 #include "fill/made_gaps.hpp"
 #include "kinemend/fill.hpp"
-#include "kinemend/gaps.hpp"
+#include "kinemend/take.hpp"
 #include "motion/clips.hpp"
 
 namespace kinemend {

@@ -9,8 +9,8 @@
 #include <numeric>
 
 #include "fill/methods.hpp"
-#include "kinemend/gaps.hpp"
 #include "kinemend/lab/synth.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::fill {
 namespace {

@@ -10,7 +10,7 @@
 #include "fill/made_gaps.hpp"
 #include "fill/marker_takes.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/threads.hpp"
+#include "kinemend/extend/system.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "motion/clips.hpp"
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/fill.hpp"
-#include "kinemend/gaps.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::fill {
 

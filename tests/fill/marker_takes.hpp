@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fill/made_gaps.hpp"
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "kinemend/take.hpp"
 

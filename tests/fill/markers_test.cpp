@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "fill/marker_takes.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/fill.hpp"
 
 namespace kinemend::fill {

@@ -8,7 +8,7 @@
 #include "fill/made_gaps.hpp"
 #include "fill/marker_takes.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/gap_plan.hpp"
+#include "kinemend/extend/gap_plan.hpp"
 #include "motion/clips.hpp"
 
 namespace kinemend::fill {

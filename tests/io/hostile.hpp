@@ -13,7 +13,7 @@
 #include "counted_memory.hpp"
 #include "io/mended.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/io.hpp"
 #include "long_tests.hpp"
 

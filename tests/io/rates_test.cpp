@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "io/acclaim/acclaim.hpp"
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "support.hpp"
 

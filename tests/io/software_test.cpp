@@ -8,7 +8,7 @@
 #include "io/fbx/fbx_support.hpp"
 #include "io/table/support.hpp"
 #include "kinemend/lab/synth.hpp"
-#include "kinemend/source.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::test {
 namespace {

@@ -1,5 +1,5 @@
 // A live session survives any bytes, in bounded memory.
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "live_run.hpp"
 
 namespace kinemend::test {

@@ -1,5 +1,5 @@
 // A live session gives the same result as the method on the whole file, however the bytes arrive.
-#include "kinemend/stream.hpp"
+#include "kinemend/live.hpp"
 #include "live_run.hpp"
 
 #include <ostream>

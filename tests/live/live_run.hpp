@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/experimental/live.hpp"
+#include "kinemend/extend/sessions.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/methods.hpp"
 #include "registry/takes.hpp"

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "kinemend/experimental/live.hpp"
+#include "kinemend/extend/sessions.hpp"
 #include "kinemend/methods.hpp"
 #include "live/live_lines.hpp"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/random.hpp"
+#include "kinemend/extend/rotation.hpp"
 #include "live/osc_packets.hpp"
 
 namespace kinemend::test {

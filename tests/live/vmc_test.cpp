@@ -1,6 +1,6 @@
 // Tests of VMC sessions: the output is the input in order with cleaned bones, despite network
 // faults.
-#include "kinemend/experimental/vmc.hpp"
+#include "kinemend/extend/sessions.hpp"
 
 #include <gmock/gmock.h>
 
@@ -8,8 +8,8 @@
 #include <random>
 
 #include "kinemend/error.hpp"
+#include "kinemend/live.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/stream.hpp"
 #include "live/vmc_packets.hpp"
 #include "live/vmc_stream.hpp"
 

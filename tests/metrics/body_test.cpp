@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "kinemend/error.hpp"
+#include "kinemend/extend/figures.hpp"
 #include "kinemend/metrics.hpp"
 #include "motion/clips.hpp"
 

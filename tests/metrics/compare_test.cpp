@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "kinemend/error.hpp"
+#include "kinemend/extend/figures.hpp"
 #include "kinemend/metrics.hpp"
 #include "motion/clips.hpp"
 

@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/figures.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/metrics.hpp"
 #include "motion/clips.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "kinemend/error.hpp"
-#include "kinemend/metrics.hpp"
+#include "kinemend/extend/figures.hpp"
 #include "motion/clips.hpp"
 
 namespace kinemend {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "kinemend/error.hpp"
-#include "kinemend/metrics.hpp"
+#include "kinemend/extend/figures.hpp"
 #include "motion/clips.hpp"
 
 namespace kinemend {

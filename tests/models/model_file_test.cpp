@@ -11,8 +11,8 @@
 
 #include "base/files.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/content_hash.hpp"
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/model.hpp"
+#include "kinemend/extend/system.hpp"
 
 namespace kinemend {
 namespace {

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <string>
 
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/model.hpp"
 
 namespace kinemend::test {
 

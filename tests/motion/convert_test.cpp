@@ -1,5 +1,5 @@
 // Tests of conversions to other rates, axes, units and kinds.
-#include "kinemend/experimental/convert.hpp"
+#include "kinemend/extend/motion.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/kinematics.hpp"
 #include "motion/clips.hpp"
 #include "translations.hpp"
 

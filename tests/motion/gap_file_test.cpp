@@ -4,7 +4,7 @@
 #include <string>
 
 #include "kinemend/error.hpp"
-#include "kinemend/gaps.hpp"
+#include "kinemend/take.hpp"
 #include "motion/clips.hpp"
 
 namespace kinemend {

@@ -1,5 +1,5 @@
 // Tests of marking gaps of joints by name.
-#include "kinemend/gaps.hpp"
+#include "kinemend/take.hpp"
 
 #include <gmock/gmock.h>
 

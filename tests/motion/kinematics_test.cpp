@@ -1,5 +1,5 @@
 // Tests of forward kinematics, against sums of angles and products of matrices.
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 
 #include <gtest/gtest.h>
 

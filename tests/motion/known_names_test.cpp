@@ -1,13 +1,11 @@
 // Tests of names and patterns, of subjects, and of frame numbers.
-#include "kinemend/skeleton.hpp"
+#include "kinemend/take.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/experimental/subjects.hpp"
-#include "kinemend/gaps.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "motion/names.hpp"
 
 namespace kinemend {

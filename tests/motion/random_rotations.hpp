@@ -1,8 +1,8 @@
 // Draws random vectors and rotations.
 #pragma once
 
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/random.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend::test {
 

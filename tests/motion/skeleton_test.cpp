@@ -1,5 +1,5 @@
 // Tests of skeletons: validity, channels, and the guessed unit.
-#include "kinemend/skeleton.hpp"
+#include "kinemend/take.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,11 +1,10 @@
 // Tests of the names of sources, and of the source that a program's name implies.
-#include "kinemend/source.hpp"
+#include "kinemend/take.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "kinemend/error.hpp"
-#include "kinemend/take.hpp"
 
 namespace kinemend::test {
 namespace {

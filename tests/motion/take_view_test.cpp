@@ -1,5 +1,5 @@
 // Tests of the view of a take as a set of tracks.
-#include "kinemend/take_view.hpp"
+#include "kinemend/extend/take_view.hpp"
 
 #include <gtest/gtest.h>
 

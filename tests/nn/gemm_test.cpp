@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "kinemend/experimental/threads.hpp"
+#include "kinemend/extend/system.hpp"
 #include "random_values.hpp"
 
 namespace kinemend::nn {

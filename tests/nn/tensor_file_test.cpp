@@ -11,8 +11,8 @@
 
 #include "base/files.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/experimental/tensor.hpp"
+#include "kinemend/extend/random.hpp"
+#include "kinemend/extend/tensor.hpp"
 
 namespace kinemend {
 namespace {

@@ -5,8 +5,8 @@
 #include <map>
 #include <memory>
 
+#include "kinemend/extend/method_options.hpp"
 #include "kinemend/lab/train.hpp"
-#include "kinemend/methods.hpp"
 #include "quality/quality.hpp"
 #include "quality/real_takes.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "quality/quality.hpp"

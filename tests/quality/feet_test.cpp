@@ -5,8 +5,8 @@
 
 #include "feet/support.hpp"
 #include "kinemend/clean.hpp"
+#include "kinemend/extend/figures.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/metrics.hpp"
 
 namespace kinemend::quality {
 namespace {

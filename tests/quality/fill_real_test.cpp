@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "fill/made_gaps.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/fill.hpp"
-#include "kinemend/gaps.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/take.hpp"
 #include "quality/gapped_markers.hpp"
 
 namespace kinemend::quality {

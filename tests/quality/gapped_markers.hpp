@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "fill/made_gaps.hpp"
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/gaps.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::quality {
 

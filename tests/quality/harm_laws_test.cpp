@@ -10,8 +10,8 @@
 
 #include "base/quantiles.hpp"
 #include "kinemend/clean.hpp"
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "kinemend/methods.hpp"
 #include "long_tests.hpp"

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "kinemend/experimental/convert.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/io.hpp"
 #include "quality/marker_quality.hpp"
 

@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "kinemend/clean.hpp"
-#include "kinemend/cleaner.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/figures.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/lab/corrupt.hpp"
-#include "kinemend/metrics.hpp"
+#include "kinemend/methods.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend::quality {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "kinemend/experimental/convert.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "kinemend/methods.hpp"
 #include "long_tests.hpp"

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "kinemend/experimental/model.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/model.hpp"
 #include "long_tests.hpp"
 #include "quality/quality.hpp"
 #include "quality/real_takes.hpp"

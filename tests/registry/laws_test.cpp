@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "kinemend/clean.hpp"
-#include "kinemend/experimental/threads.hpp"
+#include "kinemend/extend/system.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "registry/takes.hpp"

@@ -8,10 +8,10 @@
 
 #include "counting_allocation.hpp"
 #include "kinemend/clean.hpp"
-#include "kinemend/experimental/threads.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/system.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "kinemend/lab/synth.hpp"
-#include "kinemend/methods.hpp"
 #include "registry/takes.hpp"
 
 namespace kinemend::test {

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "kinemend/cleaner.hpp"
-#include "kinemend/experimental/threads.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/system.hpp"
+#include "kinemend/methods.hpp"
 #include "registry/marker_takes.hpp"
 #include "registry/takes.hpp"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "kinemend/take.hpp"
 #include "motion/random_rotations.hpp"

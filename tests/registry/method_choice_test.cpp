@@ -1,13 +1,12 @@
 // Tests which methods state that they can clean a take.
-#include "kinemend/experimental/method_choice.hpp"
+#include "kinemend/extend/method_options.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/model.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/lab/synth.hpp"
-#include "kinemend/methods.hpp"
 #include "registry/takes.hpp"
 
 namespace kinemend::test {

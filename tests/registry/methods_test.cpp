@@ -1,5 +1,5 @@
 // Tests of the table of methods: names, options, and creation of cleaners.
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/method_options.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/model.hpp"
 #include "registry/takes.hpp"
 
 namespace kinemend::test {

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 
-#include "kinemend/cleaner.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/extend/cleaner.hpp"
 #include "kinemend/lab/synth.hpp"
+#include "kinemend/methods.hpp"
 #include "registry/marker_takes.hpp"
 #include "registry/takes.hpp"
 

@@ -8,8 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/cleaner.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/random.hpp"
+#include "kinemend/methods.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend::test {

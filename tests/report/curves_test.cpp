@@ -1,5 +1,5 @@
 // Tests of curves over time and their drawings.
-#include "kinemend/experimental/curves.hpp"
+#include "kinemend/extend/pages.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,6 @@
 #include <string>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/svg.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "report/support.hpp"
 

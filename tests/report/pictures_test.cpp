@@ -1,5 +1,5 @@
 // Tests of drawings of whole takes.
-#include "kinemend/experimental/pictures.hpp"
+#include "kinemend/extend/pages.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

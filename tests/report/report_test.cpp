@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kinemend/experimental/batch_rows.hpp"
+#include "kinemend/extend/pages.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "kinemend/report.hpp"
 #include "report/json_schema.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "dense_algebra.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend::signal {
 namespace {

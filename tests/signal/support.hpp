@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/experimental/signal.hpp"
+#include "kinemend/extend/random.hpp"
+#include "kinemend/extend/signal.hpp"
 
 namespace kinemend::test {
 

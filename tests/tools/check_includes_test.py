@@ -41,7 +41,7 @@ class Systems(unittest.TestCase):
     def test_headers_of_one_system_are_found(self):
         for header in ("unistd.h", "fcntl.h", "sys/stat.h", "linux/limits.h", "poll.h", "sys/epoll.h", "malloc.h", "pthread.h", "windows.h",
                        "bits/stdc++.h", "ext/stdio_filebuf.h", "tbb/parallel_for.h", "emmintrin.h"):
-            for name in ("src/io/file.cpp", "cli/view.cpp", "include/kinemend/experimental/text.hpp", "examples/a.cpp"):
+            for name in ("src/io/file.cpp", "cli/view.cpp", "include/kinemend/extend/text.hpp", "examples/a.cpp"):
                 found = self.problems(name, f"// A file.\n#  include <{header}>\n")
                 self.assertEqual(len(found), 1, (header, name))
                 self.assertTrue(found[0].startswith(f"{name}: <{header}>"), found)

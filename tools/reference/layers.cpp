@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "kinemend/experimental/tensor.hpp"
+#include "kinemend/extend/tensor.hpp"
 
 namespace {
 

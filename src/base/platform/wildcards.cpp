@@ -1,5 +1,5 @@
 // Matches patterns by backtracking to the last asterisk.
-#include "kinemend/experimental/wildcards.hpp"
+#include "kinemend/extend/text.hpp"
 
 #ifdef __GLIBC__
 #include <fnmatch.h>

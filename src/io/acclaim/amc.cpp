@@ -20,7 +20,7 @@
 #include "io/motion/motion_write.hpp"
 #include "io/text/text.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 #include "motion/take.hpp"
 
 namespace kinemend {

@@ -13,8 +13,7 @@
 #include "io/bvh/bvh_hierarchy.hpp"
 #include "io/text/number.hpp"
 #include "io/text/text.hpp"
-#include "kinemend/experimental/letter_case.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

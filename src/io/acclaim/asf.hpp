@@ -13,7 +13,7 @@
 #include "io/text/number.hpp"
 #include "io/text/text.hpp"
 #include "kinemend/io.hpp"
-#include "kinemend/skeleton.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

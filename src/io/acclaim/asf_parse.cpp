@@ -9,7 +9,7 @@
 
 #include "io/acclaim/asf.hpp"
 #include "io/bvh/bvh_hierarchy.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

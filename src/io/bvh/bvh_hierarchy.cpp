@@ -10,8 +10,8 @@
 
 #include "base/portable.hpp"
 #include "io/motion/motion_columns.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

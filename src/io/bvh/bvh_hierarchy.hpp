@@ -7,7 +7,7 @@
 #include "io/bvh/bvh.hpp"
 #include "io/text/number.hpp"
 #include "io/text/text.hpp"
-#include "kinemend/skeleton.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

@@ -16,7 +16,7 @@
 #include "io/motion/motion_document.hpp"
 #include "io/motion/motion_rows.hpp"
 #include "io/text/text.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

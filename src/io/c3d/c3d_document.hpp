@@ -13,7 +13,7 @@
 #include "io/c3d/c3d_layout.hpp"
 #include "io/c3d/c3d_parameters.hpp"
 #include "io/table/marker_zeros.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 #include "kinemend/take.hpp"
 #include "motion/conversions.hpp"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "io/reading_limits.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/extend/frames.hpp"
 
 namespace kinemend {
 

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "io/c3d/c3d_document.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/extend/frames.hpp"
 
 namespace kinemend {
 

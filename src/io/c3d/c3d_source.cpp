@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "io/c3d/c3d_layout.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/extend/frames.hpp"
 
 namespace kinemend {
 

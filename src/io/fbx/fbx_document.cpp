@@ -14,7 +14,7 @@
 #include "base/parallel.hpp"
 #include "base/text.hpp"
 #include "io/motion/motion_columns.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/extend/frames.hpp"
 #include "motion/rotation.hpp"
 
 namespace kinemend {

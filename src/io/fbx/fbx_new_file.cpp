@@ -10,8 +10,7 @@
 #include "io/fbx/fbx_builder.hpp"
 #include "io/fbx/fbx_rig.hpp"
 #include "io/held_samples.hpp"
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/skeleton.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/take.hpp"
 #include "motion/rotation.hpp"
 

@@ -13,7 +13,7 @@
 #include "io/fbx/fbx_document.hpp"
 #include "io/fbx/fbx_values.hpp"
 #include "io/reading_limits.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "io/fbx/fbx_scene.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend {
 

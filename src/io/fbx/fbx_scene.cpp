@@ -11,7 +11,7 @@
 #include "io/fbx/fbx_curve.hpp"
 #include "io/fbx/fbx_values.hpp"
 #include "io/first_error.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/extend/frames.hpp"
 #include "motion/rotation.hpp"
 
 namespace kinemend {

@@ -11,7 +11,7 @@
 
 #include "io/fbx/fbx_curve.hpp"
 #include "io/fbx/fbx_tree.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend {
 

@@ -11,7 +11,7 @@
 #include "base/text.hpp"
 #include "io/fbx/fbx_values.hpp"
 #include "io/text/text.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

@@ -12,7 +12,7 @@
 
 #include "io/gltf/gltf_model.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/extend/frames.hpp"
 
 namespace kinemend {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "io/gltf/gltf_data.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend {
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "io/motion/motion_document.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend {
 

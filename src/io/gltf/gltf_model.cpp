@@ -11,7 +11,7 @@
 #include "io/gltf/gltf_container.hpp"
 #include "io/gltf/gltf_json.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/json_depth.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

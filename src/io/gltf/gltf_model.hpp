@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "io/gltf/gltf_container.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend {
 

@@ -18,9 +18,9 @@
 #include "io/gltf/gltf_data.hpp"
 #include "io/held_samples.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/version.hpp"
-#include "kinemend/rotation.hpp"
-#include "kinemend/skeleton.hpp"
+#include "kinemend/extend/rotation.hpp"
+#include "kinemend/extend/system.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

@@ -10,7 +10,7 @@
 #include "io/gltf/gltf.hpp"
 #include "io/gltf/gltf_motion.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

@@ -8,7 +8,7 @@
 
 #include "base/portable.hpp"
 #include "io/text/text.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend {
 

@@ -8,7 +8,7 @@
 
 #include "io/text/text.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/extend/frames.hpp"
 #include "motion/rotation.hpp"
 #include "motion/take.hpp"
 

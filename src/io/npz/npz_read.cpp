@@ -15,7 +15,7 @@
 #include "io/npz/zip_archive.hpp"
 #include "io/reading_limits.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/extend/frames.hpp"
 
 namespace kinemend {
 

@@ -9,8 +9,7 @@
 #include <cmath>
 #include <optional>
 
-#include "kinemend/experimental/letter_case.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

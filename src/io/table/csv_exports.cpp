@@ -9,8 +9,7 @@
 #include <cmath>
 
 #include "io/table/csv_document.hpp"
-#include "kinemend/experimental/letter_case.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

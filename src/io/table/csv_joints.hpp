@@ -7,7 +7,6 @@
 #include "io/table/csv_document.hpp"
 #include "io/table/marker_table.hpp"
 #include "io/text/text.hpp"
-#include "kinemend/skeleton.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {

@@ -13,7 +13,7 @@
 #include "io/text/cells.hpp"
 #include "io/text/text.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

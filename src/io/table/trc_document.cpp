@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

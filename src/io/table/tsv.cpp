@@ -15,7 +15,7 @@
 #include "io/text/cells.hpp"
 #include "io/text/text.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {

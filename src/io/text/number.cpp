@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "io/text/fixed_digits.hpp"
-#include "kinemend/experimental/letter_case.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

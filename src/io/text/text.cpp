@@ -10,7 +10,7 @@
 
 #include "io/text/number.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/letter_case.hpp"
+#include "kinemend/extend/text.hpp"
 
 namespace kinemend {
 

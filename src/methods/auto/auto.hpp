@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "kinemend/cleaner.hpp"
-#include "kinemend/take_view.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/take_view.hpp"
 
 namespace kinemend {
 

@@ -14,7 +14,7 @@
 #include "base/parallel.hpp"
 #include "base/portable.hpp"
 #include "base/quantiles.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/extend/frames.hpp"
 #include "methods/auto/smoothing.hpp"
 #include "motion/rotation.hpp"
 #include "signal/evidence.hpp"

@@ -13,8 +13,8 @@
 
 #include "base/parallel.hpp"
 #include "base/portable.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
-#include "kinemend/experimental/signal.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/signal.hpp"
 #include "motion/rotation.hpp"
 #include "signal/evidence.hpp"
 

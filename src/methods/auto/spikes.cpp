@@ -13,7 +13,7 @@
 #include "base/parallel.hpp"
 #include "base/portable.hpp"
 #include "base/quantiles.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/extend/frames.hpp"
 #include "methods/auto/spike_classification.hpp"
 #include "signal/leave_one_out.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 #include "methods/auto/tuning.hpp"
 #include "methods/auto/vector_tracks.hpp"
 

@@ -11,7 +11,7 @@
 #include "base/portable.hpp"
 #include "base/quantiles.hpp"
 #include "cleaner/pieces.hpp"
-#include "kinemend/experimental/frame_rate.hpp"
+#include "kinemend/extend/frames.hpp"
 #include "methods/auto/spikes.hpp"
 
 namespace kinemend {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "kinemend/cleaner.hpp"
-#include "kinemend/take_view.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/take_view.hpp"
 #include "methods/auto/tuning.hpp"
 #include "methods/auto/vector_tracks.hpp"
 #include "motion/rotation.hpp"

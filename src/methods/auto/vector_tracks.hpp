@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 #include "methods/auto/tuning.hpp"
 
 namespace kinemend {

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/cleaner.hpp"
-#include "kinemend/experimental/representation.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/cleaner.hpp"
 #include "methods/learned/live_motion_steps.hpp"
 #include "methods/learned/motion_filter.hpp"
 #include "methods/learned/motion_network.hpp"

@@ -12,7 +12,7 @@
 #include "body/body_rotations.hpp"
 #include "cleaner/pieces.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 #include "methods/auto/spikes.hpp"
 #include "methods/auto/track_vectors.hpp"
 #include "methods/auto/vector_tracks.hpp"

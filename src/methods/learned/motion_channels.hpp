@@ -11,10 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/cleaner.hpp"
-#include "kinemend/experimental/body.hpp"
-#include "kinemend/experimental/pose_matrix.hpp"
-#include "kinemend/experimental/representation.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/frames.hpp"
 #include "kinemend/take.hpp"
 #include "methods/learned/motion_network.hpp"
 #include "methods/learned/motion_steps.hpp"

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/model.hpp"
 #include "methods/learned/motion_steps.hpp"
 #include "nn/layers.hpp"
 

@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/cleaner.hpp"
-#include "kinemend/take_view.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/take_view.hpp"
 #include "methods/learned/motion_filter.hpp"
 
 namespace kinemend {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/cleaner.hpp"
-#include "kinemend/experimental/body.hpp"
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/extend/model.hpp"
 
 namespace kinemend {
 

@@ -9,7 +9,7 @@
 
 #include "base/portable.hpp"
 #include "base/quantiles.hpp"
-#include "kinemend/experimental/signal.hpp"
+#include "kinemend/extend/signal.hpp"
 #include "signal/evidence.hpp"
 
 namespace kinemend {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/quantiles.hpp"
-#include "kinemend/experimental/model.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/model.hpp"
 #include "methods/auto/smoothing.hpp"
 #include "methods/prior/prior_cleaning.hpp"
 #include "methods/prior/prior_fall_backs.hpp"

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/model.hpp"
 
 namespace kinemend {
 

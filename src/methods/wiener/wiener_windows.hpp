@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/experimental/pose_matrix.hpp"
+#include "kinemend/extend/frames.hpp"
 #include "methods/wiener/wiener_prior.hpp"
 
 namespace kinemend {

@@ -11,8 +11,8 @@
 
 #include "base/portable.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/model.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/model.hpp"
 #include "methods/prior/prior_cleaning.hpp"
 #include "methods/prior/prior_fall_backs.hpp"
 #include "models/model_reading.hpp"

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/experimental/model.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/model.hpp"
 #include "papers/lou2010_example/example_filter.hpp"
 #include "papers/lou2010_example/filter_bases.hpp"
 

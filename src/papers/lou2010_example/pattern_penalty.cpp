@@ -11,7 +11,7 @@
 
 #include "base/parallel.hpp"
 #include "base/portable.hpp"
-#include "kinemend/experimental/threads.hpp"
+#include "kinemend/extend/system.hpp"
 #include "nn/gemm.hpp"
 
 namespace kinemend {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/experimental/pose_matrix.hpp"
+#include "kinemend/extend/frames.hpp"
 #include "nn/gemm.hpp"
 #include "papers/lou2010_example/filter_bases.hpp"
 

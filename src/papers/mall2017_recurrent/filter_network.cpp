@@ -12,7 +12,7 @@
 
 #include "base/portable.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/signal.hpp"
+#include "kinemend/extend/signal.hpp"
 #include "models/model_reading.hpp"
 
 namespace kinemend {

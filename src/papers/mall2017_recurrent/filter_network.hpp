@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/experimental/body.hpp"
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/model.hpp"
 #include "nn/layers.hpp"
 #include "papers/mall2017_recurrent/predicted_filter.hpp"
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/rotation.hpp"
 #include "papers/mall2017_recurrent/filter_network.hpp"
 
 namespace kinemend {

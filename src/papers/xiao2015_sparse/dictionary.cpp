@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend::sparse {
 

@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "kinemend/experimental/model.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/model.hpp"
 
 namespace kinemend {
 

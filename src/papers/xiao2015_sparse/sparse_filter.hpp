@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/experimental/pose_matrix.hpp"
+#include "kinemend/extend/frames.hpp"
 #include "papers/xiao2015_sparse/sparse_prior.hpp"
 
 namespace kinemend {

@@ -12,8 +12,8 @@
 #include <optional>
 
 #include "base/parallel.hpp"
-#include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/experimental/representation.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "motion/rotation.hpp"
 
 namespace kinemend {

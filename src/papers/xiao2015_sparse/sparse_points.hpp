@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "kinemend/experimental/body.hpp"
-#include "kinemend/experimental/pose_matrix.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend {
 

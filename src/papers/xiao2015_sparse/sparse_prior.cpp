@@ -13,7 +13,7 @@
 #include "base/cells.hpp"
 #include "body/body_names.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/text.hpp"
+#include "kinemend/extend/text.hpp"
 #include "motion/names.hpp"
 
 namespace kinemend {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/model.hpp"
 #include "papers/xiao2015_sparse/dictionary.hpp"
 #include "papers/xiao2015_sparse/sparse_points.hpp"
 

@@ -9,10 +9,9 @@
 #include <filesystem>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/page.hpp"
-#include "kinemend/experimental/svg.hpp"
-#include "kinemend/experimental/text.hpp"
-#include "kinemend/experimental/version.hpp"
+#include "kinemend/extend/pages.hpp"
+#include "kinemend/extend/system.hpp"
+#include "kinemend/extend/text.hpp"
 #include "report/page/codec.hpp"
 #include "report/page/take_json.hpp"
 

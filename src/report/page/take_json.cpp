@@ -9,11 +9,9 @@
 
 #include "base/quantiles.hpp"
 #include "check/feet.hpp"
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/gaps.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/report.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::page {
 

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "acclaim.hpp"
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 
 namespace kinemend {
 namespace {

@@ -2,7 +2,7 @@
 // C3D files of the same takes.
 
 #include "acclaim.hpp"
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 
 namespace kinemend {
 namespace {

@@ -4,9 +4,8 @@
 #include <map>
 
 #include "acclaim.hpp"
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend {
 namespace {

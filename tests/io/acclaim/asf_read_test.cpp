@@ -1,6 +1,6 @@
 // Tests of the ASF reader: the hierarchy, axes, lengths and limits, and errors with their line.
 #include "acclaim.hpp"
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 
 namespace kinemend {
 namespace {

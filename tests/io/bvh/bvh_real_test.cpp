@@ -3,7 +3,7 @@
 #include <set>
 
 #include "io/support.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend {
 namespace {

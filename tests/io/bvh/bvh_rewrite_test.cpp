@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "io/support.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend {
 namespace {

@@ -5,8 +5,8 @@
 #include "io/bvh/bvh.hpp"
 #include "io/bvh/bvh_hierarchy.hpp"
 #include "io/support.hpp"
-#include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend {
 namespace {

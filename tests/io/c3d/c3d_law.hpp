@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "c3d_support.hpp"
-#include "kinemend/experimental/convert.hpp"
+#include "kinemend/extend/motion.hpp"
 
 namespace kinemend::test {
 

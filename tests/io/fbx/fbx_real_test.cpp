@@ -8,7 +8,7 @@
 #include "io/fbx/fbx_tree.hpp"
 #include "io/mended.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/io.hpp"
 
 namespace kinemend {

@@ -5,8 +5,7 @@
 
 #include "fbx_support.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 
 namespace kinemend {
 namespace {

@@ -2,7 +2,7 @@
 #include <sstream>
 
 #include "gltf_support.hpp"
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 
 namespace kinemend {
 namespace {

@@ -1,6 +1,6 @@
 #include "gltf_support.hpp"
-#include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend {
 namespace {

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "io/support.hpp"
-#include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend {
 namespace {

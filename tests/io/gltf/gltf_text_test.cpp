@@ -1,7 +1,7 @@
 #include "gltf_support.hpp"
 #include "io/gltf/gltf_container.hpp"
 #include "io/gltf/gltf_json.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend {
 namespace {

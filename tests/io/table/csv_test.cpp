@@ -7,8 +7,8 @@
 
 #include "io/hostile.hpp"
 #include "io/table/support.hpp"
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend {
 namespace {

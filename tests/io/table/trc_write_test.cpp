@@ -3,7 +3,7 @@
 
 #include "io/hostile.hpp"
 #include "io/table/support.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend {
 namespace {

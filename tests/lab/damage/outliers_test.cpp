@@ -1,7 +1,7 @@
 // Tests of the damages that displace single samples.
 #include <gtest/gtest.h>
 
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "lab/damage/damage_support.hpp"
 
 namespace kinemend {

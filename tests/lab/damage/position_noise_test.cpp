@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "lab/damage/damage_support.hpp"
 
 namespace kinemend {

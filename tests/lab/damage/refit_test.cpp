@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "lab/damage/damage_support.hpp"
 #include "lab/damage/targets.hpp"
 #include "translations.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "lab/damage/damage_support.hpp"
 #include "lab/damage/system_noise.hpp"
 #include "lab/damage/track_errors.hpp"

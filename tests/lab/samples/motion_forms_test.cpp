@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "kinemend/experimental/body.hpp"
+#include "kinemend/extend/body.hpp"
 #include "synthetic_walks.hpp"
 
 namespace kinemend {

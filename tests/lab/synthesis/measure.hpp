@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/experimental/kinematics.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/lab/synth.hpp"
 
 namespace kinemend::measure {

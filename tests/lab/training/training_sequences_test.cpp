@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/gaps.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/lab/synth.hpp"
+#include "kinemend/take.hpp"
 #include "lab/training/take_store.hpp"
 #include "translations.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "methods/auto/track_cleaning.hpp"
 
 namespace kinemend {

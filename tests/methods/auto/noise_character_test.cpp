@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "kinemend/cleaner.hpp"
+#include "kinemend/extend/cleaner.hpp"
 
 namespace kinemend {
 namespace {

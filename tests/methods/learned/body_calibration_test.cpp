@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/rotation.hpp"
+#include "kinemend/extend/random.hpp"
+#include "kinemend/extend/rotation.hpp"
 
 namespace kinemend::test {
 namespace {

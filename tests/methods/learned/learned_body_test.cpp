@@ -10,8 +10,8 @@
 #include <optional>
 #include <vector>
 
-#include "kinemend/gaps.hpp"
 #include "kinemend/lab/synth.hpp"
+#include "kinemend/take.hpp"
 #include "methods/learned/turned_rig.hpp"
 
 namespace kinemend::test {

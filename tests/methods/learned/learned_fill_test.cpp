@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/model.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "kinemend/methods.hpp"

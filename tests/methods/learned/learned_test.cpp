@@ -9,11 +9,11 @@
 
 #include "kinemend/clean.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/convert.hpp"
+#include "kinemend/extend/figures.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/metrics.hpp"
 #include "methods/learned/motion_support.hpp"
 #include "registry/takes.hpp"
 

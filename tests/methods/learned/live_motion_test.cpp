@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "methods/learned/learned_live.hpp"
 #include "motion_support.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "methods/learned/motion_filter.hpp"
 #include "motion_support.hpp"
 

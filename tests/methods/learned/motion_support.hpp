@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/model.hpp"
 #include "methods/learned/motion_steps.hpp"
 #include "models/one_joint_model.hpp"
 

@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend {
 namespace {

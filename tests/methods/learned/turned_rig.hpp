@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend::test {

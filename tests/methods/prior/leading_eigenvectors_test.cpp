@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "dense_algebra.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend {
 namespace {

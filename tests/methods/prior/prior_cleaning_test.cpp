@@ -10,10 +10,10 @@
 
 #include "kinemend/clean.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/extend/figures.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "kinemend/methods.hpp"
-#include "kinemend/metrics.hpp"
 #include "methods/prior/prior_fall_backs.hpp"
 #include "registry/marker_takes.hpp"
 #include "registry/takes.hpp"

@@ -9,7 +9,7 @@
 #include "classic/dynamics_support.hpp"
 #include "dense_algebra.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/signal.hpp"
+#include "kinemend/extend/signal.hpp"
 #include "lab/training/mixture_fit.hpp"
 #include "lab/training/wiener_fit.hpp"
 #include "methods/prior/window_bases.hpp"

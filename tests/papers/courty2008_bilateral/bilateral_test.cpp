@@ -7,7 +7,7 @@
 
 #include "classic/filter_checks.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/methods.hpp"
+#include "kinemend/extend/method_options.hpp"
 #include "kinemend/metrics.hpp"
 #include "papers/courty2008_bilateral/bilateral_filter.hpp"
 #include "translations.hpp"

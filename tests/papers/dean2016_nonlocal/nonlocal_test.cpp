@@ -9,9 +9,9 @@
 
 #include "classic/filter_checks.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/extend/method_options.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "kinemend/lab/synth.hpp"
-#include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
 #include "translations.hpp"
 

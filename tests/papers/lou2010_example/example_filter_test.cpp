@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "dense_algebra.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "papers/lou2010_example/pattern_penalty.hpp"
 #include "papers/lou2010_example/window_support.hpp"
 

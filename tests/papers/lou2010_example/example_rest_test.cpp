@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend::test {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "dense_algebra.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 
 namespace kinemend {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/model.hpp"
 #include "papers/mall2017_recurrent/filter_network.hpp"
 
 namespace kinemend::test {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinemend/experimental/signal.hpp"
+#include "kinemend/extend/signal.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "papers/mall2017_recurrent/filter_support.hpp"
 

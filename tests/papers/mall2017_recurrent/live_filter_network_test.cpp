@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "papers/mall2017_recurrent/random_filter_model.hpp"
 
 namespace kinemend {

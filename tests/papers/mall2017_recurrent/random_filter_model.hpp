@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "kinemend/experimental/model.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/model.hpp"
+#include "kinemend/extend/random.hpp"
 #include "papers/mall2017_recurrent/filter_network.hpp"
 
 namespace kinemend::test {

@@ -8,11 +8,11 @@
 
 #include "kinemend/clean.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/model.hpp"
 #include "kinemend/fill.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "kinemend/lab/synth.hpp"
-#include "kinemend/methods.hpp"
 #include "papers/mall2017_recurrent/filter_support.hpp"
 
 namespace kinemend::test {

@@ -8,12 +8,12 @@
 
 #include "kinemend/clean.hpp"
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/model.hpp"
+#include "kinemend/extend/figures.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/model.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "kinemend/lab/synth.hpp"
-#include "kinemend/methods.hpp"
-#include "kinemend/metrics.hpp"
 #include "papers/mall2017_recurrent/filter_support.hpp"
 #include "registry/takes.hpp"
 

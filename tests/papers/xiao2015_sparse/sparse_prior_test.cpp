@@ -13,9 +13,8 @@
 #include <utility>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/convert.hpp"
-#include "kinemend/experimental/kinematics.hpp"
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "kinemend/lab/train.hpp"
 #include "papers/xiao2015_sparse/sparse_filter.hpp"

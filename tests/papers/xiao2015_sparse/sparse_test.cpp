@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "kinemend/clean.hpp"
-#include "kinemend/experimental/convert.hpp"
+#include "kinemend/extend/figures.hpp"
+#include "kinemend/extend/method_options.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "kinemend/lab/train.hpp"
-#include "kinemend/methods.hpp"
-#include "kinemend/metrics.hpp"
 
 namespace kinemend::test {
 namespace {

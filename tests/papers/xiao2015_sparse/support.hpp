@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "papers/xiao2015_sparse/dictionary.hpp"
 
 namespace kinemend::sparse {

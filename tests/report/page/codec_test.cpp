@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "kinemend/experimental/random.hpp"
+#include "kinemend/extend/random.hpp"
 #include "report/page/page_parts.hpp"
 
 namespace kinemend::test {

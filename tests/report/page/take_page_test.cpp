@@ -5,8 +5,8 @@
 #include <string>
 
 #include "kinemend/error.hpp"
-#include "kinemend/experimental/frame_numbers.hpp"
-#include "kinemend/experimental/page.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/pages.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "report/page/page_parts.hpp"

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/experimental/pose_matrix.hpp"
-#include "kinemend/experimental/random.hpp"
-#include "kinemend/options.hpp"
+#include "kinemend/extend/frames.hpp"
+#include "kinemend/extend/options.hpp"
+#include "kinemend/extend/random.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {

@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/experimental/model.hpp"
-#include "kinemend/options.hpp"
+#include "kinemend/extend/model.hpp"
+#include "kinemend/extend/options.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {

@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/experimental/body.hpp"
-#include "kinemend/experimental/tensor.hpp"
+#include "kinemend/extend/body.hpp"
+#include "kinemend/extend/tensor.hpp"
 
 namespace kinemend {
 

@@ -4,8 +4,7 @@
 
 #include <optional>
 
-#include "kinemend/rotation.hpp"
-#include "kinemend/skeleton.hpp"
+#include "kinemend/extend/rotation.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {

@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "kinemend/source.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {

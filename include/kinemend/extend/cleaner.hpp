@@ -1,5 +1,5 @@
 // The interface of cleaning methods: the input and output of a method, for whole takes and frame by
-// frame, and the table of all methods.
+// frame.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "kinemend/options.hpp"
-#include "kinemend/take_view.hpp"
+#include "kinemend/extend/options.hpp"
+#include "kinemend/extend/take_view.hpp"
 
 namespace kinemend {
 
@@ -162,23 +162,5 @@ struct InPlaceTrace : CleanTrace {
 /// the clip. Markers that it filled become observed.
 InPlaceTrace clean_in_place(const Cleaner& cleaner, Take& take, const Selection& selection = {},
                             const std::function<void(double)>& progress = {});
-
-/// An entry of the table of methods.
-struct Method {
-  std::string name;     ///< "bilateral"
-  std::string summary;  ///< one line
-  std::string paper;    ///< the paper that it follows
-  std::vector<OptionSpec> options;
-  std::unique_ptr<Cleaner> (*make)(const OptionValues& values);
-  bool learned = false;  ///< needs a trained model and works on bodies that the model knows
-};
-
-/// All methods, `auto` first.
-std::span<const Method> methods();
-/// Returns the method of that name. Errors: `ErrorKind::usage`, with the names of all methods.
-const Method& find_method(std::string_view name);
-/// Makes the cleaner of a method. Errors: `ErrorKind::usage` for an unknown method or option or a
-/// value out of range.
-std::unique_ptr<Cleaner> make_cleaner(std::string_view method, const OptionValues& values = {});
 
 }  // namespace kinemend

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <memory>
 
-#include "kinemend/cleaner.hpp"
-#include "kinemend/source.hpp"
+#include "kinemend/extend/cleaner.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend {
 

@@ -1,14 +1,34 @@
-// Converts takes to another rate, axis, unit or kind. The result is written in a plain layout, not
-// in its source's layout. The other data of a C3D file (analog samples, force plates, parameters)
-// is kept and converted with the points. A take that already has the requested rate, axis or unit
-// is returned unchanged.
+// Computes global poses (forward kinematics), converts takes to another rate, axis, unit or kind,
+// numbers frames as people do, and separates the people of a take of markers.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "kinemend/take.hpp"
 
 namespace kinemend {
+
+/// Global rotations and positions of one frame: J of each, in file units.
+/// R_j = R_parent rest_j q_j and p_j = p_parent + R_parent offset_j, roots in the world frame.
+struct Pose {
+  std::vector<Quat> rotations;
+  std::vector<Vec3> positions;
+};
+
+Pose forward_kinematics(const Take& clip, std::size_t frame);
+
+/// Returns joint positions of every frame, F x J, or F x (J + E) with end sites, in file units.
+std::vector<Vec3> joint_positions(const Take& clip, bool with_end_sites = false);
+
+// Converts takes to another rate, axis, unit or kind. The result is written in a plain layout, not
+// in its source's layout. The other data of a C3D file (analog samples, force plates, parameters)
+// is kept and converted with the points. A take that already has the requested rate, axis or unit
+// is returned unchanged.
 
 /// Returns the motion at another rate, from its first frame to its last or just before. A frame
 /// that coincides with an old frame is copied, so that 120 Hz to 60 Hz drops every second frame.
@@ -49,5 +69,19 @@ Take joint_markers(const Take& clip, bool with_end_sites = false);
 /// rotations: at rest every joint's frame is parallel to the world's. Joints that turn get three
 /// rotation channels, in their own order if they have three axes, else Z Y X.
 Take without_rest_rotations(const Take& clip);
+
+/// Returns the number of frame `frame` (from 0) in a take whose first frame has the number `first`.
+std::int64_t frame_number(std::size_t frame, std::int64_t first);
+
+struct Subject {
+  std::string name;                  ///< "Ann"; empty for markers without a subject
+  std::vector<std::size_t> markers;  ///< the markers that are positions, ascending
+};
+
+/// Returns the subjects of a take by the part of the names before the last colon (`Ann:LASI`), in
+/// the order of their first markers; markers without a subject come last. If fewer than two
+/// subjects are found, all markers are one subject without a name. Empty for a take without
+/// positions.
+std::vector<Subject> subjects_of(const Take& clip);
 
 }  // namespace kinemend

@@ -1,4 +1,5 @@
-// Limits and counts the threads of the library, runs work on all of them, and stops work.
+// Limits and counts the threads of the library, runs work on all of them, and stops work. The
+// version of the library, and a hash that shows whether bytes have changed.
 #pragma once
 
 #include <atomic>
@@ -6,6 +7,8 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <string>
+#include <string_view>
 
 namespace kinemend {
 
@@ -52,5 +55,14 @@ class StopWatch {
  private:
   const std::atomic<bool>* before_;
 };
+
+/// Returns the version as "1.2.3": major, minor and patch version.
+std::string_view version() noexcept;
+
+/// Returns 128 bits of XXH3 as 32 hexadecimal digits, the same on every machine. It does not
+/// protect against deliberate collisions.
+std::string content_hash(std::string_view bytes);
+
+inline constexpr std::size_t content_hash_digits = 32;
 
 }  // namespace kinemend

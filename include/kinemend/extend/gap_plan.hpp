@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "kinemend/fill.hpp"
-#include "kinemend/gaps.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "kinemend/experimental/pose_matrix.hpp"
+#include "kinemend/extend/frames.hpp"
 
 /// The filters do not depend on skeletons: widths are in frames, and only `butterworth_lowpass`
 /// takes hertz.

@@ -1,4 +1,5 @@
-// Text for people: words, figures and tables. Text of people without its byte order mark.
+// Text for people: words, figures and tables. Text from outside: byte order marks, letters without
+// regard to case, patterns of names, and how deeply JSON may nest.
 #pragma once
 
 #include <cstddef>
@@ -64,5 +65,35 @@ std::string_view without_byte_order_mark(std::string_view text);
 enum class Paint { bold, dim, red, green, yellow };
 /// Returns the text with terminal codes; unchanged if it is empty or `on` is false.
 std::string painted(Paint paint, std::string_view text, bool on = true);
+
+/// Converts A to Z to a to z, whatever the locale, and keeps every other byte.
+char lower_case(char letter);
+std::string lower_case(std::string_view text);
+/// Whether two texts are equal except for case (ASCII).
+bool same_but_for_case(std::string_view a, std::string_view b);
+
+/// Whether a name matches a pattern with `*`, `?` and `[a-z]`, `[!a]`, `[[:digit:]]`; a backslash
+/// escapes the next character. Works on bytes. Uses `fnmatch` of the system if it is glibc's.
+bool matches_wildcards(const std::string& pattern, const std::string& name);
+
+/// `matches_wildcards` without the system's `fnmatch`, on every system.
+bool matches_wildcards_anywhere(std::string_view pattern, std::string_view name);
+
+/// The largest accepted depth of nested arrays and objects. Files of the program have five levels.
+inline constexpr std::size_t deepest_json = 64;
+
+/// Returns `text` up to the bracket that opens a level deeper than `deepest_json`, else the whole
+/// text. A parser reports the result as it reports any truncated text. Takes linear time and no
+/// memory. Never throws.
+std::string_view json_within_depth(std::string_view text);
+
+/// Parses text from outside with `Json::parse`. Code that walks through a value recurses for every
+/// level, so a deeply nested value would exhaust the stack. `Json`: `nlohmann::json` or
+/// `nlohmann::ordered_json`. Errors: `Json::parse_error`, whose `byte` is the position; returns a
+/// discarded value instead if `throws` is false.
+template <class Json>
+Json parse_json(std::string_view text, bool throws = true) {
+  return Json::parse(json_within_depth(text), nullptr, throws);
+}
 
 }  // namespace kinemend
