@@ -15,9 +15,7 @@
 #include <vector>
 
 #include "batch_list.hpp"
-#include "batch_merge.hpp"
 #include "batch_record.hpp"
-#include "batch_summary.hpp"
 #include "clean_file.hpp"
 #include "clean_flags.hpp"
 #include "clean_plan.hpp"
@@ -254,24 +252,17 @@ Done do_item(const BatchItem& item, const Batch& batch) {
 /// Runs `do_item` and returns its errors in the result, so that one file does not stop the others.
 Done try_item(const BatchItem& item, const Batch& batch) {
   Done done;
-  done.is_new = true;
-  try {
+  const Outcome outcome = outcome_of(item.input, false, [&](Outcome&) {
     done = do_item(item, batch);
     if (done.is_new && !item.is_copied) append_row(batch.folder, batch.shard, done.row);
-    return done;
-  } catch (const Error& error) {
-    done.code = static_cast<int>(error.kind());
-    done.error = error.what();
-  } catch (const std::bad_alloc&) {
-    done.code = static_cast<int>(ErrorKind::unreadable_input);
-    done.error = item.input + ": out of memory";
-  } catch (const std::exception& error) {
-    done.code = static_cast<int>(ErrorKind::unreadable_input);
-    done.error = fmt::format("{}: internal error: {}", item.input, error.what());
-  }
-  done.is_begun = false;
-  done.row = failed_row(item.name, item.input, done.error, done.code);
-  return done;
+  });
+  if (outcome.code == 0) return done;
+  return {failed_row(item.name, item.input, outcome.error, outcome.code),
+          outcome.code,
+          true,
+          false,
+          outcome.error,
+          {}};
 }
 
 /// Estimates the amount of work for a take.
@@ -595,14 +586,6 @@ int run_batch(const Arguments& arguments) {
   return std::max(counts.exit_code, empty_code);
 }
 
-Flag batch_format_flag() {
-  Flag to = text_flag("to", "", "Output", "format of the results (default that of each take)",
-                      "As kinemend convert writes it: joints become markers in a format of "
-                      "markers.");
-  to.spec.choices = written_formats();
-  return to;
-}
-
 Flag clean_switch() {
   Flag flag =
       switch_flag("clean", "Work", "clean the takes",
@@ -613,21 +596,19 @@ Flag clean_switch() {
 }
 
 std::vector<Flag> batch_flags() {
-  Flag folder = text_flag("output_dir", "DIR", "Output",
-                          "folder for the results, with the tree of the inputs");
+  Flag folder =
+      file_flag("output_dir", "DIR", "Output",
+                "folder for the results, with the tree of the inputs", "", Completion::folder);
   folder.letter = 'o';
   // All other commands have -o for --output.
   folder.older_names = {"output"};
-  folder.completion = Completion::folder;
-  Flag list =
-      text_flag("list", "FILE", "Input", "file with more takes and folders, one per line",
-                "Blank lines and lines that start with # are ignored; - is standard input.");
-  list.completion = Completion::file;
   std::vector<Flag> flags = {
       std::move(folder),
       force_flag(),
       switch_flag("dry_run", "Output", "list what would be done, and write nothing"),
-      batch_format_flag(),
+      choice_flag("to", "Output", "format of the results (default that of each take)",
+                  written_formats(), "",
+                  "As kinemend convert writes it: joints become markers in a format of markers."),
       clean_switch(),
       report_flag(
           "also write a page for a browser, FILE.html: the takes, worst first",
@@ -637,7 +618,7 @@ std::vector<Flag> batch_flags() {
       quiet_flag("Warnings about takes are printed with --verbose only."),
       verbose_flag("print every error and every warning",
                    "Otherwise the first ten errors are printed, and the number of the others."),
-      std::move(list),
+      list_flag(),
       text_flag("files", "PATTERN", "Input",
                 "in folders, clean only files whose name matches PATTERN",
                 "* stands for any text, ? for any character. Quote the pattern."),

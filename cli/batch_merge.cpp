@@ -1,6 +1,4 @@
 // Reads files of rows, checks that they belong together, and writes their rows and sums.
-#include "batch_merge.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,9 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "batch_list.hpp"
 #include "batch_record.hpp"
-#include "batch_summary.hpp"
 #include "json.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/extend/pages.hpp"

@@ -1,5 +1,6 @@
 // Records what a batch did with each take, so that it can resume: one small file per take below
-// `.kinemend/` in the output folder, written after the result.
+// `.kinemend/` in the output folder, written after the result. Writes the rows of a batch, and sums
+// over all its takes.
 #pragma once
 
 #include <filesystem>
@@ -8,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "batch_list.hpp"
+#include "command.hpp"
 #include "kinemend/extend/pages.hpp"
 #include "platform/system.hpp"
 
@@ -61,5 +64,27 @@ class TakeLock {
 /// Removes temporary files of killed runs: files of this program in `folder` and below that are
 /// older than an hour and whose process has ended.
 void remove_leftovers(const std::string& folder);
+
+/// Appends a row to `rows.jsonl`, or to `rows.I-of-N.jsonl` for a shard, at once, so that a killed
+/// run leaves the rows of all takes that it finished.
+void append_row(const std::string& folder, const Shard& shard, const BatchRow& row);
+/// Rewrites the rows, one line per take, sorted by name. Rows of takes outside this batch are kept
+/// as long as `still_counts` holds.
+void write_rows(const std::string& folder, const Shard& shard, const std::vector<BatchItem>& all,
+                const std::vector<BatchRow>& rows);
+
+/// Sums over the records of all takes of the batch, whichever run or shard made them, the takes
+/// still to be done, and the takes that other batches wrote to the same folder.
+BatchSums sums_of(const std::string& folder, const std::vector<BatchItem>& all,
+                  const std::string& options_hash);
+/// Writes `summary.json`.
+void write_summary(const std::string& folder, const std::string& summary);
+
+/// `batch --merge ROWS... -o DIR`: reads files of rows and writes `rows.jsonl` and `summary.json`
+/// into DIR. Returns the exit code of a single run over all takes, or that of an unreadable input
+/// if shards or takes are missing. Errors: `ErrorKind::usage` for options that do not concern rows;
+/// `unreadable_input` for a file without rows, for a take with different rows in two files, and for
+/// shards with different settings; `cannot_write` for existing files that a batch did not write.
+int merge_batch(const Arguments& arguments);
 
 }  // namespace kinemend::cli

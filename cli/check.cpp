@@ -3,6 +3,7 @@
 #include "kinemend/check.hpp"
 
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -15,18 +16,107 @@
 
 #include "batch_list.hpp"
 #include "commands.hpp"
+#include "kinemend/error.hpp"
 #include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"
 #include "kinemend/take.hpp"
 #include "page_report.hpp"
-#include "robot_limits.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
 
 namespace kinemend::cli {
 
 namespace {
+
+// Reads the limits of a robot, with line numbers for errors.
+class LimitsReader {
+ public:
+  explicit LimitsReader(std::string_view name) : name_(name) {}
+
+  RobotSettings read(const toml::table& root) const {
+    RobotSettings settings;
+    settings.limits = limits_in(root, settings.limits, {"joints"});
+    const toml::node* joints = root.get("joints");
+    if (joints == nullptr) return settings;
+    if (!joints->is_table()) refuse(*joints, "joints: is not a table of patterns");
+    for (const auto& [pattern, node] : in_order_of_lines(*joints->as_table()))
+      settings.joints.push_back({pattern, joint_limits(pattern, *node, settings.limits)});
+    return settings;
+  }
+
+ private:
+  // toml++ sorts tables by name, but the file's order decides which pattern applies.
+  static std::vector<std::pair<std::string, const toml::node*>> in_order_of_lines(
+      const toml::table& table) {
+    std::vector<std::pair<std::string, const toml::node*>> nodes;
+    for (const auto& [key, node] : table) nodes.emplace_back(std::string(key.str()), &node);
+    std::stable_sort(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) {
+      return a.second->source().begin.line < b.second->source().begin.line;
+    });
+    return nodes;
+  }
+
+  JointLimits joint_limits(const std::string& pattern, const toml::node& node,
+                           JointLimits inherited) const {
+    if (!node.is_table()) refuse(node, pattern + ": is not a table of limits");
+    return limits_in(*node.as_table(), inherited, {});
+  }
+
+  JointLimits limits_in(const toml::table& table, JointLimits limits,
+                        const std::vector<std::string>& others) const {
+    for (const auto& [key, node] : table) {
+      const std::string name(key.str());
+      if (name == "speed_deg_s")
+        limits.speed_deg_s = positive(name, node);
+      else if (name == "acceleration_deg_s2")
+        limits.acceleration_deg_s2 = positive(name, node);
+      else if (std::find(others.begin(), others.end(), name) == others.end())
+        refuse_unknown(name, node, others);
+    }
+    return limits;
+  }
+
+  double positive(const std::string& name, const toml::node& node) const {
+    constexpr double most = 1e9;
+    const auto value = node.value<double>();
+    if (node.is_number() && value && *value > 0 && *value <= most) return *value;
+    refuse(node, name + ": is not a number above 0, up to 1e9");
+  }
+
+  [[noreturn]] void refuse_unknown(const std::string& key, const toml::node& node,
+                                   const std::vector<std::string>& others) const {
+    std::vector<std::string> known = {"speed_deg_s", "acceleration_deg_s2"};
+    known.insert(known.end(), others.begin(), others.end());
+    const std::string guess = nearest_name(key, known);
+    refuse(node, fmt::format("unknown limit {}{}", key,
+                             guess.empty() ? "" : fmt::format(" (did you mean {}?)", guess)));
+  }
+
+  [[noreturn]] void refuse(const toml::node& node, const std::string& message) const {
+    throw Error(ErrorKind::usage,
+                fmt::format("{}:{}: {}", name_, node.source().begin.line, message));
+  }
+
+  std::string_view name_;
+};
+
+/// Returns the settings of --robot. `path` is the file of --limits, a TOML text, or empty.
+/// `speed_deg_s` and `acceleration_deg_s2` apply to all joints; a table `[joints."PATTERN"]` with
+/// either applies to joints whose names match, and inherits the other. Later tables override
+/// earlier ones. Errors, with the line: `ErrorKind::unreadable_input` for text that is not TOML,
+/// `ErrorKind::usage` for an unknown key or a value that is not above 0; those of reading the file.
+RobotSettings robot_settings(const std::string& path) {
+  if (path.empty()) return {};
+  const std::string text = read_file(path), name = input_name(path);
+  try {
+    return LimitsReader(name).read(toml::parse(text));
+  } catch (const toml::parse_error& error) {
+    throw Error(ErrorKind::unreadable_input,
+                fmt::format("{}:{}: {}", name, error.source().begin.line, error.description()));
+  }
+}
 
 // Returns whether --robot or one of its options is given.
 bool wants_robot(const Arguments& arguments) {
@@ -39,8 +129,7 @@ bool wants_robot(const Arguments& arguments) {
 
 CheckSettings check_settings(const Arguments& arguments) {
   CheckSettings settings;
-  if (const std::string up = arguments.text("up"); !up.empty())
-    settings.up = up == "x" ? Axis::x : up == "z" ? Axis::z : Axis::y;
+  if (arguments.given("up")) settings.up = axis_named(arguments.text("up"));
   if (arguments.given("metres_per_unit"))
     settings.metres_per_unit = arguments.number("metres_per_unit");
   settings.names = names_of_map(arguments.text("map"));
@@ -135,11 +224,6 @@ int run_check(const Arguments& arguments) {
   return code;
 }
 
-Flag without_default(Flag flag) {
-  flag.has_default = false;
-  return flag;
-}
-
 Flag of_checks(Flag flag) {
   flag.group = "Checks";
   flag.details = "The noise and the spikes listed are those that clean removes with this --source.";
@@ -147,10 +231,9 @@ Flag of_checks(Flag flag) {
 }
 
 std::vector<Flag> robot_flags() {
-  Flag limits = text_flag("limits", "FILE", "Checks", "limits of joints for --robot, in TOML",
+  Flag limits = file_flag("limits", "FILE", "Checks", "limits of joints for --robot, in TOML",
                           "speed_deg_s and acceleration_deg_s2 for all joints, and tables such as "
                           "[joints.\"*Knee\"] for joints by name. Implies --robot.");
-  limits.completion = Completion::file;
   return {
       switch_flag("robot", "Checks", "also check what a robot or a simulated body cannot follow",
                   "Joints that are too fast, jumps, feet in or above the floor, and times in "
@@ -160,12 +243,9 @@ std::vector<Flag> robot_flags() {
 
 std::vector<Flag> check_flags() {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  Flag gaps_out = text_flag(
+  Flag gaps_out = file_flag(
       "gaps_out", "FILE", "Output", "write frozen and bridged spans as a side file of gaps",
       "Give it to kinemend fill or clean with --gaps to fill these spans again.");
-  gaps_out.completion = Completion::file;
-  Flag up = text_flag("up", "", "Checks", "vertical axis, if it cannot be found from the body");
-  up.spec.choices = {"x", "y", "z"};
   std::vector<Flag> list = {
       json_flag("print JSON instead of text"),
       verbose_flag("list every finding and every track"),
@@ -174,7 +254,8 @@ std::vector<Flag> check_flags() {
       reports_flag("also write what was found: FILE.json, or FILE.html as a page for a browser",
                    "A page shows one take, with its motion."),
       force_flag(),
-      up,
+      choice_flag("up", "Checks", "vertical axis, if it cannot be found from the body",
+                  {"x", "y", "z"}),
       without_default(number_flag("metres_per_unit", "m", 0, 1e-9, 1e6, "Checks",
                                   "length of a file unit, if the take does not state it")),
   };

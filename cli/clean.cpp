@@ -35,13 +35,10 @@ int run_clean(const Arguments& arguments) {
     throw Error(ErrorKind::usage, "clean: IN is missing (see kinemend clean -h)");
   const CleanPlan plan = make_clean_plan(arguments);
   plan.reports.check_free(plan.force);
-  TakeRun run{"clean", plan.reports};
-  run.out_is_taken =
+  const bool out_is_taken =
       plan.reports.on_out() || (!plan.dry_run && plan.takes.jobs.front().output == "-");
-  run.quiet = plan.quiet;
-  run.json = plan.json;
-  run.force = plan.force;
-  run.threads = plan.threads;
+  const TakeRun run{"clean",   plan.reports, out_is_taken, plan.quiet,
+                    plan.json, plan.force,   plan.threads};
   return run_take_jobs(plan.takes, run, [&](const TakeJob& job, const TakeProgress& progress) {
     return clean_file(job, plan, progress);
   });
@@ -77,7 +74,7 @@ Command clean_command() {
       {"kinemend clean walk.bvh", "writes walk.clean.bvh with the default method"},
       {"kinemend clean walk.bvh --method butterworth --cutoff-hz 6 -o smooth.bvh",
        "one method with one of its options"},
-      {"kinemend clean *.bvh --output-dir clean --preset sport", "many takes in parallel"},
+      {"kinemend clean *.bvh --output-dir clean", "many takes in parallel"},
       {"kinemend clean take.bvh --joints 'Left*' --exclude LeftHand --range 2s:5s",
        "part of the body, part of the time"},
       {"kinemend clean walk.bvh --feet auto", "also stop standing feet from sliding"},

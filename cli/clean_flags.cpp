@@ -54,19 +54,11 @@ Flag method_flag() {
 }
 
 Flag preset_flag() {
-  Flag flag = text_flag("preset", "", "Cleaning", "settings for a kind of motion");
-  for (const Preset& preset : presets()) flag.spec.choices.emplace_back(preset.name);
-  flag.details =
-      "kinemend help presets describes them. --config and the command line override them.";
-  return flag;
-}
-
-Flag file_flag(std::string name, std::string value, std::string group, std::string help,
-               std::string details = {}, Completion completion = Completion::file) {
-  Flag flag = text_flag(std::move(name), std::move(value), std::move(group), std::move(help),
-                        std::move(details));
-  flag.completion = completion;
-  return flag;
+  std::vector<std::string> names;
+  for (const Preset& preset : presets()) names.emplace_back(preset.name);
+  return choice_flag(
+      "preset", "Cleaning", "settings of a live stream or of a gait laboratory", std::move(names),
+      "", "kinemend help presets describes them. --config and the command line override them.");
 }
 
 Flag noise_flag() {

@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "json.hpp"
+#include "kinemend/error.hpp"
 #include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/report.hpp"
 #include "kinemend/take.hpp"
-#include "known_noise.hpp"
 #include "method_options.hpp"
 #include "page_report.hpp"
 #include "takes.hpp"
@@ -17,6 +20,50 @@
 namespace kinemend::cli {
 
 namespace {
+
+[[noreturn]] void fail_noise(const std::string& path, std::string_view reason) {
+  throw Error(ErrorKind::usage, fmt::format("--noise {}: {}", path, reason));
+}
+
+// The noise entry for the take's own kind of tracks.
+const Json& noise_of_tracks(const Json& take, const std::string& path) {
+  const char* quantity = take.at("kind") == "markers" ? "position" : "rotation";
+  for (const Json& noise : take.at("noise")) {
+    if (noise.at("quantity") == quantity) return noise;
+  }
+  fail_noise(path, "the report found no noise in its take");
+}
+
+KnownNoise noise_of_report(const Json& report, const std::string& path) {
+  if (!report.is_object() || report.value("schema", "") != report_schema)
+    fail_noise(path, "expected white, auto, or a JSON report of clean or check");
+  const Json& takes = report.at("takes");
+  if (takes.empty() || !takes.front().contains("noise"))
+    fail_noise(path, "the report has no noise in it; use a report of clean or check");
+  const Json& take = takes.front();
+  KnownNoise known;
+  known.correlation = noise_of_tracks(take, path).at("correlation").get<double>();
+  for (const Json& track : take.at("tracks")) {
+    const double strength = track.value("noise", 0.0);
+    if (strength > 0) known.strengths[track.at("name").get<std::string>()] = strength;
+  }
+  return known;
+}
+
+/// Returns the noise that `--noise` states: nullopt for "auto", white noise of measured strength
+/// for "white", and otherwise the noise of the first take in the report at that path. Errors:
+/// `ErrorKind::usage` for a file that is not a report of `clean` or `check` with noise; those of
+/// `read_file`.
+std::optional<KnownNoise> known_noise(const std::string& choice) {
+  if (choice == "auto") return std::nullopt;
+  if (choice == "white") return KnownNoise{};
+  const std::string text = read_file(choice);
+  try {
+    return noise_of_report(parse_json<Json>(text), choice);
+  } catch (const Json::exception&) {
+    fail_noise(choice, "expected white, auto, or a JSON report of clean or check");
+  }
+}
 
 /// Reads a file of gaps and checks its syntax; its frames are checked later against each take.
 std::pair<std::string, std::string> read_gaps(const std::string& path) {

@@ -67,6 +67,29 @@ Flag text_flag(std::string name, std::string value_name, std::string group, std:
   return flag;
 }
 
+Flag file_flag(std::string name, std::string value_name, std::string group, std::string help,
+               std::string details, Completion completion) {
+  Flag flag = text_flag(std::move(name), std::move(value_name), std::move(group), std::move(help),
+                        std::move(details));
+  flag.completion = completion;
+  return flag;
+}
+
+Flag choice_flag(std::string name, std::string group, std::string help,
+                 std::vector<std::string> choices, std::string default_choice,
+                 std::string details) {
+  Flag flag = text_flag(std::move(name), "", std::move(group), std::move(help), std::move(details));
+  flag.spec.choices = std::move(choices);
+  flag.has_default = !default_choice.empty();
+  flag.spec.default_value = std::move(default_choice);
+  return flag;
+}
+
+Flag without_default(Flag flag) {
+  flag.has_default = false;
+  return flag;
+}
+
 bool is_on_by_default(const Flag& flag) {
   const bool* is_on = std::get_if<bool>(&flag.spec.default_value);
   return is_on && *is_on;
@@ -74,6 +97,31 @@ bool is_on_by_default(const Flag& flag) {
 
 bool names_file(const OptionSpec& spec) {
   return spec.choices.empty() && std::holds_alternative<std::string>(spec.default_value);
+}
+
+std::string single_quoted(std::string_view text) {
+  std::string result = "'";
+  for (const char c : text) {
+    if (c == '\'') {
+      result += "'\\''";
+    } else {
+      result += c;
+    }
+  }
+  return result + "'";
+}
+
+std::string shell_word(std::string_view word) {
+  constexpr std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:,=+@%";
+  const bool is_plain = !word.empty() && word.find_first_not_of(plain) == word.npos;
+  return is_plain ? std::string(word) : single_quoted(word);
+}
+
+std::string shell_line(const std::vector<std::string>& words) {
+  std::string line = "kinemend";
+  for (const std::string& word : words) line += " " + shell_word(word);
+  return line;
 }
 
 std::string dashed(std::string_view name) {

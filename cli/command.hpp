@@ -113,11 +113,26 @@ Flag whole_flag(std::string name, std::int64_t default_value, double minimum, do
                 std::string group, std::string help, std::string details = {});
 Flag text_flag(std::string name, std::string value_name, std::string group, std::string help,
                std::string details = {});
+/// Its value is a path, which shells complete.
+Flag file_flag(std::string name, std::string value_name, std::string group, std::string help,
+               std::string details = {}, Completion completion = Completion::file);
+/// Its value is one of `choices`. An empty `default_choice` means that it has no default.
+Flag choice_flag(std::string name, std::string group, std::string help,
+                 std::vector<std::string> choices, std::string default_choice = {},
+                 std::string details = {});
+/// Returns the flag with no default, so that `Arguments::given` decides whether it applies.
+Flag without_default(Flag flag);
 
 /// Returns whether a switch is on unless `--no-...` turns it off.
 bool is_on_by_default(const Flag& flag);
 /// Returns whether an option of a group names a file: its text has no fixed choices.
 bool names_file(const OptionSpec& spec);
+/// Quotes a text for a shell: 'it'\''s'.
+std::string single_quoted(std::string_view text);
+/// A word as it is typed in a shell, in quotes only if it needs them.
+std::string shell_word(std::string_view word);
+/// The words of a command line, as typed in a shell: "kinemend clean walk.bvh".
+std::string shell_line(const std::vector<std::string>& words);
 /// `max_change_deg` to `max-change-deg`.
 std::string dashed(std::string_view name);
 /// The placeholder of a value in the help: "FILE", "X", "N", "a|b".

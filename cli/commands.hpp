@@ -26,4 +26,8 @@ Command man_command();
 /// The command `help`, which needs the other commands by name.
 Command help_command(const std::vector<Command>& others);
 
+/// Returns the page of `compare`, as --report FILE.html writes it, for a checked command line.
+/// Throws the errors of reading and comparing.
+std::string comparison_page(const Arguments& arguments, bool is_served);
+
 }  // namespace kinemend::cli

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "compare_page.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/metrics.hpp"
@@ -28,8 +27,7 @@ ComparisonSettings comparison_settings(const Arguments& arguments, const Take& r
   if (arguments.given("psnr_peak")) settings.psnr_peak = arguments.number("psnr_peak");
   if (arguments.given("metres_per_unit"))
     settings.metres_per_unit = arguments.number("metres_per_unit");
-  const std::string up = arguments.text("up");
-  settings.foot_slide.up = up == "x" ? Axis::x : up == "z" ? Axis::z : Axis::y;
+  settings.foot_slide.up = axis_named(arguments.text("up"));
   return settings;
 }
 
@@ -38,12 +36,6 @@ TakeFacts take_of(const TakeResult& read, const std::string& name) {
   facts.input = name;
   facts.diagnostics = read.diagnostics;
   return facts;
-}
-
-TakeResult read_one(const std::string& name, const Arguments& arguments) {
-  TakeResult read = read_take(std::filesystem::path(name), read_options(arguments));
-  warn_of_repairs(read.take.source, read.diagnostics);
-  return read;
 }
 
 MarkerFit fit_of(const std::string& name) {
@@ -71,7 +63,7 @@ CompareOutcome compare_as_markers(const TakeResult& reference, const TakeResult&
   settings.least_motion = arguments.number("least_motion");
   std::optional<TakeResult> fit_to;
   if (const std::string name = arguments.text("fit_to"); !name.empty()) {
-    fit_to = read_one(name, arguments);
+    fit_to = read_and_warn(name, read_options(arguments));
     settings.fit_to = &markers_of(*fit_to, name);
   }
   outcome.markers = compare_markers(markers_of(reference, outcome.reference),
@@ -122,8 +114,8 @@ struct Compared {
 
 Compared compared(const Arguments& arguments) {
   const std::string other_name = arguments.positionals[1];
-  TakeResult reference = read_one(arguments.positionals[0], arguments);
-  TakeResult other = read_one(other_name, arguments);
+  TakeResult reference = read_and_warn(arguments.positionals[0], read_options(arguments));
+  TakeResult other = read_and_warn(other_name, read_options(arguments));
   CompareOutcome outcome = compare_takes(reference, other, arguments);
   // Names are spelled as in the reference, and lengths are in its unit.
   const TakeFacts shown = take_of(reference, arguments.positionals[0]);
@@ -179,29 +171,15 @@ Flag list_every_flag() {
   return flag;
 }
 
-Flag number_without_default(std::string name, std::string unit, double minimum, double maximum,
-                            std::string group, std::string help) {
-  Flag flag = number_flag(std::move(name), std::move(unit), 0, minimum, maximum, std::move(group),
-                          std::move(help));
-  flag.has_default = false;
-  return flag;
-}
-
 std::vector<Flag> compare_flags() {
-  Flag up = text_flag("up", "", "Figures", "vertical axis, for foot_slide (default y)");
-  up.spec.choices = {"x", "y", "z"};
-  Flag fit = text_flag("fit", "", "Markers", "bring REFERENCE to OTHER first",
-                       "rigid: one turn and one shift of the whole take; gain-offset: a gain and "
-                       "an offset of each channel, which calibration would mend and which are no "
-                       "noise.");
-  fit.spec.choices = {"none", "rigid", "gain-offset"};
-  fit.spec.default_value = std::string("none");
-  fit.has_default = true;
-  Flag fit_to = text_flag("fit_to", "TAKE", "Markers",
+  Flag fit = choice_flag(
+      "fit", "Markers", "bring REFERENCE to OTHER first", {"none", "rigid", "gain-offset"}, "none",
+      "rigid: one turn and one shift of the whole take; gain-offset: a gain and "
+      "an offset of each channel, which calibration would mend and which are no noise.");
+  Flag fit_to = file_flag("fit_to", "TAKE", "Markers",
                           "fit to this take instead of OTHER, usually the uncleaned one",
                           "A fit to each of several cleaned takes flatters the one that stands "
                           "still.");
-  fit_to.completion = Completion::file;
   std::vector<Flag> list = {
       json_flag("print JSON instead of text"),
       list_every_flag(),
@@ -216,21 +194,20 @@ std::vector<Flag> compare_flags() {
       reports_flag("also write the figures: FILE.json, or FILE.html as a page for a browser",
                    "The page shows both takes."),
       force_flag(),
-      number_without_default("metres_per_unit", "m", 1e-9, 1e6, "Figures",
-                             "length of a file unit; default: from the height of the skeleton"),
-      number_without_default("psnr_peak", "rad", 1e-9, 1e6, "Figures",
-                             "peak of psnr_db (default pi / 2)"),
-      up};
+      without_default(number_flag("metres_per_unit", "m", 0, 1e-9, 1e6, "Figures",
+                                  "length of a file unit; default: from the height of the "
+                                  "skeleton")),
+      without_default(number_flag("psnr_peak", "rad", 0, 1e-9, 1e6, "Figures",
+                                  "peak of psnr_db (default pi / 2)")),
+      choice_flag("up", "Figures", "vertical axis, for foot_slide (default y)", {"x", "y", "z"})};
   append(list, reading_flags());
   for (const FigureRule& entry : comparison_figures()) {
-    Flag limit =
-        number_without_default(std::string(entry.limit), std::string(entry.unit),
-                               entry.more_is_better ? -1e9 : 0, 1e12, "Limits",
-                               fmt::format("exit code 1 where {} is {}", entry.name,
-                                           entry.more_is_better ? "below this" : "above this"));
     // The unit already implies the range.
-    limit.spec.maximum = std::numeric_limits<double>::infinity();
-    limit.spec.minimum = -std::numeric_limits<double>::infinity();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Flag limit = without_default(number_flag(
+        std::string(entry.limit), std::string(entry.unit), 0, -infinity, infinity, "Limits",
+        fmt::format("exit code 1 where {} is {}", entry.name,
+                    entry.more_is_better ? "below this" : "above this")));
     list.push_back(limit);
   }
   return list;

@@ -88,19 +88,6 @@ std::string joined(const std::vector<std::string>& parts, std::string_view separ
   return fmt::format("{}", fmt::join(parts, separator));
 }
 
-/// Escapes text for single quotes: 'it'\''s'.
-std::string single_quoted(std::string_view text) {
-  std::string result = "'";
-  for (const char c : text) {
-    if (c == '\'') {
-      result += "'\\''";
-    } else {
-      result += c;
-    }
-  }
-  return result + "'";
-}
-
 std::string bash_reply(const std::vector<std::string>& words, Completion completion) {
   std::string text;
   if (!words.empty())

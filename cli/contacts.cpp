@@ -17,8 +17,7 @@ namespace kinemend::cli {
 namespace {
 
 Take take_of_joints(const std::string& input, const ReadOptions& options) {
-  TakeResult read = read_take(std::filesystem::path(input), options);
-  warn_of_repairs(read.take.source, read.diagnostics);
+  TakeResult read = read_and_warn(input, options);
   if (read.take.has_joints()) return std::move(read.take);
   throw Error(
       ErrorKind::usage,

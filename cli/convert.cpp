@@ -84,10 +84,6 @@ const Format& output_format(const Conversion& conversion, const std::string& out
   return known_format(format_for(output, take.source));
 }
 
-Axis axis_named(const std::string& name) {
-  return name == "x" ? Axis::x : name == "y" ? Axis::y : Axis::z;
-}
-
 std::string_view axis_name(Axis axis) {
   return axis == Axis::x ? "x" : axis == Axis::y ? "y" : "z";
 }
@@ -205,18 +201,16 @@ int run_convert(const Arguments& arguments) {
 }
 
 std::vector<Flag> change_flags() {
-  Flag fps = number_flag("fps", "Hz", 0, least_frame_rate_hz, most_frame_rate_hz, "Change",
-                         "resample the motion to this rate",
-                         "Samples are interpolated, not averaged: clean a noisy take first.");
-  fps.has_default = false;
-  Flag up = text_flag("up", "", "Change", "turn the axes so that this axis points up");
-  up.spec.choices = {"x", "y", "z"};
-  Flag from_up = text_flag("from_up", "", "Change", "the axis that points up in the input",
-                           "Found from the motion if not given.");
-  from_up.spec.choices = {"x", "y", "z"};
-  Flag unit = text_flag("unit", "", "Change", "convert lengths to this unit",
-                        "Without it, joint positions that become markers are in millimetres.");
-  unit.spec.choices = {"mm", "cm", "m"};
+  const std::vector<std::string> axes = {"x", "y", "z"};
+  Flag fps = without_default(
+      number_flag("fps", "Hz", 0, least_frame_rate_hz, most_frame_rate_hz, "Change",
+                  "resample the motion to this rate",
+                  "Samples are interpolated, not averaged: clean a noisy take first."));
+  Flag up = choice_flag("up", "Change", "turn the axes so that this axis points up", axes);
+  Flag from_up = choice_flag("from_up", "Change", "the axis that points up in the input", axes, "",
+                             "Found from the motion if not given.");
+  Flag unit = choice_flag("unit", "Change", "convert lengths to this unit", {"mm", "cm", "m"}, "",
+                          "Without it, joint positions that become markers are in millimetres.");
   Flag floor =
       switch_flag("floor_at_zero", "Change", "move the take until its feet stand at height 0",
                   "By the lowest level on which a foot stands as a rule; of markers the "
@@ -232,8 +226,6 @@ std::vector<Flag> change_flags() {
 }  // namespace
 
 Command convert_command() {
-  Flag to = text_flag("to", "", "Output", "format to write, whatever the ending of the output");
-  to.spec.choices = written_formats();
   Command command;
   command.name = "convert";
   command.summary = "write a take in another format, or rewrite it in its own";
@@ -261,7 +253,9 @@ Command convert_command() {
                           1000000,
                           {}}};
   command.flags = {output_flag("where to write: a file for one take, or a folder"),
-                   output_dir_flag(), to};
+                   output_dir_flag(),
+                   choice_flag("to", "Output", "format to write, whatever the ending of the output",
+                               written_formats())};
   append(command.flags, change_flags());
   command.flags.push_back(switch_flag("positions", "Change",
                                       "write the positions of joints as markers",

@@ -132,8 +132,7 @@ int run_corrupt(const Arguments& arguments) {
       .check(json);
   check_take_ending(output);
   check_free(output, force);
-  TakeResult read = read_take(std::filesystem::path(input), read_options(arguments));
-  warn_of_repairs(read.take.source, read.diagnostics);
+  TakeResult read = read_and_warn(input, read_options(arguments));
   const std::string format = format_for(output, read.take.source);
   check_can_hold(input_name(input), read.take, format);
   Random random(static_cast<std::uint64_t>(arguments.whole("seed")));

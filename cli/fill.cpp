@@ -63,13 +63,10 @@ void fill_job(const TakeJob& job, const FillRun& run, const Arguments& arguments
 int run_fill(const Arguments& arguments) {
   const FillRun filling = fill_run_of(arguments);
   const TakeJobs& takes = filling.takes;
-  TakeRun run{"fill", filling.reports};
-  run.out_is_taken = (takes.jobs.front().output == "-" && !filling.dry_run) ||
-                     filling.reports.on_out() || filling.plan_out_path == "-";
-  run.quiet = filling.quiet;
-  run.json = filling.json;
-  run.force = filling.force;
-  run.threads = filling.threads;
+  const bool out_is_taken = (takes.jobs.front().output == "-" && !filling.dry_run) ||
+                            filling.reports.on_out() || filling.plan_out_path == "-";
+  const TakeRun run{"fill",       filling.reports, out_is_taken,   filling.quiet,
+                    filling.json, filling.force,   filling.threads};
   return run_take_jobs(takes, run, [&](const TakeJob& job, const TakeProgress&) {
     return outcome_of(job.input, takes.jobs.size() > 1,
                       [&](Outcome& outcome) { fill_job(job, filling, arguments, outcome); });
@@ -77,47 +74,19 @@ int run_fill(const Arguments& arguments) {
 }
 
 Flag fill_method_flag() {
-  Flag method = text_flag("method", "NAME", "Work", "how to fill", "The methods are listed below.");
+  std::vector<std::string> names;
+  for (const FillMethod& entry : fill_methods()) names.emplace_back(entry.name);
+  Flag method = choice_flag("method", "Work", "how to fill", std::move(names), "auto",
+                            "The methods are listed below.");
   method.letter = 'm';
-  method.spec.default_value = std::string("auto");
-  method.has_default = true;
-  for (const FillMethod& entry : fill_methods()) method.spec.choices.emplace_back(entry.name);
+  method.value_name = "NAME";
   return method;
-}
-
-Flag fill_gaps_flag() {
-  Flag gaps = text_flag(
-      "gaps", "FILE", "Input", "gaps that the format of the take cannot hold",
-      "Lines NAME,FIRST,LAST: a joint or marker (* for all), and frames as the file numbers them, "
-      "last included. The gap of a joint also covers its position channels, if any. Values inside "
-      "a gap are ignored.");
-  gaps.completion = Completion::file;
-  return gaps;
-}
-
-Flag fill_file_flag(std::string name, std::string group, std::string help, std::string details) {
-  Flag flag =
-      text_flag(std::move(name), "FILE", std::move(group), std::move(help), std::move(details));
-  flag.completion = Completion::file;
-  return flag;
 }
 
 std::vector<Flag> fill_flags() {
   std::vector<Flag> joints =
       joints_flags("Work", "joints or markers to fill (default all)", "names");
-  Flag longest = number_flag("longest_gap", "s", 0, 0, 100000, "Work",
-                             "longest gap to fill, instead of the method's own rule");
-  longest.has_default = false;
   constexpr double smallest_error = 1e-9, largest_error = 1e6;
-  Flag max_error_mm = number_flag(
-      "max_error_mm", "mm", 0, smallest_error, largest_error, "Work",
-      "refuse fills of positions whose expected error is above this",
-      "A fill whose error the method cannot tell is refused too. Cannot be combined with "
-      "--fill-all.");
-  max_error_mm.has_default = false;
-  Flag max_error_deg = number_flag("max_error_deg", "deg", 0, smallest_error, 180, "Work",
-                                   "the same for rotations of joints");
-  max_error_deg.has_default = false;
   std::vector<Flag> flags = {
       output_flag(
           "where to write: a file for one take, or a folder (default walk.filled.bvh beside "
@@ -138,29 +107,39 @@ std::vector<Flag> fill_flags() {
           "fill gaps within frames 121:240, as the file numbers them, or seconds 1s:2.5s",
           "Either end may be omitted. A gap that is only partly inside stays open and is counted."),
       text_flag("donor", "MARKER", "Work", "marker whose movement --method pattern copies"),
-      longest,
-      max_error_mm,
-      max_error_deg,
+      without_default(number_flag("longest_gap", "s", 0, 0, 100000, "Work",
+                                  "longest gap to fill, instead of the method's own rule")),
+      without_default(number_flag(
+          "max_error_mm", "mm", 0, smallest_error, largest_error, "Work",
+          "refuse fills of positions whose expected error is above this",
+          "A fill whose error the method cannot tell is refused too. Cannot be combined with "
+          "--fill-all.")),
+      without_default(number_flag("max_error_deg", "deg", 0, smallest_error, 180, "Work",
+                                  "the same for rotations of joints")),
       unlabelled_flag(),
       switch_flag("fill_all", "Work", "also fill gaps that the rules refuse",
                   "With the best guess available."),
-      fill_file_flag(
-          "plan", "Work", "fill the gaps of a gap plan, and no others",
+      file_flag(
+          "plan", "FILE", "Work", "fill the gaps of a gap plan, and no others",
           "One row for each gap, as --plan-out writes them. The verdict is fill, force (also if "
           "the rules refuse) or refuse. Gaps without a row stay open."),
-      fill_file_flag("plan_out", "Work",
-                     "write the gap plan of this run, one row for each gap, to edit",
-                     "A CSV table, or FILE.json. With --dry-run no take is written."),
+      file_flag("plan_out", "FILE", "Work",
+                "write the gap plan of this run, one row for each gap, to edit",
+                "A CSV table, or FILE.json. With --dry-run no take is written."),
       switch_flag("preview", "Work", "add to the plan how far every other method would differ",
                   "The distance over the gap from the method of the row."),
-      fill_gaps_flag(),
-      fill_file_flag("model", "Work",
-                     "network for --method recurrent, made by kinemend-train paper",
-                     "--network ebd --head pose trains one that fills gaps; none is included. Also "
-                     "used for rows of a --plan with that method, and for --preview. With --method "
-                     "learned: another network than the one that is included."),
-      fill_file_flag("map", "Work", "names in the take for those of --model",
-                     "Lines NAME IN THE MODEL,NAME IN THE TAKE.")};
+      file_flag(
+          "gaps", "FILE", "Input", "gaps that the format of the take cannot hold",
+          "Lines NAME,FIRST,LAST: a joint or marker (* for all), and frames as the file numbers "
+          "them, last included. The gap of a joint also covers its position channels, if any. "
+          "Values inside a gap are ignored."),
+      file_flag("model", "FILE", "Work",
+                "network for --method recurrent, made by kinemend-train paper",
+                "--network ebd --head pose trains one that fills gaps; none is included. Also "
+                "used for rows of a --plan with that method, and for --preview. With --method "
+                "learned: another network than the one that is included."),
+      file_flag("map", "FILE", "Work", "names in the take for those of --model",
+                "Lines NAME IN THE MODEL,NAME IN THE TAKE.")};
   flags.push_back(jobs_flag());
   append(flags, reading_flags("A refused gap counts, too."));
   return flags;

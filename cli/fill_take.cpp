@@ -19,7 +19,7 @@ namespace {
 void mark_given_gaps(Take& take, const FillRun& run) {
   if (!run.gaps) return;
   const auto& [text, name] = *run.gaps;
-  const std::vector<NamedGap> gaps = parse_gaps(text, name, first_frame_of(take));
+  const std::vector<NamedGap> gaps = parse_gaps(text, name, first_frame_number(take));
   try {
     mark_gaps(take, gaps);
   } catch (const Error& error) {

@@ -8,9 +8,26 @@
 #include <memory>
 #include <string>
 
-#include "http_head.hpp"
-
 namespace kinemend::cli {
+
+namespace http {
+inline constexpr int bad_request = 400, forbidden = 403, not_found = 404, not_allowed = 405,
+                     timed_out = 408, length_required = 411, too_large = 413, wrong_type = 415,
+                     head_too_large = 431, wrong_version = 505;
+}  // namespace http
+
+/// The head of an HTTP/1.1 request: its first line and its headers.
+struct HttpHead {
+  std::string method;  ///< "GET"
+  std::string path;    ///< "/TOKEN/run" as sent, without a query
+  std::string host;    ///< header Host
+  std::string origin;  ///< header Origin; empty if missing
+  std::string site;    ///< header Sec-Fetch-Site; empty if missing
+  std::string type;    ///< header Content-Type; empty if missing
+  std::size_t body_bytes = 0;
+  bool keeps_alive = true;  ///< the connection stays open for another request
+  bool expects_continue = false;
+};
 
 struct HttpLimits {
   std::size_t head_bytes = 16 << 10;

@@ -61,6 +61,14 @@ std::vector<LatencyHistogram::Bar> LatencyHistogram::bars() const {
   return all;
 }
 
+std::string latency_text(const LatencyHistogram& latency, double delay_ms) {
+  return fmt::format(
+      "latency: {:.3g} ms median, {:.3g} ms at the 99th percentile, {:.3g} ms maximum, plus "
+      "{:.3g} ms of delay",
+      1000 * latency.quantile_s(0.5), 1000 * latency.quantile_s(0.99), 1000 * latency.most_s(),
+      delay_ms);
+}
+
 LiveOutput::LiveOutput(std::size_t most_waiting) : most_waiting_(most_waiting) {
   check_out_is_open();
 }

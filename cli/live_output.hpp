@@ -39,6 +39,9 @@ class LatencyHistogram {
   double most_ = 0;
 };
 
+/// "latency: 0.1 ms median, ...", for a stream with a constant delay.
+std::string latency_text(const LatencyHistogram& latency, double delay_ms);
+
 /// Sends cleaned frames to standard output or a client. A limited number of frames waits for a
 /// client that does not read; then the oldest are dropped and counted. If a TCP client disconnects,
 /// the output connects again and sends the header first.

@@ -49,7 +49,17 @@ std::unique_lock<std::mutex> locked(LiveStatus* status) {
   return status != nullptr ? status->lock() : std::unique_lock<std::mutex>();
 }
 
-Json json_of(const LatencyHistogram& latency) {
+Json json_of(const std::vector<TrackChange>& changes) {
+  Json all = Json::array();
+  for (const TrackChange& change : changes)
+    all.push_back({{"name", change.name}, {"change", change.rms}});
+  return all;
+}
+
+namespace {
+
+// Milliseconds: median, 99th percentile, maximum and bars.
+Json latency_json(const LatencyHistogram& latency) {
   if (latency.empty()) return nullptr;
   Json bars = Json::array();
   for (const LatencyHistogram::Bar& bar : latency.bars())
@@ -60,11 +70,13 @@ Json json_of(const LatencyHistogram& latency) {
           {"bars", std::move(bars)}};
 }
 
-Json json_of(const std::vector<TrackChange>& changes) {
-  Json all = Json::array();
-  for (const TrackChange& change : changes)
-    all.push_back({{"name", change.name}, {"change", change.rms}});
-  return all;
+}  // namespace
+
+Json status_report(std::string_view method, LiveDelay delay, const LatencyHistogram& latency,
+                   Json senders) {
+  return {{"kinemend", "live-status/1"},      {"method", method},
+          {"delay_frames", delay.frames},     {"delay_ms", delay.ms},
+          {"latency", latency_json(latency)}, {"senders", std::move(senders)}};
 }
 
 Json stream_report(std::string_view method, const LiveSession& session, const LiveOutput& output) {
@@ -78,17 +90,13 @@ Json stream_report(std::string_view method, const LiveSession& session, const Li
   const double delay_ms =
       rate_hz > 0 ? 1000 * static_cast<double>(session.latency_frames()) / rate_hz : 0;
   const bool joints = session.joint_count() > 0;
-  return {{"kinemend", "live-status/1"},
-          {"method", method},
-          {"delay_frames", session.latency_frames()},
-          {"delay_ms", delay_ms},
-          {"latency", json_of(output.latency())},
-          {"senders",
-           {{{"from", "stream"},
-             {"frame_rate_hz", rate_hz},
-             {"unit", joints ? "degrees" : "units"},
-             {"counts", counts},
-             {"tracks", json_of(session.changes())}}}}};
+  const Json sender = {{"from", "stream"},
+                       {"frame_rate_hz", rate_hz},
+                       {"unit", joints ? "degrees" : "units"},
+                       {"counts", counts},
+                       {"tracks", json_of(session.changes())}};
+  return status_report(method, {session.latency_frames(), delay_ms}, output.latency(),
+                       Json::array({sender}));
 }
 
 }  // namespace kinemend::cli

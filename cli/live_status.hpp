@@ -43,9 +43,16 @@ class LiveStatus {
 /// Locks the page; returns an empty lock if `status` is null.
 std::unique_lock<std::mutex> locked(LiveStatus* status);
 
-/// Milliseconds: median, 99th percentile, maximum and bars.
-Json json_of(const LatencyHistogram& latency);
+/// The constant delay of a live method.
+struct LiveDelay {
+  std::size_t frames = 0;
+  double ms = 0;
+};
+
 Json json_of(const std::vector<TrackChange>& changes);
+/// The data of the page, `live-status/1`.
+Json status_report(std::string_view method, LiveDelay delay, const LatencyHistogram& latency,
+                   Json senders);
 /// The report of a stream of text.
 Json stream_report(std::string_view method, const LiveSession& session, const LiveOutput& output);
 

@@ -231,11 +231,7 @@ class VmcLoop {
         fmt::format("frames: {}, {} interpolated; bones: {}, {} changed, {} missing, {} not finite",
                     c.frames, c.made_up, c.poses, c.cleaned, c.missing, c.not_finite));
     if (latency_.empty()) return;
-    tell(
-        fmt::format("latency: {:.3g} ms median, {:.3g} ms at the 99th percentile, {:.3g} ms "
-                    "maximum, plus {:.3g} ms of delay",
-                    1000 * latency_.quantile_s(0.5), 1000 * latency_.quantile_s(0.99),
-                    1000 * latency_.most_s(), delay_ms()));
+    tell(latency_text(latency_, delay_ms()));
   }
 
   Json report() const {
@@ -247,9 +243,8 @@ class VmcLoop {
                      {"counts", json_of_counts(sender.session->counts())},
                      {"tracks", json_of(sender.session->changes())}});
     }
-    return {{"kinemend", "live-status/1"},     {"method", plan_.cleaner->name()},
-            {"delay_frames", latency_frames_}, {"delay_ms", delay_ms()},
-            {"latency", json_of(latency_)},    {"senders", std::move(all)}};
+    return status_report(plan_.cleaner->name(), {latency_frames_, delay_ms()}, latency_,
+                         std::move(all));
   }
 
   const VmcPlan& plan_;

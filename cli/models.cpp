@@ -94,10 +94,9 @@ std::vector<Flag> models_flags() {
   Flag exported =
       text_flag("export", "METHOD", "Work", "write the model that ships for METHOD to --output");
   Flag map =
-      text_flag("map", "MODEL", "Work", "print a map from the parts of MODEL to names in TAKE",
+      file_flag("map", "MODEL", "Work", "print a map from the parts of MODEL to names in TAKE",
                 "MODEL is a file, or the method of a model that ships. Names that are not "
                 "found are left empty. Complete them and use the map with clean --map.");
-  map.completion = Completion::file;
   std::vector<Flag> list = {output_flag("where to write the model or the map"), force_flag(),
                             json_flag("print the list as JSON instead of text"), exported, map};
   append(list, reading_flags());

@@ -2,7 +2,6 @@
 #include "page_report.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <string_view>
 
@@ -13,17 +12,6 @@
 namespace kinemend::cli {
 
 namespace {
-
-std::string quoted(const std::string& word) {
-  constexpr std::string_view plain = "%+,-./:=@_";
-  const bool is_plain = !word.empty() && std::all_of(word.begin(), word.end(), [&](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || plain.find(c) != plain.npos;
-  });
-  if (is_plain) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
 
 std::string lower_extension(const std::string& path) {
   return lower_case(std::filesystem::path(path).extension().string());
@@ -79,23 +67,15 @@ ReportFiles report_files(const Arguments& arguments, std::size_t takes) {
   return files;
 }
 
-std::string command_line_of(const Arguments& arguments) {
-  std::string line = "kinemend";
-  for (const std::string& word : arguments.words) line += " " + quoted(word);
-  return line;
-}
-
 PageSettings page_settings(const Arguments& arguments) {
   PageSettings settings;
   settings.command = arguments.command->name;
-  settings.command_line = command_line_of(arguments);
+  settings.command_line = shell_line(arguments.words);
   return settings;
 }
 
 Flag report_flag(std::string help, std::string details) {
-  Flag flag = text_flag("report", "FILE", "Output", std::move(help), std::move(details));
-  flag.completion = Completion::file;
-  return flag;
+  return file_flag("report", "FILE", "Output", std::move(help), std::move(details));
 }
 
 Flag reports_flag(std::string help, const std::string& details) {

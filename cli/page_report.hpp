@@ -39,8 +39,6 @@ struct ReportFiles {
 /// The reports of a command with `reports_flag`; checks them with `check_page`.
 ReportFiles report_files(const Arguments& arguments, std::size_t takes);
 
-/// The command line of this run, quoted for a shell.
-std::string command_line_of(const Arguments& arguments);
 PageSettings page_settings(const Arguments& arguments);
 
 /// --report FILE, allowed once.

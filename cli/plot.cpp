@@ -90,14 +90,13 @@ std::string picture(const Take& before, const Take* other, const Drawing& drawin
                        first_frame_number(before));
   if (drawing.what == "strip") return film_strip_svg(before, other, frames, drawing.poses);
   if (drawing.what == "motion") return moving_picture_svg(before, other, frames);
-  if (drawing.what == "gaps") return gap_chart_svg(before, other);
   const TrackCurves curves = chosen_curves(before, after, two, drawing);
   if (drawing.what == "spectrum") return spectrum_svg(curves, !two);
   CurveStyle style;
   style.first_frame = frames.first;
   style.last_frame = frames.second;
   style.one_take = !two;
-  return curves_svg(curves, {}, style);
+  return curves_svg(curves, style);
 }
 
 Drawing drawing_of(const Arguments& arguments) {
@@ -114,12 +113,6 @@ Drawing drawing_of(const Arguments& arguments) {
   return drawing;
 }
 
-Take read_and_warn(const std::string& input, const Arguments& arguments) {
-  TakeResult result = read_take(fs::path(input), read_options(arguments));
-  warn_of_repairs(result.take.source, result.diagnostics);
-  return std::move(result.take);
-}
-
 int run_plot(const Arguments& arguments) {
   const std::vector<std::string>& inputs = arguments.positionals;
   std::string output = arguments.text("output");
@@ -134,9 +127,10 @@ int run_plot(const Arguments& arguments) {
   check_only_ending(output, ".svg");
   check_free(output, force);
   const Drawing drawing = drawing_of(arguments);
-  const Take before = read_and_warn(inputs[0], arguments);
+  const ReadOptions reading = read_options(arguments);
+  const Take before = read_and_warn(inputs[0], reading).take;
   std::optional<Take> after;
-  if (inputs.size() > 1) after = read_and_warn(inputs[1], arguments);
+  if (inputs.size() > 1) after = read_and_warn(inputs[1], reading).take;
   if (after && after->has_joints() != before.has_joints()) {
     throw Error(ErrorKind::usage, fmt::format("plot: {} and {} are not both joints or both markers",
                                               inputs[0], inputs[1]));
@@ -159,22 +153,17 @@ Command plot_command() {
   command.summary = "draw a take, or two over each other, as SVG";
   command.description =
       "Draws curves of a joint or marker (--what curves), poses along the time (strip), the body "
-      "in "
-      "motion (motion, which browsers play), power over frequency (spectrum), or when which track "
-      "is missing (gaps). With OTHER both takes are "
-      "drawn: TAKE as the one before, OTHER as the one after.\n\n"
+      "in motion (motion, which browsers play), or power over frequency (spectrum). With OTHER "
+      "both takes are drawn: TAKE as the one before, OTHER as the one after.\n\n"
       "Where no --joints is named it is the one that differs most between the two, or of one take "
       "the one that moves most.";
   command.positionals = {{"TAKE", "take to draw; - is standard input", 1, 1, {}},
                          {"OTHER", "the same take after something was done", 0, 1, {}}};
-  Flag what = text_flag("what", "", "Drawing", "what to draw");
-  what.spec.default_value = std::string("curves");
-  what.spec.choices = {"curves", "strip", "motion", "spectrum", "gaps"};
-  what.has_default = true;
   command.flags = {
       output_flag("where to write; - is standard output"),
       force_flag(),
-      what,
+      choice_flag("what", "Drawing", "what to draw", {"curves", "strip", "motion", "spectrum"},
+                  "curves"),
       std::move(joints[0]),
       std::move(joints[1]),
       switch_flag("root_position", "Drawing", "curves of the root's position, not of a rotation"),
@@ -187,8 +176,7 @@ Command plot_command() {
       {"kinemend plot raw.bvh clean.bvh -o curves.svg --joints LeftForeArm", "before and after"},
       {"kinemend plot walk.bvh -o strip.svg --what strip", "the motion on one line"},
       {"kinemend plot raw.bvh clean.bvh -o walk.svg --what motion --range 1s:4s",
-       "both in motion, side by side"},
-      {"kinemend plot trial.c3d filled.c3d -o gaps.svg --what gaps", "what was filled"}};
+       "both in motion, side by side"}};
   command.run = run_plot;
   return command;
 }

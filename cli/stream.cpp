@@ -105,11 +105,7 @@ void tell_summary(const LiveSession& session, const LiveOutput& output) {
   if (output.latency().empty()) return;
   const double delay_ms =
       1000 * static_cast<double>(session.latency_frames()) / session.frame_rate_hz();
-  say(
-      fmt::format("latency: {:.3g} ms median, {:.3g} ms at the 99th percentile, {:.3g} ms maximum, "
-                  "plus {:.3g} ms of delay",
-                  1000 * output.latency().quantile_s(0.5), 1000 * output.latency().quantile_s(0.99),
-                  1000 * output.latency().most_s(), delay_ms));
+  say(latency_text(output.latency(), delay_ms));
 }
 
 std::unique_ptr<LiveStatus> status_of(const Arguments& arguments) {
@@ -194,23 +190,15 @@ int run_stream(const Arguments& arguments) {
   return 0;
 }
 
-Flag endpoint_flag(std::string name, std::string value, std::string group, std::string help,
-                   std::string details = {}) {
-  return text_flag(std::move(name), std::move(value), std::move(group), std::move(help),
-                   std::move(details));
-}
-
 std::vector<Flag> stream_flags() {
   const std::vector<Flag> live = live_flags();
   const auto live_flag = [&](std::string_view name) {
     return *std::find_if(live.begin(), live.end(),
                          [&](const Flag& flag) { return flag.spec.name == name; });
   };
-  Flag on_stall = text_flag("on_stall", "", "Trouble", "what to do while no frames arrive",
-                            "wait: write nothing. hold: repeat the last frame at the frame rate.");
-  on_stall.spec.default_value = std::string("wait");
-  on_stall.spec.choices = {"wait", "hold"};
-  on_stall.has_default = true;
+  Flag on_stall =
+      choice_flag("on_stall", "Trouble", "what to do while no frames arrive", {"wait", "hold"},
+                  "wait", "wait: write nothing. hold: repeat the last frame at the frame rate.");
   Flag bind = text_flag("bind", "ADDRESS", "Input",
                         "address that --tcp, --udp, --neuron and --vmc listen at",
                         "0.0.0.0 accepts senders from every network; the default accepts only "
@@ -230,18 +218,18 @@ std::vector<Flag> stream_flags() {
   status.has_default = false;
   status.value_name = "PORT";
   return {
-      endpoint_flag("tcp", "[HOST:]PORT", "Input",
-                    "receive over TCP: PORT waits for a sender, HOST:PORT connects to one",
-                    "Port 0 takes any free port, which is printed."),
-      endpoint_flag("udp", "PORT", "Input", "receive over UDP; each datagram holds whole lines",
-                    "Datagrams that are not frames are counted and ignored."),
-      endpoint_flag("neuron", "[HOST:]PORT", "Input",
-                    "receive the BVH broadcast of Axis Neuron over TCP; HOST:PORT connects to it",
-                    "Its lines have no header: --skeleton names the joints, and --fps the rate, "
-                    "where they are not the usual ones."),
-      endpoint_flag("vmc", "PORT", "Input", "receive VMC (OSC over UDP), and send it to --to-vmc",
-                    "Bones and root are cleaned. Every other message passes unchanged and in "
-                    "order."),
+      text_flag("tcp", "[HOST:]PORT", "Input",
+                "receive over TCP: PORT waits for a sender, HOST:PORT connects to one",
+                "Port 0 takes any free port, which is printed."),
+      text_flag("udp", "PORT", "Input", "receive over UDP; each datagram holds whole lines",
+                "Datagrams that are not frames are counted and ignored."),
+      text_flag("neuron", "[HOST:]PORT", "Input",
+                "receive the BVH broadcast of Axis Neuron over TCP; HOST:PORT connects to it",
+                "Its lines have no header: --skeleton names the joints, and --fps the rate, "
+                "where they are not the usual ones."),
+      text_flag("vmc", "PORT", "Input", "receive VMC (OSC over UDP), and send it to --to-vmc",
+                "Bones and root are cleaned. Every other message passes unchanged and in "
+                "order."),
       bind,
       live_flag("skeleton"),
       live_flag("fps"),
@@ -258,10 +246,10 @@ std::vector<Flag> stream_flags() {
       live_flag("strength"),
       live_flag("feet"),
       joints,
-      endpoint_flag("to_tcp", "HOST:PORT", "Output", "send cleaned frames to a TCP server"),
-      endpoint_flag("to_udp", "HOST:PORT", "Output",
-                    "send cleaned frames over UDP, one line per datagram"),
-      endpoint_flag("to_vmc", "HOST:PORT", "Output", "with --vmc: where its datagrams go"),
+      text_flag("to_tcp", "HOST:PORT", "Output", "send cleaned frames to a TCP server"),
+      text_flag("to_udp", "HOST:PORT", "Output",
+                "send cleaned frames over UDP, one line per datagram"),
+      text_flag("to_vmc", "HOST:PORT", "Output", "with --vmc: where its datagrams go"),
       status,
       live_flag("format"),
       quiet_flag(),

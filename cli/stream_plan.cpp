@@ -65,14 +65,6 @@ Flag live_source_flag() {
   return flag;
 }
 
-Flag live_format_flag() {
-  Flag format = text_flag("format", "", "Output", "how to write cleaned frames");
-  format.spec.default_value = std::string("bvh");
-  format.spec.choices = {"bvh", "jsonl"};
-  format.has_default = true;
-  return format;
-}
-
 }  // namespace
 
 std::unique_ptr<Cleaner> live_cleaner(const Method& method, OptionValues values) {
@@ -95,15 +87,10 @@ std::unique_ptr<Cleaner> live_cleaner(const Method& method, OptionValues values)
 }
 
 std::vector<Flag> live_flags() {
-  Flag skeleton =
-      text_flag("skeleton", "FILE", "Input",
-                "BVH file with skeleton and frame rate, for a sender that sends no header");
-  skeleton.completion = Completion::file;
-  Flag fps =
-      number_flag("fps", "Hz", 0, 0.1, 100000, "Input", "frame rate; overrides that of the header");
-  fps.has_default = false;
-  return {skeleton,
-          fps,
+  return {file_flag("skeleton", "FILE", "Input",
+                    "BVH file with skeleton and frame rate, for a sender that sends no header"),
+          without_default(number_flag("fps", "Hz", 0, 0.1, 100000, "Input",
+                                      "frame rate; overrides that of the header")),
           switch_flag("numbered", "Input", "each line of values begins with its frame number",
                       "Lost, late and duplicate frames are recognised by it. Lost frames are "
                       "interpolated."),
@@ -119,7 +106,7 @@ std::vector<Flag> live_flags() {
           switch_flag(
               "feet", "Cleaning", "hold feet that stand where they are",
               "For joints. It moves legs only, and adds no delay. Knees may move less smoothly."),
-          live_format_flag(),
+          choice_flag("format", "Output", "how to write cleaned frames", {"bvh", "jsonl"}, "bvh"),
           number_flag("longest_gap_s", "s", 1, 0, 3600, "Trouble",
                       "longest run of lost frames that is interpolated",
                       "The output then keeps its frame rate. A longer gap is a restart.")};

@@ -214,11 +214,9 @@ TakeJobs plan_take_jobs(const Arguments& arguments, const std::vector<std::strin
 }
 
 Flag output_dir_flag() {
-  Flag flag =
-      text_flag("output_dir", "DIR", "Output", "folder for the results, under the inputs' names",
-                "Created if it does not exist. Several takes are worked on in parallel.");
-  flag.completion = Completion::folder;
-  return flag;
+  return file_flag("output_dir", "DIR", "Output", "folder for the results, under the inputs' names",
+                   "Created if it does not exist. Several takes are worked on in parallel.",
+                   Completion::folder);
 }
 
 const char* result_option(const TakeJobs& takes) {

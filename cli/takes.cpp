@@ -13,7 +13,6 @@
 
 #include "kinemend/extend/body.hpp"
 #include "kinemend/extend/frames.hpp"
-#include "kinemend/extend/motion.hpp"
 #include "kinemend/extend/text.hpp"
 #include "kinemend/report.hpp"
 #include "kinemend/take.hpp"
@@ -222,12 +221,12 @@ int for_each_input(const std::vector<std::string>& inputs,
   return code;
 }
 
-void warn_of_repairs(const SourceInfo& source, const Diagnostics& diagnostics) {
-  for (const Diagnostic& diagnostic : diagnostics.entries())
-    say_warning(diagnostic_line(source, diagnostic));
+TakeResult read_and_warn(const std::string& input, const ReadOptions& options) {
+  TakeResult read = read_take(fs::path(input), options);
+  for (const Diagnostic& entry : read.diagnostics.entries())
+    say_warning(diagnostic_line(read.take.source, entry));
+  return read;
 }
-
-std::int64_t first_frame_of(const Take& take) { return first_frame_number(take); }
 
 std::string pointless_text(const Take& take) {
   return take.has_joints() ? "" : contents_without_markers(take);
@@ -265,6 +264,10 @@ int say_passed_limits(const Report& report, std::span<const FigureRule> figures,
   return lines.empty() ? 0 : static_cast<int>(ErrorKind::quality_limit);
 }
 
+Axis axis_named(std::string_view name) {
+  return name == "x" ? Axis::x : name == "z" ? Axis::z : Axis::y;
+}
+
 Flag force_flag() {
   return switch_flag("force", "Output", "overwrite outputs that exist",
                      "Without it, an existing output is kept and the exit code is 4.");
@@ -276,9 +279,8 @@ Flag json_flag(std::string help) {
 }
 
 Flag output_flag(std::string help) {
-  Flag flag = text_flag("output", "OUT", "Output", std::move(help));
+  Flag flag = file_flag("output", "OUT", "Output", std::move(help));
   flag.letter = 'o';
-  flag.completion = Completion::file;
   return flag;
 }
 
@@ -287,12 +289,12 @@ Flag seed_flag(std::string help) {
 }
 
 Flag from_flag() {
-  Flag flag =
-      text_flag("from", "", "Input", "format of the input, if its content does not show it");
+  std::vector<std::string> names;
   for (const Format& format : formats()) {
-    if (format.read != nullptr) flag.spec.choices.emplace_back(format.name);
+    if (format.read != nullptr) names.emplace_back(format.name);
   }
-  return flag;
+  return choice_flag("from", "Input", "format of the input, if its content does not show it",
+                     std::move(names));
 }
 
 Flag strict_flag(const std::string& details) {
@@ -348,13 +350,16 @@ void append(std::vector<Flag>& list, std::vector<Flag> more) {
 }
 
 Flag map_flag() {
-  Flag flag = text_flag("map", "FILE", "Input",
-                        "names of feet in the take: lines known name,name in the take",
-                        "For takes with names that the program does not know: LeftFoot,bone_17 or "
-                        "LTOE,M3. Lines about other parts are ignored, so the file of a learned "
-                        "model can be used.");
-  flag.completion = Completion::file;
-  return flag;
+  return file_flag("map", "FILE", "Input",
+                   "names of feet in the take: lines known name,name in the take",
+                   "For takes with names that the program does not know: LeftFoot,bone_17 or "
+                   "LTOE,M3. Lines about other parts are ignored, so the file of a learned "
+                   "model can be used.");
+}
+
+Flag list_flag() {
+  return file_flag("list", "FILE", "Input", "file with more takes and folders, one per line",
+                   "Blank lines and lines that start with # are ignored; - is standard input.");
 }
 
 KnownNames names_of_map(const std::string& path) {
@@ -372,13 +377,11 @@ Flag source_flag() {
 }
 
 std::vector<Flag> reading_flags(const std::string& strict_details) {
-  Flag asf = text_flag("asf", "FILE", "Input", "skeleton of an AMC file",
+  Flag asf = file_flag("asf", "FILE", "Input", "skeleton of an AMC file",
                        "Without it, the ASF file that the AMC file names, or one in its folder.");
-  asf.completion = Completion::file;
-  Flag fps = number_flag("from_fps", "Hz", 120, least_frame_rate_hz, most_frame_rate_hz, "Input",
-                         "frame rate of a file that does not state it",
-                         "Ignored for files that state their rate.");
-  fps.has_default = false;
+  Flag fps = without_default(number_flag(
+      "from_fps", "Hz", 120, least_frame_rate_hz, most_frame_rate_hz, "Input",
+      "frame rate of a file that does not state it", "Ignored for files that state their rate."));
   Flag take = text_flag("take", "NAME", "Input", "which take of a file that holds several",
                         "FBX and glTF; kinemend info lists them. Default: the active one.");
   return {from_flag(), take, asf, fps, strict_flag(strict_details)};

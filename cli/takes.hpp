@@ -57,8 +57,8 @@ void write_take_output(const std::string& output, const Take& take, const std::s
 int for_each_input(const std::vector<std::string>& inputs,
                    const std::function<int(const std::string&)>& visit,
                    const std::function<void(std::string entry)>& add_failure);
-/// Prints a warning for each kind of repair.
-void warn_of_repairs(const SourceInfo& source, const Diagnostics& diagnostics);
+/// Reads a take and prints a warning for each kind of repair. Errors: those of `read_take`.
+TakeResult read_and_warn(const std::string& input, const ReadOptions& options);
 /// One line for each part of the take that a file of this format cannot hold. Errors:
 /// `quality_limit` with the first line if `strict`.
 std::vector<std::string> loss_lines(const std::string& name, const Take& take,
@@ -68,12 +68,13 @@ std::vector<std::string> loss_lines(const std::string& name, const Take& take,
 std::string pointless_text(const Take& take);
 /// The facts of a take for its report.
 TakeFacts facts_of(const Take& take, std::string input, Diagnostics diagnostics);
-/// The file's number of its first frame.
-std::int64_t first_frame_of(const Take& take);
 
 /// Prints a line for each exceeded limit. Returns 1 if there is one, else 0.
 int say_passed_limits(const Report& report, std::span<const FigureRule> figures,
                       const Arguments& arguments);
+
+/// The axis that is called x, y or z, as in the choices of --up; y for any other name.
+Axis axis_named(std::string_view name);
 
 /// Flags shared by several commands.
 Flag force_flag();
@@ -96,6 +97,8 @@ std::vector<std::string> joints_of(const Arguments& arguments);
 Flag unlabelled_flag();
 /// --map, for feet with unknown names.
 Flag map_flag();
+/// --list, a file with more inputs; `listed_inputs` reads it.
+Flag list_flag();
 /// The names in the file of --map; empty if `path` is empty.
 KnownNames names_of_map(const std::string& path);
 /// --source, for commands that clean or measure noise.

@@ -29,8 +29,8 @@ std::string formats_text() {
 
 std::string presets_text() {
   std::string text =
-      "With --preset NAME, clean and batch use settings made for a kind of motion. --config and "
-      "options on the command line override them.";
+      "With --preset NAME, clean and batch use a method with its settings. --config and options "
+      "on the command line override them.";
   for (const Preset& preset : presets())
     text += fmt::format("\n\n{}: {}.", preset.name, preset_summary(preset));
   return text;
@@ -68,7 +68,7 @@ const std::vector<Topic>& topics() {
        "NAME,NAME "
        "IN THE TAKE. # starts a comment."},
       {"formats", "which files are read and written", formats_text()},
-      {"presets", "settings for kinds of motion", presets_text()},
+      {"presets", "methods with their settings, by name", presets_text()},
       {"gaps", "the side file of gaps, for --gaps",
        "Each line is NAME,FIRST,LAST: a joint or marker, and its first and last missing frame. "
        "NAME is "

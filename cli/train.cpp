@@ -48,9 +48,7 @@ struct TrainingRun {
 };
 
 Take read_training_take(const TrainingRun& training, const std::string& path) {
-  TakeResult read = read_take(std::filesystem::path(path), training.reading);
-  warn_of_repairs(read.take.source, read.diagnostics);
-  return std::move(read.take);
+  return read_and_warn(path, training.reading).take;
 }
 
 /// Returns nullopt, with a warning, for an unreadable take if those are skipped.
@@ -89,18 +87,6 @@ std::string summary_text(const ModelFile& file, double training_s) {
   for (const auto& [name, value] : model.numbers)
     table.add({printable_name(name), fmt::format("{:.6g}", value)});
   return text + table.text();
-}
-
-/// A word quoted for a shell.
-std::string shell_word(const std::string& word) {
-  const bool is_plain =
-      !word.empty() && word.find_first_not_of(
-                           "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-                           "_-./:,=+@%") == word.npos;
-  if (is_plain) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
 }
 
 /// The command for the card, without options that do not affect the model.
@@ -222,9 +208,7 @@ std::string resuming_command(const Arguments& arguments) {
   // Words after -- are not options.
   if (!arguments.flag("resume"))
     words.insert(std::find(words.begin(), words.end(), "--"), "--resume");
-  std::string text = "kinemend";
-  for (const std::string& word : words) text += " " + shell_word(word);
-  return text;
+  return shell_line(words);
 }
 
 /// Tells the user how to continue a stopped training.
@@ -299,24 +283,18 @@ int run_train(const Arguments& arguments) {
 }
 
 Flag train_fill_flag() {
-  Flag flag = text_flag("fill", "METHOD", "Work", "fill gaps in the takes first",
-                        "Gaps that the method refuses stay open and are not learned from.");
-  flag.spec.default_value = std::string("auto");
-  flag.spec.choices = {"off"};
+  std::vector<std::string> names = {"off"};
   for (const FillMethod& method : fill_methods()) {
-    if (!method.learned) flag.spec.choices.emplace_back(method.name);
+    if (!method.learned) names.emplace_back(method.name);
   }
-  flag.has_default = true;
+  Flag flag = choice_flag("fill", "Work", "fill gaps in the takes first", std::move(names), "auto",
+                          "Gaps that the method refuses stay open and are not learned from.");
+  flag.value_name = "METHOD";
   return flag;
 }
 
 std::vector<Flag> train_flags() {
-  Flag list = text_flag("list", "FILE", "Input", "file with more takes and folders, one per line",
-                        "Blank lines and lines that start with # are ignored; - is standard "
-                        "input.");
-  list.completion = Completion::file;
-  Flag card = text_flag("card", "FILE", "Output", "also write the card of the model, as Markdown");
-  card.completion = Completion::file;
+  Flag card = file_flag("card", "FILE", "Output", "also write the card of the model, as Markdown");
   std::vector<Flag> joints =
       joints_flags("Work", "joints or markers to learn (default: joints that move)");
   std::vector<Flag> all = {
@@ -335,7 +313,7 @@ std::vector<Flag> train_flags() {
       text_flag("licence", "TEXT", "Card", "licence of data and model"),
       text_flag("command", "TEXT", "Card", "command that made the model (default: this one)"),
       text_flag("figures", "TEXT", "Card", "measured quality"),
-      list,
+      list_flag(),
       switch_flag("skip_unreadable", "Input", "skip takes that cannot be read",
                   "Without it the first such take ends the training, with exit code 3."),
       switch_flag("resume", "Output", "continue a training that was stopped",

@@ -3,17 +3,20 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <functional>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "commands.hpp"
+#include "http_server.hpp"
 #include "kinemend/extend/pages.hpp"
 #include "kinemend/io.hpp"
 #include "platform/system.hpp"
 #include "run_files.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"
-#include "view_server.hpp"
+#include "view_access.hpp"
 #include "view_session.hpp"
 
 namespace kinemend::cli {
@@ -65,14 +68,40 @@ ViewFiles files_of(const Arguments& arguments) {
   return files;
 }
 
+/// Answers requests that `ViewAccess` accepts. Called from several threads.
+using Answer = std::function<HttpReply(const std::string& method, std::string_view action,
+                                       const std::string& body)>;
+
+/// Serves until the process is told to end (SIGINT, SIGTERM). `port` 0 takes any free port. Calls
+/// `started` with the address once it can be opened, and `ending` at the end, so that runs can be
+/// cancelled. Errors: `ErrorKind::cannot_write` for a port that cannot be used.
+void serve_view(int port, const Answer& answer,
+                const std::function<void(const std::string& address)>& started,
+                const std::function<void()>& ending) {
+  HttpServer server(port);
+  const ViewAccess access(random_token(), server.port());
+  const platform::EndSignals signals([&] {
+    ending();
+    server.stop();
+  });
+  started(access.address());
+  server.serve(
+      [&](const HttpHead& head) {
+        return access.refusal(
+            {head.method, head.path, head.host, head.origin, head.site, head.type});
+      },
+      [&](const HttpHead& head, const std::string& body) {
+        return answer(head.method, access.action(head.path), body);
+      });
+}
+
 int run_view(const Arguments& arguments) {
   ViewFiles files = files_of(arguments);
   if (!has_report_page())
     throw Error(ErrorKind::usage, "view: this kinemend was built without its page");
   for (const std::string& input : {files.input, files.other}) {
     if (input.empty()) continue;
-    const TakeResult read = read_take(std::filesystem::path(input), read_options(arguments));
-    warn_of_repairs(read.take.source, read.diagnostics);
+    const TakeResult read = read_and_warn(input, read_options(arguments));
     if (input == files.input) files.of_joints = read.take.has_joints();
   }
   // A missing file of gaps is an error at once, not only after the page is open.
@@ -94,12 +123,6 @@ int run_view(const Arguments& arguments) {
   return 0;
 }
 
-Flag view_file_flag(std::string name, std::string help) {
-  Flag flag = text_flag(std::move(name), "FILE", "Output", std::move(help));
-  flag.completion = Completion::file;
-  return flag;
-}
-
 Flag view_source_flag() {
   Flag flag = source_flag();
   flag.group = "Input";
@@ -108,11 +131,9 @@ Flag view_source_flag() {
 }
 
 Flag view_gaps_flag() {
-  Flag flag = view_file_flag("gaps",
-                             "samples to treat as missing: lines name,first,last (default: none; "
-                             "samples marked on the page are saved as walk.gaps.csv)");
-  flag.group = "Input";
-  return flag;
+  return file_flag("gaps", "FILE", "Input",
+                   "samples to treat as missing: lines name,first,last (default: none; "
+                   "samples marked on the page are saved as walk.gaps.csv)");
 }
 
 }  // namespace
@@ -142,9 +163,9 @@ Command view_command() {
       output_flag("file that Save as proposes (default walk.clean.bvh or walk.filled.bvh)"),
       view_gaps_flag(),
       view_source_flag(),
-      view_file_flag("contacts",
-                     "where to save contacts (default walk.contacts); read if it exists"),
-      view_file_flag("plan", "where to save the gap plan (default walk.plan.csv)"),
+      file_flag("contacts", "FILE", "Output",
+                "where to save contacts (default walk.contacts); read if it exists"),
+      file_flag("plan", "FILE", "Output", "where to save the gap plan (default walk.plan.csv)"),
       force_flag(),
       port,
       open};

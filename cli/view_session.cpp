@@ -16,7 +16,6 @@
 #include "clean_plan.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
-#include "compare_page.hpp"
 #include "config.hpp"
 #include "fill_take.hpp"
 #include "kinemend/extend/text.hpp"
@@ -43,12 +42,6 @@ Arguments parsed(const std::vector<std::string>& words) {
   Arguments arguments = parse_command_line(words).arguments;
   arguments.words = words;
   return arguments;
-}
-
-std::string line_of(const std::vector<std::string>& words) {
-  Arguments arguments;
-  arguments.words = words;
-  return command_line_of(arguments);
 }
 
 ViewReply failure(int status, std::string_view words) {
@@ -255,7 +248,7 @@ std::string ViewSession::clean_page(const ViewAsked& asked, const Turn& turn) {
   plan.dry_run = plan.quiet = true;
   plan.page.emplace();
   plan.page->command = "clean";
-  plan.page->command_line = line_of(words);
+  plan.page->command_line = shell_line(words);
   plan.page->is_served = true;
   plan.page->check = [&] { tell(turn, "drawing", 0); };
   plan.on_read = [&](const Take& take) {
@@ -288,7 +281,7 @@ std::string ViewSession::fill_page(const ViewAsked& asked, const Turn& turn) {
       fill_take(run, run.takes.jobs.front(), true, [&] { tell(turn, "filling", 0); });
   PageSettings settings;
   settings.command = "fill";
-  settings.command_line = line_of(words_of(asked));
+  settings.command_line = shell_line(words_of(asked));
   settings.is_served = true;
   settings.parts = {{"plan", filled.plan_text}};
   settings.check = [&] { tell(turn, "drawing", 0); };
@@ -319,7 +312,7 @@ ViewReply ViewSession::save(const ViewAsked& asked) {
   const std::lock_guard lock(work_);
   Json written = Json::array();
   std::vector<std::string> words = words_of(asked);
-  const std::string line = line_of(words);
+  const std::string line = shell_line(words);
   const bool fills = asked.is_fill;
   const std::string output = output_of(asked);
   const std::optional<std::string>& plan = fills ? asked.plan : asked.contacts;

@@ -53,7 +53,7 @@ BidirectionalShape shape_of(const std::string& kind, FilterHead head, std::size_
 FilterStatistics statistics_of(const std::vector<FilterTake>& takes) {
   constexpr double least_deviation = 0.5, least_turning = 5;
   const std::size_t channels = takes.front().channels;
-  std::vector<double> sum(channels), square(channels), turning(turn_axes);
+  std::vector<double> sum(channels), square(channels), turning(axes_of_turn);
   double frames = 0;
   for (const FilterTake& take : takes) {
     frames += static_cast<double>(take.frames);
@@ -63,7 +63,7 @@ FilterStatistics statistics_of(const std::vector<FilterTake>& takes) {
       square[i % channels] += value * value;
     }
     for (std::size_t i = 0; i < take.turning.size(); ++i)
-      turning[i % turn_axes] += std::pow(static_cast<double>(take.turning[i]), 2);
+      turning[i % axes_of_turn] += std::pow(static_cast<double>(take.turning[i]), 2);
   }
   FilterStatistics result;
   for (std::size_t c = 0; c < channels; ++c) {
@@ -107,15 +107,15 @@ BodyMirror without_root(const BodyMirror& whole) {
 // reversing time changes all signs.
 void turn_in_form(std::vector<float>& turning, MotionForm form) {
   if (form.is_reversed) {
-    for (std::size_t low = 0, high = turning.size() / turn_axes; low + 1 < high; ++low, --high) {
-      for (std::size_t a = 0; a < turn_axes; ++a)
-        std::swap(turning[turn_axes * low + a], turning[turn_axes * (high - 1) + a]);
+    for (std::size_t low = 0, high = turning.size() / axes_of_turn; low + 1 < high; ++low, --high) {
+      for (std::size_t a = 0; a < axes_of_turn; ++a)
+        std::swap(turning[axes_of_turn * low + a], turning[axes_of_turn * (high - 1) + a]);
     }
     for (float& value : turning) value = -value;
   }
   if (!form.is_mirrored) return;
   for (std::size_t i = 0; i < turning.size(); ++i) {
-    if (i % turn_axes != 0) turning[i] = -turning[i];
+    if (i % axes_of_turn != 0) turning[i] = -turning[i];
   }
 }
 
@@ -137,7 +137,7 @@ double mean_error(const FilterTake& take, const std::vector<float>& values,
   for (std::size_t f = 0; f < take.frames; ++f) {
     double square = 0, count = 0;
     for (std::size_t c = 0; c < take.channels; ++c) {
-      if (only_missing && take.missing[f * (take.channels / turn_axes) + c / turn_axes] == 0)
+      if (only_missing && take.missing[f * (take.channels / axes_of_turn) + c / axes_of_turn] == 0)
         continue;
       square += std::pow(
           static_cast<double>(values[f * take.channels + c] - truth[f * take.channels + c]), 2);
@@ -215,7 +215,7 @@ FilterSignal FilterTrainer::signal_of(const FilterTake& take) const {
 }
 
 bool FilterTrainer::counts(const FilterTake& take, std::size_t sample) const {
-  return !fills() || head_ == FilterHead::pose || take.missing[sample / turn_axes] != 0;
+  return !fills() || head_ == FilterHead::pose || take.missing[sample / axes_of_turn] != 0;
 }
 
 float FilterTrainer::before_training(const FilterTake& take, std::size_t sample) const {
@@ -286,7 +286,7 @@ std::vector<FilterTrainer::Chunk> FilterTrainer::chunks_of(std::size_t epoch) co
 // Includes the frames on either side that filters reach; padding repeats the ends.
 FilterTrainer::Rows FilterTrainer::rows_of(const Chunk& chunk) const {
   const Sample& sample = samples_[chunk.take];
-  const std::size_t channels = sample.take.channels, tracks = channels / turn_axes;
+  const std::size_t channels = sample.take.channels, tracks = channels / axes_of_turn;
   const auto frames = static_cast<std::ptrdiff_t>(sample.take.frames);
   Rows rows;
   rows.take.frames = settings_.frames + 2 * margin_;
@@ -304,7 +304,7 @@ FilterTrainer::Rows FilterTrainer::rows_of(const Chunk& chunk) const {
     };
     append(rows.take.values, sample.take.values, channels);
     append(rows.truth, sample.truth, channels);
-    append(rows.take.turning, sample.take.turning, turn_axes);
+    append(rows.take.turning, sample.take.turning, axes_of_turn);
     append(rows.take.missing, sample.take.missing, tracks);
     rows.weight.push_back(counts ? 1.0F : 0.0F);
   }

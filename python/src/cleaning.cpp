@@ -29,12 +29,6 @@ HeldCleanerPtr make_held_cleaner(const std::string& method, const py::dict& opti
   return held;
 }
 
-KnownNames names_of(const py::dict& names) {
-  KnownNames known;
-  for (const auto& [key, value] : names) known[bytes_of(key)] = bytes_of(value);
-  return known;
-}
-
 // Leg, part, and first and last frame, counted from 0.
 using Contact = std::tuple<std::string, std::string, std::size_t, std::size_t>;
 
@@ -99,7 +93,7 @@ py::tuple clean(const HeldTakePtr& held, const HeldCleanerPtr& cleaner, const py
   settings.noise = noise_of(noise);
   if (contacts && !settings.feet) settings.feet.emplace();
   if (settings.feet) {
-    settings.feet->names = names_of(feet_names);
+    settings.feet->names = known_names_of(feet_names);
     set_contacts(*settings.feet, held->take, contacts);
   }
   std::pair<HeldTakePtr, ReportPtr> result;

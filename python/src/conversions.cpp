@@ -42,6 +42,12 @@ std::vector<std::string> all_bytes_of(const py::iterable& texts) {
   return list;
 }
 
+KnownNames known_names_of(const py::dict& names) {
+  KnownNames known;
+  for (const auto& [key, value] : names) known[bytes_of(key)] = bytes_of(value);
+  return known;
+}
+
 py::object object_of(const OptionValue& value) {
   if (const auto* text = std::get_if<std::string>(&value)) return text_of(*text);
   if (const auto* is_set = std::get_if<bool>(&value)) return py::bool_(*is_set);

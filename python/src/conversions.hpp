@@ -10,6 +10,7 @@
 
 #include "kinemend/extend/options.hpp"
 #include "kinemend/extend/rotation.hpp"
+#include "kinemend/take.hpp"
 
 namespace kinemend::python {
 
@@ -21,6 +22,8 @@ py::list texts_of(const std::vector<std::string>& list);
 /// The inverse of `text_of`.
 std::string bytes_of(const py::handle& text);
 std::vector<std::string> all_bytes_of(const py::iterable& texts);
+/// Names of feet in a take, by the known ones.
+KnownNames known_names_of(const py::dict& names);
 
 py::object object_of(const OptionValue& value);
 py::dict dict_of(const OptionValues& values);

@@ -34,12 +34,6 @@ std::optional<Axis> axis_named(const std::optional<std::string>& name) {
   throw Error(ErrorKind::usage, "up: expected x, y or z, found " + *name);
 }
 
-KnownNames known_names_of(const py::dict& names) {
-  KnownNames known;
-  for (const auto& [key, value] : names) known[bytes_of(key)] = bytes_of(value);
-  return known;
-}
-
 // The model of the requested method.
 FillModels fill_models(const std::string& method, const std::string& model,
                        const std::string& map) {

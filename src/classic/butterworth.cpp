@@ -1,8 +1,8 @@
 // The method `butterworth`: a low-pass filter, forward and backward on a whole take.
 #include "classic/filter_channels.hpp"
+#include "cleaner/method_row.hpp"
 #include "kinemend/extend/method_options.hpp"
 #include "kinemend/extend/signal.hpp"
-#include "cleaner/method_row.hpp"
 
 namespace kinemend {
 

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "clean/changes.hpp"
-#include "clean/leftovers.hpp"
 #include "clean/steps.hpp"
 #include "cleaner/pieces.hpp"
 #include "kinemend/extend/system.hpp"

@@ -1,5 +1,5 @@
 // Describes the findings of a check and the noise of a report, each with its reason and advice.
-#include "clean/leftovers.hpp"
+#include "clean/steps.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,5 @@
-// The steps around the cleaner: the selection, the filling of gaps, and the holding of feet.
+// The steps around the cleaner: the selection, the filling of gaps, the holding of feet, and the
+// faults that are left.
 #pragma once
 
 #include <cstddef>
@@ -44,5 +45,13 @@ FillReport fill_step(const Take& measured, const Cleaner& cleaner, const Selecti
 /// over those of the cleaner; filled and despiked samples keep their action.
 FeetReport feet_step(Take& motion, const Selection& selection, const FeetSettings& settings,
                      std::size_t first, InPlaceTrace& trace);
+
+/// Returns the faults of the input that cleaning does not mend, one line per kind; empty if the
+/// settings ask for none.
+std::vector<Leftover> leftovers_beyond_cleaning(const Take& input, const CleanSettings& settings);
+
+/// If nothing changed in the take and the settings ask for all leftovers, adds its other faults to
+/// the report, one line per kind: the finding, the reason and the advice.
+void explain_unchanged(const Take& result, const CleanSettings& settings, CleanReport& report);
 
 }  // namespace kinemend

@@ -330,8 +330,8 @@ std::string details(const TakeFacts& take, const CleanReport& report, bool all_r
 
 }  // namespace
 
-std::string clean_text(const TakeFacts& take, const CleanReport& report,
-                       const TextOptions& options) {
+std::string result_text(const TakeFacts& take, const CleanReport& report,
+                        const TextOptions& options) {
   std::string text = headline(take, report, options.colours);
   if (options.details) text += details(take, report, options.all);
   return text;

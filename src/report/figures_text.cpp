@@ -166,8 +166,8 @@ std::string subjects_text(const CheckReport& report) {
 
 }  // namespace
 
-std::string check_text(const TakeFacts& take, const CheckReport& report,
-                       const TextOptions& options) {
+std::string result_text(const TakeFacts& take, const CheckReport& report,
+                        const TextOptions& options) {
   const std::string name = painted(Paint::bold, shown_name(take), options.colours);
   if (!take.contents.empty()) {
     return fmt::format("{}: {}: nothing to check\n", name, take.contents);
@@ -253,8 +253,8 @@ std::string pairing_text(const CompareOutcome& outcome) {
 
 }  // namespace
 
-std::string comparison_text(const TakeFacts& take, const CompareOutcome& outcome,
-                            const TextOptions& options) {
+std::string result_text(const TakeFacts& take, const CompareOutcome& outcome,
+                        const TextOptions& options) {
   const std::string compared =
       outcome.markers ? pairing_text(outcome)
                       : fmt::format("  {} compared", counted(outcome.comparison.frames, "frame"));

@@ -103,8 +103,8 @@ std::string fill_verdict(const FillOutcome& outcome) {
                      report.filled(), report.refused());
 }
 
-std::string fill_text(const TakeFacts& take, const FillOutcome& outcome,
-                      const TextOptions& options) {
+std::string result_text(const TakeFacts& take, const FillOutcome& outcome,
+                        const TextOptions& options) {
   const FillReport& report = outcome.report;
   const std::string written =
       take.output.empty() ? "; nothing written (dry run)" : written_text(take);

@@ -24,12 +24,8 @@ std::string written_text(const TakeFacts& take);
 /// Returns `Leftover::mend` with the path of the take.
 std::string advice_of(const Leftover& leftover, const TakeFacts& take);
 std::string clean_verdict(const TakeFacts& take, const CleanReport& report);
-std::string clean_text(const TakeFacts& take, const CleanReport& report,
-                       const TextOptions& options);
 
 std::string check_verdict(const CheckReport& report);
-std::string check_text(const TakeFacts& take, const CheckReport& report,
-                       const TextOptions& options);
 /// Returns for example "frames 12-14: LTOE is missing (0.1 s)".
 std::string finding_sentence(const Finding& finding, const TakeFacts& take,
                              const CheckReport& report);
@@ -39,13 +35,22 @@ std::string with_unit(double value, std::string_view unit);
 /// Returns the methods that filled gaps, with their counts: "3 by pca, 1 by pchip".
 std::string methods_text(const FillReport& report);
 std::string fill_verdict(const FillOutcome& outcome);
-std::string fill_text(const TakeFacts& take, const FillOutcome& outcome,
-                      const TextOptions& options);
 
 /// Returns the text of `clean` about feet. Frames count from `first_frame`.
 std::string feet_text(const FeetReport& report, std::int64_t first_frame, bool all);
 
-std::string comparison_text(const TakeFacts& take, const CompareOutcome& outcome,
-                            const TextOptions& options);
+/// Returns the text of the result of each command.
+std::string result_text(const TakeFacts& take, const CleanReport& report,
+                        const TextOptions& options);
+std::string result_text(const TakeFacts& take, const CheckReport& report,
+                        const TextOptions& options);
+std::string result_text(const TakeFacts& take, const FillOutcome& outcome,
+                        const TextOptions& options);
+std::string result_text(const TakeFacts& take, const CompareOutcome& outcome,
+                        const TextOptions& options);
+inline std::string result_text(const TakeFacts& take, const FeetReport& report,
+                               const TextOptions& options) {
+  return feet_text(report, take.first_frame, options.all);
+}
 
 }  // namespace kinemend

@@ -181,8 +181,10 @@ ReportTracks tracks(const TakeFacts& take, const CompareOutcome& outcome) {
            column("peak_frames", "frames of a peak", rows, &Row::peak_frames)}};
 }
 
-ReportTracks tracks(const TakeFacts& /*take*/, const FillOutcome& /*outcome*/) { return {}; }
-ReportTracks tracks(const TakeFacts& /*take*/, const FeetReport& /*report*/) { return {}; }
+template <class Result>
+ReportTracks tracks(const TakeFacts& /*take*/, const Result& /*result*/) {
+  return {};
+}
 
 std::string verdict(const TakeFacts& take, const CleanReport& report) {
   return clean_verdict(take, report);
@@ -197,22 +199,6 @@ std::string verdict(const TakeFacts& /*take*/, const CompareOutcome& /*outcome*/
 std::string verdict(const TakeFacts& /*take*/, const FeetReport& report) {
   return fmt::format("{} of {} held", grouped(contacts_held(report)),
                      counted(report.contacts.size(), "contact"));
-}
-
-std::string text(const TakeFacts& take, const CleanReport& report, const TextOptions& options) {
-  return clean_text(take, report, options);
-}
-std::string text(const TakeFacts& take, const CheckReport& report, const TextOptions& options) {
-  return check_text(take, report, options);
-}
-std::string text(const TakeFacts& take, const FillOutcome& outcome, const TextOptions& options) {
-  return fill_text(take, outcome, options);
-}
-std::string text(const TakeFacts& take, const CompareOutcome& outcome, const TextOptions& options) {
-  return comparison_text(take, outcome, options);
-}
-std::string text(const TakeFacts& take, const FeetReport& report, const TextOptions& options) {
-  return feet_text(report, take.first_frame, options.all);
 }
 
 }  // namespace
@@ -232,7 +218,7 @@ ReportTracks tracks_of(const Report& report) {
 }
 
 std::string to_text(const Report& report, const TextOptions& options) {
-  return std::visit([&](const auto& result) { return text(report.take, result, options); },
+  return std::visit([&](const auto& result) { return result_text(report.take, result, options); },
                     report.result);
 }
 
@@ -381,12 +367,8 @@ std::vector<ReportFinding> findings_of(const TakeFacts& /*take*/, const CheckRep
   return findings;
 }
 
-std::vector<ReportFinding> findings_of(const TakeFacts& /*take*/, const CompareOutcome& /*outcome*/,
-                                       bool /*with_spans*/) {
-  return {};
-}
-
-std::vector<ReportFinding> findings_of(const TakeFacts& /*take*/, const FeetReport& /*report*/,
+template <class Result>
+std::vector<ReportFinding> findings_of(const TakeFacts& /*take*/, const Result& /*result*/,
                                        bool /*with_spans*/) {
   return {};
 }

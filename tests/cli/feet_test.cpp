@@ -1,10 +1,14 @@
-// Tests of the feet flags and of files of contacts, from the command line.
+// Tests of the feet flags and of files of contacts; of feet with meaningless names, feet of several
+// people, and feet that never stand.
+#include <sstream>
+
 #include "cli/program.hpp"
 
 namespace kinemend::test {
 namespace {
 
 using Feet = Program;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -80,6 +84,232 @@ TEST_F(Feet, MayBeAskedForInAConfigurationFileAndABatch) {
   const Json row = Json::parse(lines_of(contents(folder / "clean/rows.jsonl"))[0]);
   EXPECT_GT(row["feet"]["held"], 2);
   EXPECT_FALSE(row["feet"].contains("contacts"));
+}
+
+class FeetNames : public Program {
+ protected:
+  /// Writes walk.bvh, a copy whose leg names are numbers, and a map that names them.
+  void make_unnamed() {
+    synth("walk.bvh", "walk", "3");
+    std::string text = contents(folder / "walk.bvh"), map = "# known,here\n";
+    int number = 7;
+    for (const std::string name : {"LeftToeBase", "LeftFoot", "RightToeBase", "RightFoot"}) {
+      const std::string other = "bone_" + std::to_string(number++);
+      ASSERT_NE(text.find(name), std::string::npos) << name;
+      text = replaced(text, name, other);
+      map += name + "," + other + "\n";
+    }
+    put(folder / "unnamed.bvh", text);
+    put(folder / "names.csv", map);
+  }
+
+  Json check(const std::vector<std::string>& words) {
+    std::vector<std::string> all = {"check", "--json"};
+    all.insert(all.end(), words.begin(), words.end());
+    const Ran ran = run(all);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return Json::parse(ran.out)["takes"][0];
+  }
+};
+
+TEST_F(FeetNames, AMapServesCheckAsNamesDo) {
+  make_unnamed();
+  const Json named = check({"walk.bvh"}), unnamed = check({"unnamed.bvh"});
+  const Json mapped = check({"unnamed.bvh", "--map", "names.csv"});
+  EXPECT_FALSE(named["figures"]["slide_cm"].is_null());
+  EXPECT_TRUE(unnamed["figures"]["slide_cm"].is_null());
+  EXPECT_EQ(mapped["figures"], named["figures"]);
+}
+
+TEST_F(FeetNames, AMapServesContactsAsNamesDo) {
+  make_unnamed();
+  const std::string named = run({"contacts", "walk.bvh"}).out;
+  EXPECT_THAT(named, HasSubstr("\nleft heel "));
+  const Ran unnamed = run({"contacts", "unnamed.bvh"});
+  EXPECT_THAT(unnamed.out, Not(HasSubstr("\nleft ")));
+  EXPECT_THAT(unnamed.err, HasSubstr("no legs found; --map FILE gives"));
+  const Ran mapped = run({"contacts", "unnamed.bvh", "--map", "names.csv", "-o", "walk.contacts"});
+  EXPECT_EQ(mapped.code, 0) << mapped.err;
+  EXPECT_EQ(mapped.err, "");
+  EXPECT_EQ(contents(folder / "walk.contacts"), named);
+}
+
+TEST_F(FeetNames, AMapServesTheFeetOfCleanAndBatchAsNamesDo) {
+  make_unnamed();
+  const auto feet = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "clean");
+    words.insert(words.end(), {"-m", "gaussian", "--json", "--force", "-o", "out.bvh"});
+    const Ran ran = run(words);
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return Json::parse(ran.out)["takes"][0]["feet"];
+  };
+  const Json named = feet({"walk.bvh", "--feet", "force"});
+  ASSERT_GT(named["held"], 4);
+  const std::string out = contents(folder / "out.bvh");
+  EXPECT_EQ(feet({"unnamed.bvh", "--feet", "force", "--map", "names.csv"}), named);
+  std::string back = contents(folder / "out.bvh");
+  EXPECT_THAT(back, HasSubstr("bone_7")) << "the names of the take stay";
+  for (const auto& [other, name] :
+       std::vector<std::pair<std::string, std::string>>{{"bone_7", "LeftToeBase"},
+                                                        {"bone_8", "LeftFoot"},
+                                                        {"bone_9", "RightToeBase"},
+                                                        {"bone_10", "RightFoot"}})
+    back = replaced(back, other, name);
+  EXPECT_EQ(replaced(back, "LeftToeBase0", "RightFoot"), out);
+  EXPECT_EQ(feet({"unnamed.bvh", "--feet", "force"})["held"], 0);
+
+  ASSERT_EQ(run({"contacts", "walk.bvh", "-o", "walk.contacts"}).code, 0);
+  const Json held = feet({"walk.bvh", "--contacts", "walk.contacts"});
+  EXPECT_EQ(feet({"unnamed.bvh", "--contacts", "walk.contacts", "--map", "names.csv"}), held);
+
+  const Ran alone = run({"clean", "unnamed.bvh", "-m", "auto", "--map", "names.csv", "--dry-run"});
+  EXPECT_EQ(alone.code, 2) << "without feet it is about the model of a method";
+  fs::create_directory(folder / "raw");
+  fs::copy_file(folder / "unnamed.bvh", folder / "raw/unnamed.bvh");
+  const Ran batch = run(
+      {"batch", "raw", "-o", "clean", "-m", "gaussian", "--feet", "force", "--map", "names.csv"});
+  EXPECT_EQ(batch.code, 0) << batch.err;
+  EXPECT_EQ(Json::parse(lines_of(contents(folder / "clean/rows.jsonl"))[0])["feet"]["held"],
+            named["held"]);
+}
+
+TEST_F(FeetNames, AMapThatNamesWhatIsNotThereIsRefused) {
+  make_unnamed();
+  put(folder / "wrong.csv", "LeftFoot,bone_99\n");
+  put(folder / "bad.csv", "LeftFoot\n");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"check", "unnamed.bvh"},
+        {"contacts", "unnamed.bvh"},
+        {"clean", "unnamed.bvh", "-m", "auto", "--dry-run", "--feet", "auto"}}) {
+    auto with = [&](const std::string& map) {
+      std::vector<std::string> all = words;
+      all.insert(all.end(), {"--map", map});
+      return run(all);
+    };
+    EXPECT_EQ(with("wrong.csv").code, 2);
+    EXPECT_THAT(with("wrong.csv").err, HasSubstr("the take has no \"bone_99\"")) << words[0];
+    EXPECT_THAT(with("bad.csv").err, HasSubstr("bad.csv:1: expected")) << words[0];
+    EXPECT_EQ(with("missing.csv").code, 3) << words[0];
+  }
+}
+
+/// The rows of a table of markers by their cells.
+std::vector<std::vector<std::string>> rows_of(const std::string& text) {
+  std::vector<std::vector<std::string>> rows;
+  for (const std::string& line : lines_of(text)) {
+    std::vector<std::string> cells;
+    std::istringstream parts(line);
+    for (std::string cell; std::getline(parts, cell, '\t');) cells.push_back(cell);
+    rows.push_back(std::move(cells));
+  }
+  return rows;
+}
+
+class People : public FeetNames {
+ protected:
+  /// Writes ann.trc with one walk, and both.trc with Ann and with Bob, who walks three metres
+  /// beside her and whose left foot slides.
+  void make_people() {
+    synth("walk.bvh", "walk", "3");
+    ASSERT_EQ(run({"convert", "walk.bvh", "ann.trc"}).code, 0);
+    const auto ann = rows_of(contents(folder / "ann.trc"));
+    std::string text;
+    const std::size_t markers = std::stoul(ann[2][3]);
+    for (std::size_t row = 0; row < ann.size(); ++row) {
+      std::vector<std::string> cells = ann[row];
+      if (row == 2) cells[3] = std::to_string(2 * markers);
+      cells.resize(row < 3 ? cells.size() : 2 + 6 * markers);
+      for (std::size_t m = 0; m < markers && row >= 3; ++m) {
+        const std::size_t from = 2 + 3 * m, to = 2 + 3 * (markers + m);
+        if (row == 3) {
+          cells[to] = "Bob:" + cells[from];
+          cells[from] = "Ann:" + cells[from];
+        } else if (row == 4) {
+          for (std::size_t c = 0; c < 3; ++c)
+            cells[to + c] = std::string(1, "XYZ"[c]) + std::to_string(markers + m + 1);
+        } else if (cells[0] != "" && cells[from] != "") {
+          const bool is_left_foot =
+              ann[3][from].find("LeftFoot") == 0 || ann[3][from].find("LeftToe") == 0;
+          // Slow enough to count as standing, and farther than Ann's foot slides in any step.
+          const double slide = is_left_foot ? 1.5 * std::stod(cells[0]) : 0;
+          cells[to] = std::to_string(std::stod(cells[from]) + 3000 + slide);
+          cells[to + 1] = cells[from + 1];
+          cells[to + 2] = cells[from + 2];
+        }
+      }
+      for (std::size_t c = 0; c < cells.size(); ++c) text += (c == 0 ? "" : "\t") + cells[c];
+      text += "\n";
+    }
+    put(folder / "both.trc", text);
+  }
+};
+
+TEST_F(People, AreListedByInfo) {
+  make_people();
+  const Ran ran = run({"info", "both.trc"});
+  EXPECT_THAT(ran.out, testing::ContainsRegex("subjects +Ann \\([0-9]+ markers\\), Bob \\("));
+  const Json people = Json::parse(run({"info", "both.trc", "--json"}).out)["takes"][0]["subjects"];
+  ASSERT_EQ(people.size(), 2u);
+  EXPECT_EQ(people[0]["name"], "Ann");
+  EXPECT_EQ(people[1]["name"], "Bob");
+  EXPECT_EQ(people[0]["markers"], people[1]["markers"]);
+  EXPECT_THAT(run({"info", "ann.trc"}).out, Not(HasSubstr("subjects")));
+}
+
+TEST_F(People, AreCheckedEachByThemselves) {
+  make_people();
+  const Json ann = check({"ann.trc"}), both = check({"both.trc"});
+  ASSERT_FALSE(ann["figures"]["slide_cm"].is_null());
+  ASSERT_EQ(both["subjects"].size(), 2u);
+  EXPECT_EQ(both["subjects"][0]["name"], "Ann");
+  EXPECT_EQ(both["subjects"][0]["slide_cm"], ann["figures"]["slide_cm"]);
+  EXPECT_EQ(both["subjects"][0]["sink_cm"], ann["figures"]["sink_cm"]);
+  EXPECT_GT(both["subjects"][1]["slide_cm"], ann["figures"]["slide_cm"]);
+  EXPECT_EQ(both["figures"]["slide_cm"], both["subjects"][1]["slide_cm"]);
+  EXPECT_TRUE(ann["subjects"].empty());
+  const Ran text = run({"check", "both.trc"});
+  EXPECT_THAT(text.out, testing::ContainsRegex("\n  Ann +[0-9]+ +[0-9.]+ "));
+  EXPECT_THAT(text.out, Not(HasSubstr("Ann left foot slides")));
+}
+
+TEST_F(People, FeetThatNeverStandHaveNoFigure) {
+  synth("walk.bvh", "walk", "2");
+  // The feet are always in the air and faster than any standing foot.
+  std::string text;
+  bool is_motion = false;
+  int frame = 0;
+  for (const std::string& line : lines_of(contents(folder / "walk.bvh"))) {
+    if (!is_motion) {
+      text += line + "\n";
+      is_motion = line.rfind("Frame Time", 0) == 0;
+      continue;
+    }
+    std::istringstream parts(line);
+    double x = 0, y = 0;
+    parts >> x >> y;
+    std::string rest;
+    std::getline(parts, rest);
+    text += std::to_string(x + 12.0 * frame) + " " + std::to_string(y + 9.0 * frame) + rest + "\n";
+    ++frame;
+  }
+  put(folder / "air.bvh", text);
+  const Json take = check({"air.bvh"});
+  EXPECT_TRUE(take["figures"]["slide_cm"].is_null()) << take["figures"];
+  EXPECT_TRUE(take["figures"]["sink_cm"].is_null());
+  EXPECT_THAT(run({"check", "air.bvh"}).out,
+              AllOf(Not(HasSubstr("slide of a standing foot")), Not(HasSubstr("below the floor"))));
+  const Json feet = Json::parse(
+      run({"clean", "air.bvh", "--feet", "force", "--dry-run", "--json"}).out)["takes"][0]["feet"];
+  EXPECT_TRUE(feet["contacts"].empty());
+  EXPECT_TRUE(feet["before"].is_null());
+  EXPECT_TRUE(feet["after"].is_null());
+  const Json compared =
+      Json::parse(run({"compare", "air.bvh", "air.bvh", "--json"}).out)["takes"][0]["figures"];
+  EXPECT_TRUE(compared["foot_slide"].is_null());
+  EXPECT_TRUE(compared["foot_slide_reference"].is_null());
+  const Ran limit = run({"compare", "air.bvh", "air.bvh", "--max-foot-slide", "1"});
+  EXPECT_EQ(limit.code, 1);
+  EXPECT_THAT(limit.err, HasSubstr("foot_slide is unknown because no foot has ground contact"));
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{{"clean", "a.bvh", "--cutoff-hz", "6"},
              "--cutoff-hz is an option of butterworth, not of learned (choose with --method)"},
         Case{{"clean", "a.bvh", "--preset", "gym"},
-             "--preset: \"gym\" is not one of walk, sport, dance, hands, live, biomech"},
+             "--preset: \"gym\" is not one of live, biomech"},
         Case{{"clean", "a.bvh", "--range", "5"},
              "--range: 5 is neither a range of frames (121:240) nor of seconds (1s:2.5s)"},
         Case{{"clean", "a.bvh", "--range", "0:5"}, "a.bvh: --range: frame 0 is outside 1 to 10"},

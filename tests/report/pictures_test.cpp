@@ -92,21 +92,6 @@ TEST(Pictures, OfASpectrumLeaveWindowsWithGapsOut) {
   EXPECT_THAT(spectrum_svg(curves), HasSubstr("too few samples"));
 }
 
-TEST(Pictures, OfGapsHaveARowForEachTrackThatHasSome) {
-  const Take before = gapped_markers();
-  Take after = before;
-  after.observed.assign(300, 1);
-  const std::string one = gap_chart_svg(before, nullptr);
-  expect_svg(one);
-  EXPECT_THAT(one, HasSubstr("1 of 3 markers"));
-  EXPECT_THAT(one, HasSubstr("B&lt;&amp;&gt;"));
-  EXPECT_THAT(one, HasSubstr(">25.0 %<"));
-  EXPECT_THAT(one, HasSubstr(">101<"));
-  EXPECT_THAT(one, HasSubstr(">200<"));
-  EXPECT_THAT(gap_chart_svg(before, &after), HasSubstr(">0.0 %<"));
-  expect_svg(gap_chart_svg(after, nullptr));
-}
-
 TEST(Pictures, OfPosesStandInARow) {
   const Take clip = synthesize({.duration_s = 2, .frame_rate_hz = 60});
   const std::string svg = film_strip_svg(clip, &clip, all_frames, 5);
@@ -143,14 +128,11 @@ TEST(Pictures, AreDrawnOfTakesWithNothingInThem) {
   const Take clip = synthesize({.duration_s = 1, .frame_rate_hz = 60});
   const Take none = slice(clip, 0, 0);
   EXPECT_THAT(film_strip_svg(none, nullptr, all_frames), HasSubstr("no frames"));
-  expect_svg(gap_chart_svg(none, nullptr));
   expect_svg(spectrum_svg(rotation_curves(none, none, 0)));
   const Take unseen = make_marker_take({"A"}, 3, 100);
   expect_svg(film_strip_svg(unseen, nullptr, all_frames));
   expect_svg(moving_picture_svg(unseen, nullptr, all_frames));
   EXPECT_THAT(moving_picture_svg(none, nullptr, all_frames), HasSubstr("no frames"));
-  expect_svg(gap_chart_svg(unseen, nullptr));
-  expect_svg(gap_chart_svg(Take(make_marker_take({}, 0, 100)), nullptr));
   EXPECT_THAT([&] { film_strip_svg(clip, &none, all_frames); },
               ThrowsMessage<Error>("film strip: 60 frames before and 0 after"));
   EXPECT_THAT([&] { moving_picture_svg(clip, &none, all_frames); },
@@ -159,7 +141,7 @@ TEST(Pictures, AreDrawnOfTakesWithNothingInThem) {
 
 TEST(Pictures, OfOneTakeHaveNoDifference) {
   const TrackCurves curves = sine();
-  const std::string svg = curves_svg(curves, {}, {.one_take = true});
+  const std::string svg = curves_svg(curves, {.one_take = true});
   expect_svg(svg);
   EXPECT_THAT(svg, Not(HasSubstr("difference")));
   EXPECT_LT(svg.size(), curves_svg(curves).size());

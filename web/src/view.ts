@@ -116,7 +116,7 @@ class Controls {
     this.contactBox = element('details', { class: 'editor' }, element('summary', {}, 'Contacts'), this.contacts?.element ?? '');
     this.gapBox = element('details', { class: 'editor' }, element('summary', {}, 'Gap plan'), this.gaps.element);
     this.presets.dataset.flag = 'preset';
-    this.presets.title = 'settings for a kind of motion';
+    this.presets.title = 'settings of a live stream or of a gait laboratory';
     this.presets.append(...session.controls.presets.map(({ name, summary }) => element('option', { value: name, title: summary }, name)));
     const save = button('Save as\u2026', 'choose a file name and save the take', () => this.dialog.open(this.names[this.command] || (this.command === 'clean' ? session.cleaned : session.filled)));
     save.dataset.action = 'save';

@@ -76,16 +76,14 @@ TrackCurves root_curves(const Take& before, const Take& after);
 TrackCurves marker_curves(const Take& before, const Take& after, std::size_t marker);
 
 struct CurveStyle {
-  double width = 960, panel_height = 120;  ///< pixels
   /// Frames [first, last] to draw, counted from 0; frames beyond the take are ignored.
   std::size_t first_frame = 0, last_frame = SIZE_MAX;
   bool one_take = false;  ///< only the curve after, without a difference
 };
 /// Draws a panel for each axis with the curve before under the curve after, and a panel of the
-/// difference. Findings of the track and quantity are bands behind the curves. If there are more
-/// frames than pixels, each pixel shows the smallest and the largest value of its frames.
-std::string curves_svg(const TrackCurves& curves, std::span<const ReportFinding> findings = {},
-                       const CurveStyle& style = {});
+/// difference. If there are more frames than pixels, each pixel shows the smallest and the largest
+/// value of its frames.
+std::string curves_svg(const TrackCurves& curves, const CurveStyle& style = {});
 
 /// Frames [first, last], counted from 0; frames beyond the take are ignored.
 using FrameSpanToDraw = std::pair<std::size_t, std::size_t>;
@@ -101,10 +99,6 @@ std::string film_strip_svg(const Take& before, const Take* after, FrameSpanToDra
 /// takes move side by side. Errors: `ErrorKind::usage` for takes of different length, and for more
 /// than 1800 poses (a minute).
 std::string moving_picture_svg(const Take& before, const Take* after, FrameSpanToDraw frames);
-
-/// Draws the gaps: a row per track, a bar per gap, and the missing share of each track. A second
-/// take's gaps are drawn below the first take's. Tracks without gaps are counted, not drawn.
-std::string gap_chart_svg(const Take& before, const Take* after);
 
 /// Power density of a track over frequency.
 struct TrackSpectrum {

@@ -109,16 +109,16 @@ FilterTake filter_take_of(const BodyChannels& channels, const BodyLayout& layout
   const PoseMatrix& poses = channels.poses;
   FilterTake take;
   take.frames = poses.frames;
-  take.channels = turn_axes * (layout.track_count() - 1);
+  take.channels = axes_of_turn * (layout.track_count() - 1);
   take.values.reserve(take.frames * take.channels);
-  take.missing.reserve(take.frames * (take.channels / turn_axes));
+  take.missing.reserve(take.frames * (take.channels / axes_of_turn));
   std::vector<Quat> roots;
   for (std::size_t f = 0; f < take.frames; ++f) {
     const auto row = poses.row(f);
     for (std::size_t c = 0; c < take.channels; ++c)
-      take.values.push_back(static_cast<float>(row[turn_axes + c]));
-    for (std::size_t c = 0; c < take.channels; c += turn_axes)
-      take.missing.push_back(channels.observed[f * poses.channels + turn_axes + c] == 0 ? 1 : 0);
+      take.values.push_back(static_cast<float>(row[axes_of_turn + c]));
+    for (std::size_t c = 0; c < take.channels; c += axes_of_turn)
+      take.missing.push_back(channels.observed[f * poses.channels + axes_of_turn + c] == 0 ? 1 : 0);
     roots.push_back(exp({0, channels.headings[f], 0}) * layout.references[0] *
                     exp(radians_per_degree * Vec3{row[0], row[1], row[2]}));
   }
@@ -137,13 +137,13 @@ void put_filtered(std::span<const float> values, PoseMatrix& poses) {
   const std::size_t channels = poses.frames > 0 ? values.size() / poses.frames : 0;
   for (std::size_t f = 0; f < poses.frames; ++f) {
     for (std::size_t c = 0; c < channels; ++c)
-      poses(f, turn_axes + c) = static_cast<double>(values[f * channels + c]);
+      poses(f, axes_of_turn + c) = static_cast<double>(values[f * channels + c]);
   }
 }
 
 std::size_t filter_feature_count(std::size_t channels, FilterInputs inputs) {
-  return channels + turn_axes + (inputs.has_roughness ? channels : 0) +
-         (inputs.has_masks ? channels / turn_axes : 0);
+  return channels + axes_of_turn + (inputs.has_roughness ? channels : 0) +
+         (inputs.has_masks ? channels / axes_of_turn : 0);
 }
 
 // The mean square of second differences is six times the variance of white noise.
@@ -165,18 +165,18 @@ std::vector<float> filter_features(const FilterTake& take, const FilterStatistic
     float* row = features.data() + f * width;
     for (std::size_t c = 0; c < take.channels; ++c)
       *row++ = (take.values[f * take.channels + c] - statistics.mean[c]) / statistics.deviation[c];
-    for (std::size_t a = 0; a < turn_axes; ++a)
-      *row++ = take.turning[turn_axes * f + a] / statistics.turning[a];
+    for (std::size_t a = 0; a < axes_of_turn; ++a)
+      *row++ = take.turning[axes_of_turn * f + a] / statistics.turning[a];
     for (std::size_t c = 0; inputs.has_roughness && c < take.channels; ++c)
       *row++ = rough[f * take.channels + c];
-    for (std::size_t n = 0; inputs.has_masks && n < take.channels / turn_axes; ++n)
-      *row++ = static_cast<float>(take.missing[f * (take.channels / turn_axes) + n]);
+    for (std::size_t n = 0; inputs.has_masks && n < take.channels / axes_of_turn; ++n)
+      *row++ = static_cast<float>(take.missing[f * (take.channels / axes_of_turn) + n]);
   }
   return features;
 }
 
 FilterNetwork filter_network_of(const Model& model) {
-  const std::size_t channels = turn_axes * (model.layout.track_count() - 1);
+  const std::size_t channels = axes_of_turn * (model.layout.track_count() - 1);
   FilterNetwork network;
   network.rate_hz = model.rate_hz;
   network.head = static_cast<FilterHead>(whole_number(model, "head", 0, head_count - 1));
@@ -186,7 +186,7 @@ FilterNetwork filter_network_of(const Model& model) {
                     whole_number(model, "masks", 0, 1) == 1};
   network.statistics = {network_numbers(model, "mean", channels, false),
                         network_numbers(model, "deviation", channels, true),
-                        network_numbers(model, "turning", turn_axes, true)};
+                        network_numbers(model, "turning", axes_of_turn, true)};
   std::size_t width = filter_feature_count(channels, network.inputs) * (2 * network.reach + 1);
   const auto read = [&](const std::string& name, bool is_last) {
     const nn::Activation activation = is_last ? nn::Activation::none : nn::Activation::tanh;
@@ -262,7 +262,7 @@ FilterTake at_rate(const FilterTake& take, double step) {
   result.channels = take.channels;
   const auto last = static_cast<double>(take.frames - 1);
   result.frames = static_cast<std::size_t>(std::floor(last / step + 1e-9)) + 1;
-  const std::size_t tracks = take.channels / turn_axes;
+  const std::size_t tracks = take.channels / axes_of_turn;
   for (std::size_t f = 0; f < result.frames; ++f) {
     const double place = static_cast<double>(f) * step;
     const auto before = std::min(static_cast<std::size_t>(place), take.frames - 1);
@@ -274,8 +274,8 @@ FilterTake at_rate(const FilterTake& take, double step) {
     };
     for (std::size_t c = 0; c < take.channels; ++c)
       result.values.push_back(mix(take.values, take.channels, c));
-    for (std::size_t a = 0; a < turn_axes; ++a)
-      result.turning.push_back(mix(take.turning, turn_axes, a));
+    for (std::size_t a = 0; a < axes_of_turn; ++a)
+      result.turning.push_back(mix(take.turning, axes_of_turn, a));
     const std::size_t nearest = share < 0.5F ? before : after;
     for (std::size_t n = 0; n < tracks; ++n)
       result.missing.push_back(take.missing[nearest * tracks + n]);
@@ -315,7 +315,8 @@ void fill_span(const std::vector<double>& added, std::size_t channels, std::size
   for (std::size_t f = first; f < last; ++f) {
     const double from_start = portable::exp(-static_cast<double>(f - first) / joining_frames);
     const double from_end = portable::exp(-static_cast<double>(last - 1 - f) / joining_frames);
-    poses(f, turn_axes + c) += added[f * channels + c] - from_start * at_start - from_end * at_end;
+    poses(f, axes_of_turn + c) +=
+        added[f * channels + c] - from_start * at_start - from_end * at_end;
   }
 }
 
@@ -329,7 +330,7 @@ PoseMatrix filled_by_network(const FilterNetwork& network, const BodyLayout& lay
   if (result.frames < 2) return result;
   const FilterTake take = filter_take_of(bridged, layout);
   const std::vector<double> added = additions(network, take, channels.frame_rate_hz);
-  const std::size_t tracks = take.channels / turn_axes;
+  const std::size_t tracks = take.channels / axes_of_turn;
   for (std::size_t n = 0; n < tracks; ++n) {
     const auto is_missing = [&](std::size_t f) { return take.missing[f * tracks + n] != 0; };
     for (std::size_t f = 0; f < take.frames; ++f) {
@@ -337,8 +338,8 @@ PoseMatrix filled_by_network(const FilterNetwork& network, const BodyLayout& lay
       std::size_t last = f;
       while (last < take.frames && is_missing(last)) ++last;
       if (last - f == take.frames) break;  // a joint that the take lacks
-      for (std::size_t axis = 0; axis < turn_axes; ++axis)
-        fill_span(added, take.channels, turn_axes * n + axis, f, last,
+      for (std::size_t axis = 0; axis < axes_of_turn; ++axis)
+        fill_span(added, take.channels, axes_of_turn * n + axis, f, last,
                   joining_s * channels.frame_rate_hz, result);
       f = last;
     }

@@ -15,7 +15,7 @@
 namespace kinemend {
 
 /// Channels of a joint: the axes of a rotation vector. By definition.
-inline constexpr std::size_t turn_axes = 3;
+inline constexpr std::size_t axes_of_turn = 3;
 
 /// A take as input of these networks: F frames of the C channels of all joints but the root.
 struct FilterTake {

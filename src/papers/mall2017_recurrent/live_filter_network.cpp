@@ -44,8 +44,8 @@ LiveFilterNetwork::LiveFilterNetwork(const FilterNetwork& network, double frame_
       width_(filter_feature_count(network.channels(), network.inputs)),
       values_(window_rows * channels_),
       roots_(window_rows),
-      missed_(channels_ / turn_axes),
-      seen_(channels_ / turn_axes),
+      missed_(channels_ / axes_of_turn),
+      seen_(channels_ / axes_of_turn),
       features_((network.reach + std::max(most_rows, network.reach + 1)) * width_),
       outputs_(most_rows * network.decoder.back().outputs()),
       here_(most_rows * widest(network)),
@@ -100,16 +100,17 @@ void LiveFilterNetwork::append(const Input& in) {
   }
   const std::size_t row = count_++;
   for (std::size_t n = 0; n < missed_.size(); ++n) {
-    float* own = value_row(row) + turn_axes * n;
+    float* own = value_row(row) + axes_of_turn * n;
     if (in.missing[n] == 0) {
-      std::copy_n(in.values.data() + turn_axes * n, turn_axes, own);
+      std::copy_n(in.values.data() + axes_of_turn * n, axes_of_turn, own);
       if (missed_[n] > 0) bridge(n, missed_[n]);
       missed_[n] = 0;
       seen_[n] = 1;
       continue;
     }
-    const float* held = row > 0 ? own - channels_ : network_.statistics.mean.data() + turn_axes * n;
-    std::copy_n(held, turn_axes, own);
+    const float* held =
+        row > 0 ? own - channels_ : network_.statistics.mean.data() + axes_of_turn * n;
+    std::copy_n(held, axes_of_turn, own);
     ++missed_[n];
   }
   roots_[row] = !in.root_is_missing ? in.root : row > 0 ? roots_[row - 1] : Quat{};
@@ -120,7 +121,7 @@ void LiveFilterNetwork::append(const Input& in) {
 void LiveFilterNetwork::bridge(std::size_t track, std::size_t missed) {
   const std::size_t last = count_ - 1;
   const std::size_t open = std::min({missed, delay, last});
-  for (std::size_t c = turn_axes * track; c < turn_axes * (track + 1); ++c) {
+  for (std::size_t c = axes_of_turn * track; c < axes_of_turn * (track + 1); ++c) {
     const float to = value_row(last)[c];
     const float from = seen_[track] != 0 ? value_row(last - open)[c] : to;
     for (std::size_t i = 0; i < open; ++i) {
@@ -255,7 +256,7 @@ void LiveFilterNetwork::fill_roughness() {
     const double* square = squares_.data() + r * channels_;
     for (std::size_t c = 0; c < channels_; ++c) sums_[c] += sign * square[c];
   };
-  float* feature = features_.data() + network_.reach * width_ + channels_ + turn_axes;
+  float* feature = features_.data() + network_.reach * width_ + channels_ + axes_of_turn;
   for (std::size_t i = 0; i < rows_; ++i, feature += width_) {
     const std::size_t row = first + i;
     const std::size_t wanted_begin = std::max<std::size_t>(row - std::min(row, reach), 1);

@@ -123,7 +123,7 @@ class RecurrentLive final : public LiveFilter {
       : network_(network, like.frame_rate_hz),
         values_(network.channels()),
         result_(network.channels()),
-        missing_(network.channels() / turn_axes),
+        missing_(network.channels() / axes_of_turn),
         held_(like.owners),
         waiting_(LiveFilterNetwork::delay + 1) {
     Take still;
@@ -209,7 +209,7 @@ class RecurrentLive final : public LiveFilter {
       if (!std::isfinite(norm(v))) continue;
       known.last = v;
       missing_[known.track - 1] = 0;
-      float* own = values_.data() + turn_axes * (known.track - 1);
+      float* own = values_.data() + axes_of_turn * (known.track - 1);
       own[0] = static_cast<float>(degrees_per_radian * v.x);
       own[1] = static_cast<float>(degrees_per_radian * v.y);
       own[2] = static_cast<float>(degrees_per_radian * v.z);
@@ -228,7 +228,7 @@ class RecurrentLive final : public LiveFilter {
     out = waiting_[given_++ % waiting_.size()];
     for (const Known& known : tracks_) {
       if (known.track == 0 || !known.is_selected) continue;
-      const Vec3 v = radians_per_degree * vector_at(result_, turn_axes * (known.track - 1));
+      const Vec3 v = radians_per_degree * vector_at(result_, axes_of_turn * (known.track - 1));
       Quat& local = out.rotations[known.joint];
       local = align_hemisphere(
           normalized(conjugate(known.before) * (known.reference * exp(v)) * conjugate(known.after)),
