@@ -8,6 +8,7 @@
 
 #include "kinemend/extend/cleaner.hpp"
 #include "kinemend/extend/options.hpp"
+#include "kinemend/methods.hpp"
 
 namespace kinemend {
 
