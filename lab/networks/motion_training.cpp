@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "checkpoint.hpp"
-#include "methods/learned/live_motion_steps.hpp"
+#include "methods/learned/learned_live.hpp"
 #include "methods/learned/motion_network.hpp"
 #include "network_model.hpp"
 

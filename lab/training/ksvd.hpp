@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "nn/gemm.hpp"
-#include "papers/xiao2015_sparse/dictionary.hpp"
+#include "papers/xiao2015_sparse/sparse_prior.hpp"
 
 namespace kinemend::sparse {
 

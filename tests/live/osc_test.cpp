@@ -1,6 +1,6 @@
 // Tests of reading OSC packets: messages, nested bundles, broken sizes, and floats replaced in
 // place.
-#include "live/osc.hpp"
+#include "live/vmc_stream.hpp"
 
 #include <gmock/gmock.h>
 

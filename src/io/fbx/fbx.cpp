@@ -21,7 +21,6 @@
 #include "io/fbx/fbx_document.hpp"
 #include "io/fbx/fbx_patch.hpp"
 #include "io/fbx/fbx_values.hpp"
-#include "io/first_error.hpp"
 #include "io/held_samples.hpp"
 #include "io/motion/motion_write.hpp"
 #include "io/reading_limits.hpp"

@@ -10,7 +10,7 @@
 
 #include "io/fbx/fbx_curve.hpp"
 #include "io/fbx/fbx_values.hpp"
-#include "io/first_error.hpp"
+#include "io/reading_limits.hpp"
 #include "kinemend/extend/frames.hpp"
 #include "motion/rotation.hpp"
 

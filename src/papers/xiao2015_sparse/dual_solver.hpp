@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "papers/xiao2015_sparse/dictionary.hpp"
+#include "papers/xiao2015_sparse/sparse_prior.hpp"
 
 namespace kinemend::sparse {
 

@@ -1,4 +1,4 @@
-// Stores the prior in a model file and reads it.
+// Stores the prior of `sparse` in a model file and reads it.
 #include "papers/xiao2015_sparse/sparse_prior.hpp"
 
 #include <fmt/format.h>

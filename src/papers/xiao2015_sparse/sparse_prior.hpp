@@ -1,15 +1,29 @@
 // The prior of the method `sparse` (Xiao et al. 2015) describes windows of the parts of a body as
-// sums of few atoms.
+// sums of few atoms of a dictionary. `lab/training/ksvd.hpp` learns dictionaries.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "kinemend/extend/model.hpp"
-#include "papers/xiao2015_sparse/dictionary.hpp"
 #include "papers/xiao2015_sparse/sparse_points.hpp"
+
+namespace kinemend::sparse {
+
+/// K atoms of n rows each, one after the other.
+struct Dictionary {
+  std::size_t rows = 0;       ///< n
+  std::size_t atoms = 0;      ///< K
+  std::vector<float> values;  ///< K x n
+
+  std::span<float> atom(std::size_t k) { return {values.data() + k * rows, rows}; }
+  std::span<const float> atom(std::size_t k) const { return {values.data() + k * rows, rows}; }
+};
+
+}  // namespace kinemend::sparse
 
 namespace kinemend {
 

@@ -15,7 +15,6 @@
 #include "methods/prior/window_bases.hpp"
 #include "methods/wiener/wiener_filter.hpp"
 #include "methods/wiener/wiener_steps.hpp"
-#include "methods/wiener/wiener_windows.hpp"
 
 namespace kinemend::test {
 namespace {

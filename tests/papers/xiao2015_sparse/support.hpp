@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kinemend/extend/random.hpp"
-#include "papers/xiao2015_sparse/dictionary.hpp"
+#include "papers/xiao2015_sparse/sparse_prior.hpp"
 
 namespace kinemend::sparse {
 

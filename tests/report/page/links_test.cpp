@@ -1,5 +1,5 @@
 // Tests of the lines that a page draws between markers.
-#include "report/page/take_json.hpp"
+#include "report/page/document.hpp"
 
 #include <gtest/gtest.h>
 
