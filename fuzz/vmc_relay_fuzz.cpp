@@ -10,7 +10,7 @@
 #include "kinemend/extend/sessions.hpp"
 #include "kinemend/methods.hpp"
 #include "laws.hpp"
-#include "live/vmc_stream.hpp"
+#include "live/osc.hpp"
 
 namespace {
 

@@ -18,6 +18,7 @@
 #include "kinemend/extend/rotation.hpp"
 #include "kinemend/extend/sessions.hpp"
 #include "kinemend/extend/text.hpp"
+#include "live/osc.hpp"
 #include "live/stream_measures.hpp"
 #include "live/vmc_stream.hpp"
 #include "motion/take.hpp"

@@ -1,6 +1,6 @@
 // Tests of reading OSC packets: messages, nested bundles, broken sizes, and floats replaced in
 // place.
-#include "live/vmc_stream.hpp"
+#include "live/osc.hpp"
 
 #include <gmock/gmock.h>
 
