@@ -9,6 +9,7 @@
 #include "kinemend/extend/sessions.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/live.hpp"
+#include "kinemend/methods.hpp"
 #include "noisy_walk.hpp"
 
 namespace {

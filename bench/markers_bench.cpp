@@ -5,6 +5,7 @@
 #include "kinemend/extend/motion.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "kinemend/lab/synth.hpp"
+#include "kinemend/methods.hpp"
 
 namespace kinemend {
 namespace {

@@ -27,6 +27,7 @@
 #include "kinemend/extend/system.hpp"
 #include "kinemend/extend/text.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/methods.hpp"
 #include "method_options.hpp"
 #include "page_report.hpp"
 #include "run_files.hpp"

@@ -11,6 +11,7 @@
 #include "kinemend/extend/motion.hpp"
 #include "kinemend/extend/text.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/methods.hpp"
 #include "kinemend/report.hpp"
 #include "kinemend/take.hpp"
 #include "method_options.hpp"

@@ -11,6 +11,7 @@
 #include "kinemend/extend/system.hpp"
 #include "kinemend/extend/text.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
 #include "kinemend/take.hpp"
 #include "model_view.hpp"

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "command_line.hpp"
+#include "kinemend/methods.hpp"
 
 namespace kinemend::cli {
 

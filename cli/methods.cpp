@@ -6,6 +6,7 @@
 #include "help.hpp"
 #include "json.hpp"
 #include "kinemend/extend/text.hpp"
+#include "kinemend/methods.hpp"
 #include "method_options.hpp"
 #include "takes.hpp"
 #include "terminal.hpp"

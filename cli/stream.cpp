@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "kinemend/extend/sessions.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/methods.hpp"
 #include "live_loop.hpp"
 #include "live_output.hpp"
 #include "live_vmc.hpp"

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "kinemend/io.hpp"
+#include "kinemend/methods.hpp"
 #include "method_options.hpp"
 #include "takes.hpp"
 

@@ -17,6 +17,7 @@
 #include "kinemend/error.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/live.hpp"
+#include "kinemend/methods.hpp"
 
 namespace {
 

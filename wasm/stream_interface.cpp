@@ -6,6 +6,7 @@
 #include "answer.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
+#include "kinemend/methods.hpp"
 #include "method_options.hpp"
 #include "stream_plan.hpp"
 

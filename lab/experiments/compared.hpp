@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "kinemend/methods.hpp"
 #include "page.hpp"
 
 namespace kinemend::papers {

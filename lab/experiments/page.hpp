@@ -7,6 +7,7 @@
 #include "experiment.hpp"
 #include "kinemend/clean.hpp"
 #include "kinemend/lab/corrupt.hpp"
+#include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
 
 namespace kinemend::papers {

@@ -9,6 +9,7 @@
 #include "base/quantiles.hpp"
 #include "clean_worlds.hpp"
 #include "compared.hpp"
+#include "kinemend/methods.hpp"
 #include "page.hpp"
 
 namespace kinemend::papers {

@@ -1,5 +1,6 @@
 // Figures of docs/live.md: the noise that each live method leaves, and its delay.
 #include "kinemend/extend/sessions.hpp"
+#include "kinemend/methods.hpp"
 #include "live_takes.hpp"
 
 namespace kinemend::papers {

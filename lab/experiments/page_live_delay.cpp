@@ -1,4 +1,5 @@
 // Figures of docs/measured/live.md: error against delay, for live methods at several settings.
+#include "kinemend/methods.hpp"
 #include "live_takes.hpp"
 
 namespace kinemend::papers {

@@ -3,6 +3,7 @@
 
 #include "feet/live_feet.hpp"
 #include "kinemend/feet.hpp"
+#include "kinemend/methods.hpp"
 #include "live_takes.hpp"
 
 namespace kinemend::papers {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "camera_pairs.hpp"
+#include "kinemend/methods.hpp"
 #include "page.hpp"
 
 namespace kinemend::papers {

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "compared.hpp"
+#include "kinemend/methods.hpp"
 #include "page.hpp"
 #include "regret_rows.hpp"
 

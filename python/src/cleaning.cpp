@@ -12,6 +12,7 @@
 #include "held.hpp"
 #include "kinemend/clean.hpp"
 #include "kinemend/extend/system.hpp"
+#include "kinemend/methods.hpp"
 #include "reports.hpp"
 #include "running.hpp"
 

@@ -18,6 +18,7 @@
 #include "kinemend/extend/sessions.hpp"
 #include "kinemend/extend/text.hpp"
 #include "kinemend/live.hpp"
+#include "kinemend/methods.hpp"
 #include "kinemend/take.hpp"
 #include "live/frame_lines.hpp"
 #include "live/live_lines.hpp"

@@ -1,5 +1,6 @@
 // A live session survives any bytes, in bounded memory.
 #include "kinemend/extend/random.hpp"
+#include "kinemend/methods.hpp"
 #include "live_run.hpp"
 
 namespace kinemend::test {

@@ -1,5 +1,6 @@
 // A live session gives the same result as the method on the whole file, however the bytes arrive.
 #include "kinemend/live.hpp"
+#include "kinemend/methods.hpp"
 #include "live_run.hpp"
 
 #include <ostream>

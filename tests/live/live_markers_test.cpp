@@ -3,6 +3,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "kinemend/methods.hpp"
 #include "live_run.hpp"
 #include "registry/marker_takes.hpp"
 

@@ -1,6 +1,7 @@
 // After warm-up, a line of text in a live stream allocates no memory.
 #include "counting_allocation.hpp"
 
+#include "kinemend/methods.hpp"
 #include "live_run.hpp"
 
 #if !defined(KINEMEND_SANITIZED) && defined(__GLIBC__)

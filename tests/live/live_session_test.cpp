@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kinemend/error.hpp"
+#include "kinemend/methods.hpp"
 #include "live_run.hpp"
 #include "pass_through.hpp"
 

@@ -7,6 +7,7 @@
 #include "kinemend/extend/motion.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/lab/synth.hpp"
+#include "kinemend/methods.hpp"
 #include "quality/quality.hpp"
 
 namespace kinemend::quality {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "kinemend/lab/synth.hpp"
+#include "kinemend/methods.hpp"
 #include "quality/quality.hpp"
 
 namespace kinemend::quality {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kinemend/clean.hpp"
+#include "kinemend/methods.hpp"
 #include "quality/quality.hpp"
 #include "registry/marker_takes.hpp"
 

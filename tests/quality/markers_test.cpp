@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "kinemend/lab/corrupt.hpp"
+#include "kinemend/methods.hpp"
 #include "kinemend/metrics.hpp"
 #include "quality/marker_quality.hpp"
 

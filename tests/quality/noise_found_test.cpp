@@ -8,6 +8,7 @@
 #include "kinemend/check.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/lab/synth.hpp"
+#include "kinemend/methods.hpp"
 #include "quality/lower_rate.hpp"
 #include "quality/quality.hpp"
 

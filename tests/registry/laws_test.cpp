@@ -8,6 +8,7 @@
 #include "kinemend/extend/system.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "kinemend/lab/synth.hpp"
+#include "kinemend/methods.hpp"
 #include "registry/takes.hpp"
 
 namespace kinemend::test {

@@ -6,6 +6,7 @@
 
 #include "clean/repair_checks.hpp"
 #include "kinemend/clean.hpp"
+#include "kinemend/methods.hpp"
 #include "registry/marker_takes.hpp"
 #include "registry/takes.hpp"
 

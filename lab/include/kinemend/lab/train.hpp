@@ -14,6 +14,7 @@
 
 #include "kinemend/extend/model.hpp"
 #include "kinemend/extend/options.hpp"
+#include "kinemend/methods.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {
