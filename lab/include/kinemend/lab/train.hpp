@@ -14,7 +14,6 @@
 
 #include "kinemend/extend/model.hpp"
 #include "kinemend/extend/options.hpp"
-#include "kinemend/methods.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend {
