@@ -3,6 +3,7 @@
 
 #include "kinemend/clean.hpp"
 #include "kinemend/io.hpp"
+#include "kinemend/methods.hpp"
 #include "kinemend/take.hpp"
 
 namespace kinemend::test {

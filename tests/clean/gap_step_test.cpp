@@ -6,6 +6,7 @@
 
 #include "kinemend/clean.hpp"
 #include "kinemend/lab/synth.hpp"
+#include "kinemend/methods.hpp"
 #include "kinemend/take.hpp"
 #include "registry/marker_takes.hpp"
 #include "registry/takes.hpp"
