@@ -73,8 +73,8 @@ struct SourceText {
 
 /// Returns the text without white space at either end.
 std::string_view without_spaces_around(std::string_view text);
-/// Notes a repair of a file without lines, `count` times; throws `ErrorKind::quality_limit` when the
-/// reading is strict.
+/// Notes a repair of a file without lines, `count` times; throws `ErrorKind::quality_limit` when
+/// the reading is strict.
 void note_repair(std::string_view file, bool strict, Diagnostics& diagnostics,
                  std::string_view kind, std::string_view message, std::size_t count = 1);
 
