@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "kinemend/extend/figures.hpp"
 #include "kinemend/extend/model.hpp"
 #include "kinemend/extend/motion.hpp"
 #include "kinemend/methods.hpp"

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "kinemend/extend/figures.hpp"
 #include "kinemend/extend/motion.hpp"
 #include "methods/auto/track_cleaning.hpp"
 #include "methods/auto/track_vectors.hpp"

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <functional>
 
+#include "kinemend/extend/figures.hpp"
+#include "kinemend/extend/method_options.hpp"
 #include "lou.hpp"
 #include "papers/lou2010_example/example.hpp"
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "kinemend/extend/figures.hpp"
 #include "kinemend/live.hpp"
 #include "page.hpp"
 

@@ -2,6 +2,7 @@
 // against the share of outliers (figure 7).
 #include <algorithm>
 
+#include "kinemend/extend/figures.hpp"
 #include "lou.hpp"
 
 namespace kinemend::papers {

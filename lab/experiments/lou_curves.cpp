@@ -2,6 +2,8 @@
 // of a knee and of the thorax, for training walks, a damaged walk and its filtered versions.
 #include <memory>
 
+#include "kinemend/extend/figures.hpp"
+#include "kinemend/extend/method_options.hpp"
 #include "lou.hpp"
 
 namespace kinemend::papers {

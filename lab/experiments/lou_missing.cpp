@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "kinemend/extend/method_options.hpp"
 #include "kinemend/extend/motion.hpp"
 #include "lou.hpp"
 

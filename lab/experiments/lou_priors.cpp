@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <set>
 
+#include "kinemend/extend/figures.hpp"
+#include "kinemend/extend/method_options.hpp"
 #include "lou.hpp"
 
 namespace kinemend::papers {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinemend/extend/figures.hpp"
+#include "kinemend/extend/method_options.hpp"
 #include "kinemend/take.hpp"
 #include "lou.hpp"
 

@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 
+#include "kinemend/extend/figures.hpp"
 #include "page.hpp"
 #include "quality/lower_rate.hpp"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "kinemend/extend/figures.hpp"
 #include "kinemend/extend/rotation.hpp"
 #include "kinemend/fill.hpp"
 #include "mall_networks.hpp"

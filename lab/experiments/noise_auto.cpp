@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "kinemend/extend/figures.hpp"
 #include "page.hpp"
 #include "quality/lower_rate.hpp"
 

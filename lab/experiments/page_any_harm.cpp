@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "compared.hpp"
+#include "kinemend/extend/figures.hpp"
 #include "kinemend/extend/rotation.hpp"
 #include "page.hpp"
 

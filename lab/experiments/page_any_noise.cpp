@@ -8,6 +8,7 @@
 #include "base/quantiles.hpp"
 #include "compared.hpp"
 #include "kept_takes.hpp"
+#include "kinemend/extend/figures.hpp"
 #include "noise_kinds.hpp"
 #include "page.hpp"
 #include "quality/lower_rate.hpp"

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "kinemend/extend/figures.hpp"
 #include "kinemend/extend/method_options.hpp"
 #include "kinemend/extend/motion.hpp"
 #include "page.hpp"

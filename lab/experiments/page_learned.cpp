@@ -4,6 +4,7 @@
 #include <memory>
 #include <set>
 
+#include "kinemend/extend/figures.hpp"
 #include "kinemend/extend/method_options.hpp"
 #include "kinemend/extend/model.hpp"
 #include "kinemend/lab/train.hpp"

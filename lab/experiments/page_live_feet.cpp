@@ -2,6 +2,7 @@
 #include <array>
 
 #include "feet/live_feet.hpp"
+#include "kinemend/extend/figures.hpp"
 #include "kinemend/feet.hpp"
 #include "kinemend/methods.hpp"
 #include "live_takes.hpp"

@@ -5,6 +5,7 @@
 #include <functional>
 #include <set>
 
+#include "kinemend/extend/figures.hpp"
 #include "kinemend/extend/motion.hpp"
 #include "page.hpp"
 #include "quality/lower_rate.hpp"

@@ -8,6 +8,7 @@
 #include "camera_pairs.hpp"
 #include "clean_worlds.hpp"
 #include "kept_takes.hpp"
+#include "kinemend/extend/figures.hpp"
 #include "marker_noise.hpp"
 #include "noise_kinds.hpp"
 #include "page.hpp"

@@ -2,6 +2,7 @@
 // part, on a second of the paper's own sequences, with the default loss and lambda.
 #include <utility>
 
+#include "kinemend/extend/method_options.hpp"
 #include "papers/xiao2015_sparse/sparse.hpp"
 #include "xiao.hpp"
 

@@ -3,6 +3,7 @@
 #include "xiao_methods.hpp"
 
 #include <algorithm>
+#include "kinemend/extend/method_options.hpp"
 
 namespace kinemend::papers {
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "kinemend/extend/figures.hpp"
 #include "xiao_methods.hpp"
 
 namespace kinemend::papers {

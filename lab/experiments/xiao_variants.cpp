@@ -2,6 +2,7 @@
 // time), figure 9 (training on one action or on all) and figure 10 (M, K and lambda).
 #include <ctime>
 
+#include "kinemend/extend/method_options.hpp"
 #include "xiao.hpp"
 
 namespace kinemend::papers {
