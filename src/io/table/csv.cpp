@@ -133,7 +133,7 @@ std::string label(const std::string& name, std::string_view part) {
   if (name.find_first_of("\r\n") != name.npos) {
     throw Error(ErrorKind::usage, fmt::format("CSV cannot hold the name {}", quote(name)));
   }
-  const std::string text = name + "_" + std::string(part);
+  std::string text = name + "_" + std::string(part);
   const bool plain = text.find_first_of(",;\t\"#") == text.npos && !is_space(text.front());
   if (plain) return text;
   std::string quoted(1, '"');
