@@ -1,5 +1,7 @@
 // A small HTTP/1.1 server on 127.0.0.1 for pages of the program. It limits the memory and time that
-// a client can use.
+// a client can use. Debian's cpp-httplib (0.11.4) does not: it has no deadline for a whole request,
+// no limit on the length of the first line or the number of headers, and it accepts malformed
+// heads.
 #pragma once
 
 #include <chrono>

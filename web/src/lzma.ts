@@ -1,4 +1,4 @@
-// Unpacks files of `xz --format=lzma`, which are a quarter smaller than the formats that browsers unpack. Names follow the decoder section of Igor
+// Unpacks files of `xz --format=lzma`, which are 13 % smaller than what browsers unpack by themselves. Names follow the decoder section of Igor
 // Pavlov's LZMA specification.
 
 const bitsOfModel = 11;
