@@ -391,7 +391,6 @@ void draw(Svg& svg, const Axes& axes, const std::vector<double>& hertz,
 
 void draw_scales(Svg& svg, const Axes& axes) {
   svg.open_group(fmt::format("font-size=\"11\" fill=\"{}\"", inks::quiet));
-  const double bottom = axes.top + axes.height;
   const double every = std::max(1.0, std::ceil((axes.high - axes.low) / 6));
   for (double power = axes.low; power <= axes.high; power += every) {
     const double y = axes.y(portable::pow(10.0, power));
@@ -400,7 +399,8 @@ void draw_scales(Svg& svg, const Axes& axes) {
   }
   const double step = std::max(1.0, std::round(axes.most_hz / 8));
   for (double hertz = 0; hertz <= axes.most_hz; hertz += step)
-    svg.text(axes.x(hertz), bottom + 15, "text-anchor=\"middle\"", fmt::format("{:.0f} Hz", hertz));
+    svg.text(axes.x(hertz), axes.top + axes.height + 15, "text-anchor=\"middle\"",
+             fmt::format("{:.0f} Hz", hertz));
   svg.close_group();
 }
 
