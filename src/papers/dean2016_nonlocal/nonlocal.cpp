@@ -298,7 +298,8 @@ class NonlocalCleaner final : public OptionedCleaner<NonlocalOptions> {
   explicit NonlocalCleaner(const NonlocalOptions& options)
       : OptionedCleaner("nonlocal", nonlocal_table(), options) {
     if (options.causal && options.window_s == 0) {
-      throw Error(ErrorKind::usage, "window_s: 0 (the whole take) is not to be had with causal");
+      throw Error(ErrorKind::usage,
+                  "window_s: 0 means the whole take, and causal needs a window of the past");
     }
   }
 
