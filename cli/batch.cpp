@@ -440,7 +440,8 @@ void plan_steps(const Arguments& arguments, CleanPlan& plan) {
     throw Error(ErrorKind::usage,
                 "batch: --no-clean cannot be combined with --method or its "
                 "options");
-  if (!plan.settings.fill && !plan.settings.feet && !plan.settings.fix_swaps && plan.to == nullptr)
+  const bool holds_feet = plan.settings.feet && plan.settings.feet->mode != FeetMode::by_source;
+  if (!plan.settings.fill && !holds_feet && !plan.settings.fix_swaps && plan.to == nullptr)
     throw Error(ErrorKind::usage,
                 "batch: --no-clean leaves nothing to do; add --fill auto, --feet auto, --fix-swaps "
                 "or --to FORMAT");

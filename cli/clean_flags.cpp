@@ -111,8 +111,9 @@ std::vector<Flag> cleaning_flags() {
       fill_flag(),
       setting_flag("fill_all", "Cleaning"),
       setting_flag("feet", "Cleaning",
-                   "auto keeps intentional slides; force holds every foot that stands. For joints; "
-                   "it moves the legs and lowers the root. --map FILE gives unknown names of feet, "
+                   "auto keeps intentional slides; force holds every foot that stands. By default "
+                   "feet are held if --source, or the file, says video, depth or suit. For joints; "
+                   "it moves the legs and the root. --map FILE gives unknown names of feet, "
                    "in lines KNOWN NAME,NAME IN THE TAKE."),
       setting_flag("fix_swaps", "Cleaning", "kinemend check lists them. For markers."),
       setting_flag("peak_loss_limit", "Cleaning",

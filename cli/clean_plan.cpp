@@ -82,8 +82,8 @@ bool has_option(const Method& method, std::string_view name) {
 /// --map names the parts of a learned model and the feet of --feet. With a method that has no such
 /// option, it concerns only the feet.
 bool map_is_of_feet(const Arguments& arguments, const Settings& settings, const Method& method) {
-  const bool has_feet = std::get<std::string>(settings.values.find("feet")->second) != "off" ||
-                        arguments.given("contacts");
+  const std::string& feet = std::get<std::string>(settings.values.find("feet")->second);
+  const bool has_feet = feet == "auto" || feet == "force" || arguments.given("contacts");
   return has_feet && !has_option(method, "map") && arguments.group_texts.count("map") > 0;
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "commands.hpp"
@@ -25,9 +27,48 @@ Take take_of_joints(const std::string& input, const ReadOptions& options) {
                   input_name(input)));
 }
 
+std::vector<NamedCurve> curves_of(const FeetReport& report, const Take& clip) {
+  std::vector<NamedCurve> curves;
+  std::vector<std::vector<double>> values = contact_curves(report, clip.frame_count());
+  for (std::size_t l = 0; l < values.size(); ++l)
+    curves.push_back({contact_curve_name(report.sides[l]), std::move(values[l])});
+  return curves;
+}
+
+// A row for each frame: its number, its time from the first, and whether each foot stands.
+std::string curves_csv(const Take& clip, const std::vector<NamedCurve>& curves) {
+  std::string text = "frame,time_s";
+  for (const NamedCurve& curve : curves) text += "," + curve.name;
+  text += "\n";
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    text += fmt::format("{},{:.6g}", frame_number(f, first_frame_number(clip)),
+                        static_cast<double>(f) / clip.frame_rate_hz);
+    for (const NamedCurve& curve : curves) text += fmt::format(",{:g}", curve.values[f]);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string json_of_contacts(const Take& clip, const FeetReport& report, const std::string& input,
+                             const std::string& output) {
+  Report about{take_facts(clip), report};
+  about.take.input = input;
+  about.take.output = output;
+  const std::vector<std::string> takes = {to_json(about)};
+  return report_document("contacts", takes);
+}
+
+std::string contents_of(const std::string& to, const Take& clip, const FeetReport& report,
+                        const std::string& input, const std::string& output) {
+  if (to == "csv") return curves_csv(clip, curves_of(report, clip));
+  if (to == "json") return json_of_contacts(clip, report, input, output);
+  if (to == "fbx" || to == "glb") return write_with_curves(clip, to, curves_of(report, clip));
+  return contacts_text(clip, report);
+}
+
 int run_contacts(const Arguments& arguments) {
   const std::string input = arguments.positionals.front();
-  std::string output = arguments.text("output");
+  const std::string output = arguments.text("output"), to = arguments.text("to");
   const bool json = arguments.flag("json"), force = arguments.flag("force");
   const std::string map = arguments.text("map");
   RunFiles()
@@ -36,6 +77,8 @@ int run_contacts(const Arguments& arguments) {
       .reads("--asf", arguments.text("asf"))
       .writes("--output", output)
       .check(json);
+  if (output.empty() && (to == "fbx" || to == "glb"))
+    throw Error(ErrorKind::usage, fmt::format("contacts: --to {} needs --output", to));
   if (!output.empty()) check_free(output, force);
   const Take clip = take_of_joints(input, read_options(arguments));
   Take copy = clip;
@@ -48,17 +91,12 @@ int run_contacts(const Arguments& arguments) {
   }
   for (const std::string& warning : report.warnings)
     say_warning(fmt::format("{}: {}", input_name(input), warning));
-  const std::string text = contacts_text(clip, report);
-  if (!output.empty()) write_output(output, text, force);
-  if (json) {
-    Report about{take_facts(clip), report};
-    about.take.input = input;
-    about.take.output = output;
-    const std::vector<std::string> takes = {to_json(about)};
-    write_out(report_document("contacts", takes));
-  } else if (output.empty()) {
-    write_out(text);
-  }
+  const std::string contents = contents_of(to, clip, report, input, output);
+  if (!output.empty()) write_output(output, contents, force);
+  if (json)
+    write_out(json_of_contacts(clip, report, input, output));
+  else if (output.empty())
+    write_out(contents);
   return 0;
 }
 
@@ -70,17 +108,26 @@ Command contacts_command() {
   command.summary = "list ground contacts of the feet, as a file to edit";
   command.description =
       "Finds the ground contacts of heels and toes and writes one a line: SIDE PART FIRST LAST, as "
-      "in left heel 12 40, with frames as the file numbers them. # starts a comment. A slide that "
+      "in left heel 12 40, with frames as the file numbers them. # starts a comment: how likely "
+      "the "
+      "foot stands, 0 to 1. A slide that "
       "clean --feet auto would keep as intentional is written as a comment with the reason. Edit "
       "the file and give it to clean with --contacts, which holds every contact listed.";
   command.positionals = {{"IN", "take of joints; - is standard input", 1, 1, {}}};
-  command.flags = {output_flag("where to write; default: standard output"), force_flag(),
-                   json_flag("print the contacts as JSON instead of text"), map_flag()};
+  command.flags = {
+      choice_flag("to", "Output", "what to write", {"text", "csv", "json", "fbx", "glb"}, "text",
+                  "csv: contact_l and contact_r for each frame, 1 where the foot "
+                  "stands. fbx, glb: the joints with these as curves, for an engine. "
+                  "json: a report."),
+      output_flag("where to write; default: standard output"), force_flag(),
+      json_flag("print the contacts as JSON instead of text"), map_flag()};
   append(command.flags, reading_flags());
   command.examples = {
       {"kinemend contacts dance.bvh -o dance.contacts", "to look at and edit"},
       {"kinemend contacts rig.bvh --map names.csv -o rig.contacts",
        "names of feet that the program does not know"},
+      {"kinemend contacts walk.bvh --to fbx -o walk_contacts.fbx",
+       "curves contact_l and contact_r for motion matching and foot locking"},
       {"kinemend clean dance.bvh --contacts dance.contacts", "hold the listed contacts"}};
   command.run = run_contacts;
   return command;

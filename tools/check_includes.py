@@ -18,7 +18,7 @@ USES = {
     "nn": {"base"},
     "metrics": {"motion", "signal"},
     "fill": {"motion", "signal"},
-    "feet": {"motion", "metrics"},
+    "feet": {"motion", "metrics", "models"},
     "cleaner": {"fill", "body", "metrics"},
     "models": {"body", "nn"},
     "methods/auto": {"cleaner"},
@@ -41,7 +41,7 @@ USES = {
     "lab/damage": {"motion"},
     "lab/synthesis": {"motion"},
     "lab/training": {"registry"},
-    "lab/samples": {"lab/training", "lab/damage", "methods/learned"},
+    "lab/samples": {"lab/training", "lab/damage", "methods/learned", "clean"},
 }
 
 # The room of every public header.

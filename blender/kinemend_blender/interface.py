@@ -53,8 +53,8 @@ class KINEMEND_Settings(bpy.types.PropertyGroup):
     use_range: BoolProperty(name="Frame range", description="Change these frames only")
     first: IntProperty(name="First", default=1)
     last: IntProperty(name="Last", default=250)
-    feet: EnumProperty(name="Feet", default="off", items=[
-        ("off", "Off", "Feet are left"), ("auto", "Auto", "Slides of standing feet that are errors are removed"),
+    feet: EnumProperty(name="Feet", default="by-source", items=[
+        ("by-source", "By source", "As auto if the source is video, a depth camera or a suit"), ("off", "Off", "Feet are left"), ("auto", "Auto", "Slides of standing feet that are errors are removed"),
         ("force", "Force", "Every standing foot is held")])
     root_position: BoolProperty(name="Root position", default=True, description="Also clean the root's path")
 

@@ -67,6 +67,7 @@ struct CleanSettings {
   /// own list of names must be empty.
   std::optional<FillSettings> fill;
   /// Stops feet in contact from sliding, as the last step; if it is not set, feet are not changed.
+  /// `FeetMode::by_source`, the default of the program, leaves that to the source of the take.
   /// A leg keeps its slide unless all its joints are selected. Contacts are given in frames of the
   /// whole take. Markers are measured points and are not moved; a warning says so.
   std::optional<FeetSettings> feet;
@@ -80,8 +81,8 @@ struct CleanSettings {
 };
 
 /// The settings that are single values, each with its range, default and one sentence: command
-/// line, configuration files, Python and the page follow from this table. `fill` and `feet` are
-/// "off" or how it is done; `max_change` 0 is no limit.
+/// line, configuration files, Python and the page follow from this table. `fill` is
+/// "off" or how it is done, `feet` also "by-source", the default; `max_change` 0 is no limit.
 const std::vector<OptionSpec>& clean_options();
 /// Returns one of them. Errors: `ErrorKind::usage` for another name.
 const OptionSpec& clean_option(std::string_view name);

@@ -39,10 +39,24 @@ struct FootContact {
   FootPart part = FootPart::heel;
   std::size_t first_frame = 0;
   std::size_t last_frame = 0;  ///< inclusive
-  friend bool operator==(const FootContact&, const FootContact&) = default;
+  double confidence = 1;       ///< how likely it is (0..1); 1 for contacts that were given
+  /// The same part and frames, whatever the confidence.
+  friend bool operator==(const FootContact& a, const FootContact& b) {
+    return a.leg == b.leg && a.part == b.part && a.first_frame == b.first_frame &&
+           a.last_frame == b.last_frame;
+  }
+};
+
+/// How contacts are found.
+enum class ContactFinder : std::uint8_t {
+  /// A network on the motion of the whole body. Where no model ships, and below 12 Hz, as
+  /// `thresholds`.
+  model,
+  thresholds  ///< heights and speeds of heels and toes, which suffices for clean takes
 };
 
 struct ContactSettings {
+  ContactFinder finder = ContactFinder::model;
   /// A part comes down when it is lower than `begin_height` and slower than `begin_speed`, and
   /// stays down while below `keep_height` and `keep_speed` (body heights above its level; body
   /// heights per second). When the body moves faster than 1.2 body heights per second, as in
@@ -70,6 +84,9 @@ std::vector<FootContact> parse_contacts(std::string_view text, std::string_view 
 
 enum class FeetMode : std::uint8_t {
   off,
+  /// In `clean_take`: automatic in takes of joints of a source with slow errors
+  /// (`expects_slow_noise`), else off. Elsewhere: automatic.
+  by_source,
   automatic,  ///< contacts whose slide is an error; an intentional slide is kept
   force       ///< every contact
 };
@@ -95,8 +112,21 @@ struct FeetFigures {
   double knee_pop_deg = 0;  ///< largest second difference of a knee's angle
 };
 
+/// Times in which feet stand, summed over feet, seconds, and how they move then.
+struct StandingTime {
+  /// The sum of the likelihoods that a foot stands on its heel or toe; without a model, the time
+  /// found.
+  double expected_s = 0;
+  double found_s = 0;     ///< in contacts
+  double held_s = 0;      ///< in contacts whose slide was removed
+  double still_s = 0;     ///< in contacts that had no slide to remove
+  double confidence = 0;  ///< mean over the time found (0..1)
+};
+
 struct FeetReport {
-  std::vector<std::string> sides;     ///< sides of the legs
+  std::vector<std::string> sides;  ///< sides of the legs
+  double frame_rate_hz = 0;
+  StandingTime time;
   double metres_per_unit = 0;         ///< scale of the figures, stated or guessed; 0 if unknown
   std::vector<FootContact> contacts;  ///< all
   std::vector<std::uint8_t> held;     ///< one per contact, 1 if the slide was removed
@@ -117,6 +147,11 @@ FeetReport clean_feet(Take& clip, const FeetSettings& settings = {});
 
 /// Returns the figures of a clip for given contacts. Errors: `ErrorKind::usage` as above.
 FeetFigures feet_figures(const Take& clip, const std::vector<FootContact>& contacts);
+
+/// Returns, for each leg, the frames in which it stands on its heel or toe: 1 or 0, F numbers.
+std::vector<std::vector<double>> contact_curves(const FeetReport& report, std::size_t frames);
+/// Returns the name of a leg's curve: contact_l, contact_r, or contact_ and the leg's side.
+std::string contact_curve_name(std::string_view side);
 
 /// Returns contacts as text; contacts that were not held are comments with the reason. Contacts
 /// without slide are listed like those that were held.

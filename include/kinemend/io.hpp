@@ -68,6 +68,17 @@ TakeResult read_joints(std::string bytes, std::string_view name, const ReadOptio
 /// a plain layout. Errors: `usage` when the format cannot hold the clip. Markers: a missing sample
 /// is written as the format defines it, and points that are not positions are written to C3D only.
 std::string write_take(const Take& take, std::string_view format = {});
+/// One number per frame, such as the contact of a foot, for an engine.
+struct NamedCurve {
+  std::string name;            ///< "contact_l"
+  std::vector<double> values;  ///< F
+};
+/// Returns a new file of joints and their motion with these curves: in FBX animated properties of
+/// the first joint, in GLB `extras.curves` of the animation, at the times of its keys. The mesh and
+/// everything else of a source are left out. Errors: `usage` for another format, a take of markers,
+/// and a curve of another length.
+std::string write_with_curves(const Take& take, std::string_view format,
+                              std::span<const NamedCurve> curves);
 /// Lists the data that `write_take` loses when it writes the take in `format`: analog samples,
 /// force plates, events, subjects, parameters, rotations. Empty if nothing is lost. Names are
 /// stable (`not_kept`). Errors: `usage` for an unknown format.

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "kinemend/error.hpp"
+#include "kinemend/feet.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "kinemend/take.hpp"
@@ -73,6 +74,13 @@ inline NamedTake load_take(const Arguments& arguments, const std::string& file,
             slice(clip, leading_calibration_frames(clip), clip.frame_count())};
   }
   return {"synthetic " + otherwise.motion, synthesize(otherwise)};
+}
+
+/// The contacts of a clean take by thresholds, which are the truth of tables.
+inline std::vector<FootContact> true_contacts(const Take& truth) {
+  ContactSettings settings;
+  settings.finder = ContactFinder::thresholds;
+  return find_contacts(truth, settings);
 }
 
 /// Every step-th frame of a part of the clip.

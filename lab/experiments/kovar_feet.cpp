@@ -29,6 +29,13 @@ const std::vector<std::string>& dances() {
   return names;
 }
 
+// As `clean` finds contacts in takes without noise.
+FeetSettings by_thresholds() {
+  FeetSettings settings;
+  settings.contact.finder = ContactFinder::thresholds;
+  return settings;
+}
+
 std::size_t count_held(const FeetReport& report) {
   return static_cast<std::size_t>(std::count(report.held.begin(), report.held.end(), 1));
 }
@@ -130,7 +137,7 @@ void after_cleaning(const Arguments& arguments, const std::string& group,
     Pops pops;
     for (const std::string& name : names) {
       const Take truth = load_take(arguments, name + ".bvh", {}).clip;
-      const std::vector<FootContact> contacts = find_contacts(truth);
+      const std::vector<FootContact> contacts = true_contacts(truth);
       Take noisy = truth;
       Random random(2002);
       apply_damage(noisy, "gaussian", {{"std_deg", 1.0}}, random);
@@ -165,11 +172,11 @@ void as_recorded(const Arguments& arguments, std::vector<NamedPops>& all_pops) {
     Pops pops, forced;
     for (const std::string& name : names) {
       Take clip = load_take(arguments, name + ".bvh", {}).clip;
-      FeetSettings force;
+      FeetSettings force = by_thresholds();
       force.mode = FeetMode::force;
       Take copy = clip;
       const FeetFigures by_force = clean_feet(copy, force).after;
-      const FeetReport report = clean_feet(clip);
+      const FeetReport report = clean_feet(clip, by_thresholds());
       pops.add(name, report.before.knee_pop_deg, report.before.knee_pop_deg,
                report.after.knee_pop_deg);
       forced.add(name, report.before.knee_pop_deg, report.before.knee_pop_deg,
@@ -213,7 +220,7 @@ void survey(const Arguments& arguments, std::vector<NamedPops>& all_pops) {
     const Take clip = load_take(arguments, name + ".bvh", {}).clip;
     for (const FeetMode mode : {FeetMode::automatic, FeetMode::force}) {
       Take copy = clip;
-      FeetSettings settings;
+      FeetSettings settings = by_thresholds();
       settings.mode = mode;
       const FeetReport report = clean_feet(copy, settings);
       (mode == FeetMode::force ? forced : pops)
@@ -263,7 +270,7 @@ void pairs(const Arguments& arguments, std::vector<NamedPops>& all_pops) {
   std::vector<FeetPair> all = pairs_of(arguments);
   for (auto& [name, raw, fixed] : all) {
     FeetSettings settings;
-    settings.contacts = find_contacts(fixed);
+    settings.contacts = true_contacts(fixed);
     const FeetFigures theirs = feet_figures(fixed, *settings.contacts);
     const FeetReport report = clean_feet(raw, settings);
     const double cm = 100 * report.metres_per_unit;

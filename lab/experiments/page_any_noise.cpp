@@ -25,7 +25,7 @@ double gaussian_error(const Take& truth, const Take& clip, double width_s) {
   return rms_deg(truth, cleaned(clip, "gaussian", {{"width_s", width_s}}));
 }
 
-double best_gaussian(const Take& truth, const Take& clip) {
+double least_gaussian_error(const Take& truth, const Take& clip) {
   double best = rms_deg(truth, clip);
   for (const double width_s :
        {0.006, 0.009, 0.013, 0.018, 0.025, 0.035, 0.045, 0.058, 0.08, 0.11, 0.16})
@@ -36,7 +36,7 @@ double best_gaussian(const Take& truth, const Take& clip) {
 struct AnyNoiseKind {
   std::string name;
   std::function<Take(const Take&, std::uint64_t)> damage;
-  std::function<double(const Take&, const Take&)> measure = best_gaussian;
+  std::function<double(const Take&, const Take&)> measure = least_gaussian_error;
 };
 
 std::vector<AnyNoiseKind> any_noise_kinds() {

@@ -56,7 +56,7 @@ std::vector<std::string> hold_outs(const Arguments& arguments) {
   return names;
 }
 
-double best_gaussian(const Take& truth, const Take& clip) {
+double best_gaussian_error(const Take& truth, const Take& clip) {
   double best = 1e300;
   for (const double width_s :
        {0.006, 0.009, 0.013, 0.018, 0.025, 0.035, 0.045, 0.058, 0.08, 0.11, 0.16})
@@ -79,7 +79,7 @@ void shares_of_gaussian(const Arguments& arguments, const std::string& file,
       const Take truth = load_take(arguments, name + ".bvh", {.motion = name}).clip;
       const Take clip = n == 2 ? damaged(truth, "gaussian-channels", {{"k", 0.5}}, 3)
                                : noisy(truth, n == 0 ? 1 : 4, n == 0 ? 0 : 0.004, 3);
-      const double gaussian = best_gaussian(truth, clip);
+      const double gaussian = best_gaussian_error(truth, clip);
       for (std::size_t m = 0; m < 2; ++m) {
         const double share =
             rms_deg(truth, clean_take(clip, m == 0 ? *automatic : *wiener).take) / gaussian;

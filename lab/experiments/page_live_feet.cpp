@@ -46,7 +46,7 @@ void live_feet(const Arguments& arguments) {
     for (const Cleaner* method : std::array<const Cleaner*, 2>{cleaner.get(), learned.get()}) {
       FeetSums off, on;
       for (const Take& truth : truths) {
-        const auto contacts = find_contacts(truth);
+        const auto contacts = true_contacts(truth);
         const Take came = noise == std::string("none") ? truth
                           : noise == std::string("white")
                               ? noisy(truth, 1.5, 0, 1)

@@ -16,7 +16,7 @@ struct XiaoVariant {
   bool is_local = false;  // uses a model in the paper's coordinates
 };
 
-const std::vector<XiaoNoise> noises{
+const std::vector<XiaoNoise> ablation_noises{
     {"40 dB", 40, 0}, {"20 dB", 20, 0}, {"10 %", 0, 0.10}, {"mixed", 20, 0.10}};
 const std::vector<XiaoNoise> quick_noises{{"20 dB", 20, 0}, {"10 %", 0, 0.10}};
 
@@ -57,7 +57,7 @@ void xiao_ablation(const Arguments& arguments) {
     const auto local_model = xiao_model("sparse", group.training, local);
     for (const XiaoVariant& v : xiao_variants()) {
       const auto cleaner = make_tuned_sparse(v.options, v.is_local ? local_model : model, v.tuning);
-      for (const XiaoNoise& noise : arguments.quick ? quick_noises : noises) {
+      for (const XiaoNoise& noise : arguments.quick ? quick_noises : ablation_noises) {
         const Take truth = slice(group.tests.front(), 0, 120);
         const double error = xiao_error(*cleaner, truth, xiao_noise(truth, noise, 1)).mean;
         table.add({group.name, v.name, noise.name, fmt::format("{:.3f}", 100 * error)});

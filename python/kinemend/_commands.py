@@ -82,7 +82,7 @@ def clean(
     fill: str | None = None,
     fill_all: bool = False,
     unlabelled: bool = False,
-    feet: Literal["auto", "force"] | None = None,
+    feet: Literal["by-source", "off", "auto", "force"] = "by-source",
     feet_names: Mapping[str, str] | None = None,
     contacts: Sequence[Contact] | None = None,
     fix_swaps: bool = False,
@@ -129,8 +129,9 @@ def clean(
         Fill gaps that the rules of the method refuse, too.
     unlabelled : bool, default False
         Fill unlabelled markers, too.
-    feet : {"auto", "force"}, optional
-        Also stop standing feet from sliding: where the slide is an error, or everywhere.
+    feet : {"by-source", "off", "auto", "force"}, default "by-source"
+        Also stop standing feet from sliding: where the slide is an error, or everywhere. By source:
+        where the slide is an error, in takes of video, depth cameras and suits.
     feet_names : mapping, optional
         Known names of feet to names in the take: {"LeftFoot": "bone_17"}.
     contacts : list of Contact, optional
@@ -184,7 +185,7 @@ def clean(
         "fill": "off" if fill is None else fill,
         "fill_all": bool(fill_all),
         "unlabelled": bool(unlabelled),
-        "feet": "off" if feet is None else feet,
+        "feet": feet,
         "fix_swaps": bool(fix_swaps),
     }
     cleaned, report = _core.clean(

@@ -180,6 +180,36 @@ class Subject(Shown):
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
+class StandingTime(Shown):
+    """Seconds in which feet stand, summed over feet.
+
+    Attributes
+    ----------
+    expected_s : float
+        The sum of the likelihoods that a foot stands.
+    found_s : float
+        In contacts.
+    held_s : float
+        In contacts whose slide was taken out.
+    still_s : float
+        In contacts that had no slide.
+    confidence : float
+        Mean over the time found.
+    """
+
+    expected_s: float
+    found_s: float
+    held_s: float
+    still_s: float
+    confidence: float
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> StandingTime:
+        """The same from a JSON object. Raises TypeError for a key that there is not."""
+        return cls(**data)
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
 class FeetFigures(Shown):
     """How feet stand.
 
@@ -219,6 +249,8 @@ class Contact(Shown):
         As the file counts.
     last_frame : int
         Inclusive.
+    confidence : float
+        How likely the part stands.
     held : bool
         Whether the slide was taken out.
     reason : str or None
@@ -229,6 +261,7 @@ class Contact(Shown):
     part: Literal["heel", "toe"]
     first_frame: int
     last_frame: int
+    confidence: float
     held: bool
     reason: str | None
 
@@ -246,6 +279,7 @@ class Feet(Shown):
     ----------
     metres_per_unit : float or None
         Of the figures; null where it is not known.
+    time : StandingTime
     held : int
         Contacts whose slide was taken out.
     frames_adjusted : int
@@ -257,6 +291,7 @@ class Feet(Shown):
     """
 
     metres_per_unit: float | None
+    time: StandingTime
     held: int
     frames_adjusted: int
     before: FeetFigures | None
@@ -267,6 +302,8 @@ class Feet(Shown):
     def from_dict(cls, data: Mapping[str, Any]) -> Feet:
         """The same from a JSON object. Raises TypeError for a key that there is not."""
         values = dict(data)
+        if data.get("time") is not None:
+            values["time"] = StandingTime.from_dict(data["time"])
         if data.get("before") is not None:
             values["before"] = FeetFigures.from_dict(data["before"])
         if data.get("after") is not None:

@@ -350,6 +350,16 @@ void warn_of_feet(const CleanSettings& settings, CleanReport& report) {
       "joints");
 }
 
+// Settings in which the source of the take has decided whether feet are held.
+CleanSettings with_feet_by_source(CleanSettings settings, const Take& take, Source source) {
+  if (!settings.feet || settings.feet->mode != FeetMode::by_source) return settings;
+  if (take.has_joints() && (expects_slow_noise(source) || settings.feet->contacts))
+    settings.feet->mode = FeetMode::automatic;
+  else
+    settings.feet.reset();
+  return settings;
+}
+
 // Changes below rounding are ignored; the limit follows from the size of the body.
 Work work_of(const Take& take, const CleanSettings& settings, const CleanReport& report) {
   // Not swept.
@@ -380,8 +390,10 @@ CleanResult clean_take(const Take& take, const Cleaner& cleaner, const CleanSett
   return clean_take(Take(take), cleaner, settings);
 }
 
-CleanResult clean_take(Take&& take, const Cleaner& cleaner, const CleanSettings& settings) {
-  check_settings(settings, take.frame_count());
+CleanResult clean_take(Take&& take, const Cleaner& cleaner, const CleanSettings& wanted) {
+  check_settings(wanted, take.frame_count());
+  const CleanSettings settings =
+      with_feet_by_source(wanted, take, source_of(take, wanted.source).source);
   std::vector<MarkerSwap> swaps = undo_found_swaps(take, settings);
   mark_gaps(take, settings.gaps);
   std::vector<Leftover> leftovers = leftovers_beyond_cleaning(take, settings);

@@ -178,9 +178,10 @@ std::vector<Leftover> reasons_unchanged(const Take& take, const CleanSettings& s
         return fmt::format("{} of standing feet left, {} at most", counted(found.count, "slide"),
                            found.worst);
       },
-      !is_joints      ? "markers are measured points and are not moved to hold feet"
-      : settings.feet ? "--feet force also holds intentional slides"
-                      : "--feet auto holds the feet");
+      !is_joints ? "markers are measured points and are not moved to hold feet"
+      : settings.feet && settings.feet->mode != FeetMode::off
+          ? "--feet force also holds intentional slides"
+          : "--feet auto holds the feet");
   add(
       FindingKind::sink,
       [](const Found& found) {

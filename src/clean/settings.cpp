@@ -26,7 +26,7 @@ struct SingleValues {
   std::string fill = "off";
   bool fill_all = FillSettings{}.fill_all;
   bool unlabelled = FillSettings{}.unlabelled;
-  std::string feet = "off";
+  std::string feet = "by-source";
   bool fix_swaps = CleanSettings{}.fix_swaps;
   double peak_loss_limit = CleanSettings{}.peak_loss_limit;
   bool root_position = CleanSettings{}.root_position;
@@ -57,8 +57,9 @@ const OptionTable<SingleValues>& table() {
           .flag(&V::fill_all, "fill_all", "fill every gap, also those that --fill refuses")
           .flag(&V::unlabelled, "unlabelled",
                 "also fill unlabelled points (*52, U_12), and use them")
-          .choice(&V::feet, "feet", {"off", "auto", "force"},
-                  "stop standing feet from sliding, as the last step")
+          .choice(&V::feet, "feet", {"by-source", "off", "auto", "force"},
+                  "stop standing feet from sliding, as the last step; by-source: for sources with "
+                  "slow errors (video, depth, suit)")
           .flag(&V::fix_swaps, "fix_swaps", "undo swapped marker labels first")
           .number(&V::peak_loss_limit, "peak_loss_limit", "", 0, 1,
                   "share of a peak speed that may be lost without a warning")
@@ -78,7 +79,9 @@ std::optional<FillSettings> fill_settings(const SingleValues& values) {
 std::optional<FeetSettings> feet_settings(const SingleValues& values) {
   if (values.feet == "off") return std::nullopt;
   FeetSettings feet;
-  feet.mode = values.feet == "force" ? FeetMode::force : FeetMode::automatic;
+  feet.mode = values.feet == "force"  ? FeetMode::force
+              : values.feet == "auto" ? FeetMode::automatic
+                                      : FeetMode::by_source;
   return feet;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/quantiles.hpp"
 #include "feet/clean_legs.hpp"
 #include "kinemend/methods.hpp"
 
@@ -108,17 +109,43 @@ void state_adjusted(const std::vector<std::uint8_t>& changed, std::size_t width,
   }
 }
 
+bool has_noise_of(const CleanTrace& trace, Space space) {
+  return std::any_of(trace.characters.begin(), trace.characters.end(),
+                     [&](const NoiseCharacter& noise) { return noise.space == space; });
+}
+
+// Returns the error of the joints after cleaning in radians per axis: what the method expects to be
+// left, else the noise that it measured; 0 if there is hardly any.
+double error_of_joints(const InPlaceTrace& trace, std::size_t joints) {
+  constexpr double least_deg = 0.2;  // less moves a foot by less than a rolling one moves
+  std::vector<double> left;
+  for (std::size_t j = 0; j < std::min(joints, trace.left.size()); ++j) {
+    if (trace.left[j] > 0) left.push_back(trace.left[j]);
+  }
+  double error_deg = left.empty() ? 0 : median_of(left);
+  for (const NoiseCharacter& noise : trace.characters) {
+    if (left.empty() && noise.space == Space::rotation) error_deg = noise.strength;
+  }
+  return error_deg > least_deg ? radians_per_degree * error_deg : 0;
+}
+
 }  // namespace
 
 FeetReport feet_step(Take& motion, const Selection& selection, const FeetSettings& settings,
                      std::size_t first, InPlaceTrace& trace) {
   FeetSettings own = settings;
   if (own.contacts) feet::shift_contacts(*own.contacts, first, 0);
-  const bool is_noisy =
-      std::any_of(trace.characters.begin(), trace.characters.end(),
-                  [](const NoiseCharacter& noise) { return noise.space == Space::rotation; });
-  const feet::FeetLimits limits{selection.owners, selection.root_position, selection.translations,
-                                is_noisy};
+  const double error = error_of_joints(trace, motion.joint_count());
+  const bool is_slow = expects_slow_noise(selection.source) && error > 0;
+  const feet::FeetLimits limits{selection.owners,
+                                selection.root_position,
+                                selection.translations,
+                                has_noise_of(trace, Space::rotation) || is_slow,
+                                error,
+                                has_noise_of(trace, Space::position) || is_slow,
+                                is_slow};
+  // Thresholds suffice for a take without noise, and a model would only shift the ends of stands.
+  if (error == 0) own.contact.finder = ContactFinder::thresholds;
   FeetReport report = feet::clean_legs(motion, own, limits);
   const std::size_t joints = motion.joint_count();
   for (std::size_t j = 0; j < joints; ++j)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -26,12 +27,15 @@ class BandedLeastSquares {
   /// `terms`: unknowns in ascending order; those of factor 0 are ignored.
   template <std::size_t count>
   void add(const std::array<Term, count>& terms, double value, double weight) {
-    for (std::size_t a = 0; a < count; ++a) {
+    add(std::span<const Term>(terms), value, weight);
+  }
+  void add(std::span<const Term> terms, double value, double weight) {
+    for (std::size_t a = 0; a < terms.size(); ++a) {
       if (terms[a].factor == 0) continue;
       const double factor = weight * terms[a].factor;
       double* const own = column(terms[a].unknown);
       right_[terms[a].unknown] -= factor * value;
-      for (std::size_t b = a; b < count; ++b) {
+      for (std::size_t b = a; b < terms.size(); ++b) {
         if (terms[b].factor != 0)
           own[terms[b].unknown - terms[a].unknown] += factor * terms[b].factor;
       }

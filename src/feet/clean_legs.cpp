@@ -9,6 +9,8 @@
 #include <string>
 #include <utility>
 
+#include "feet/contact_smoother.hpp"
+#include "feet/floor.hpp"
 #include "feet/leg_motion.hpp"
 #include "feet/leg_solver.hpp"
 #include "kinemend/error.hpp"
@@ -24,9 +26,19 @@ namespace {
 // size is chosen by hand, not swept.
 constexpr double least_shift = 1e-9, noticeable_rest = 0.002;
 constexpr double least_turn_rad = 1e-11;  // rounding
-// The error of the root's place, in body heights, for a radian of error of the joints. Chosen by
-// hand, not swept.
-constexpr double root_share = 0.05;
+// The error of the root's place, in body heights, for a radian of error of the joints: of a root in
+// whose place no noise was found, and of others. Square radians of a joint for a square body height
+// of a part, from the mean squares of the levers, with half of the error in the place itself. Times
+// for which errors stay similar, in seconds, and rounds of Gauss and Newton. Body heights from the
+// common floor within which errors leave standing feet. Chosen on takes that no table uses
+// (docs/details/feet.md).
+constexpr double root_share = 0.05, noisy_root_share = 0.25, squares_per_part = 5;
+constexpr double quick_error_s = 0.05, slow_error_s = 0.2;
+constexpr int rounds = 2;
+// How far an error of a radian of the joints moves a standing foot, in body heights: smoothing
+// removes most of a quick one.
+constexpr double quick_travel = 4, slow_travel = 8;
+constexpr double noisy_close_to_floor = 0.03;
 
 void check_settings(const FeetSettings& settings) {
   feet::check_settings(settings.contact);
@@ -63,10 +75,8 @@ class FeetCleaning {
       report_.after = report_.before;
       return std::move(report_);
     }
-    if (is_noisy_)
-      believe(soles);
-    else
-      hold(soles);
+    if (is_noisy_) estimate_errors(soles);
+    if (holds_exactly()) hold(is_noisy_ ? find_soles(legs_, up_, settings_.contact) : soles);
     report_.after = figures_of(legs_, report_.contacts, up_, offsets);
     return std::move(report_);
   }
@@ -76,6 +86,7 @@ class FeetCleaning {
     found_ = find_legs(clip_.skeleton);
     for (const Leg& leg : found_) report_.sides.push_back(leg.side);
     report_.metres_per_unit = likely_metres_per_unit(clip_);
+    report_.frame_rate_hz = clip_.frame_rate_hz;
     legs_ = leg_motion(clip_, found_);
     if (settings_.contacts) check_contacts(*settings_.contacts, legs_, 0);
     if (found_.empty()) {
@@ -94,8 +105,8 @@ class FeetCleaning {
   }
 
   void find_and_judge(const Soles& soles) {
-    report_.contacts =
-        settings_.contacts ? *settings_.contacts : find_contacts(soles, settings_.contact);
+    FoundContacts found = find_contacts(soles, settings_.contact);
+    report_.contacts = settings_.contacts ? *settings_.contacts : std::move(found.contacts);
     sort_contacts(report_.contacts);
     const std::size_t count = report_.contacts.size();
     if (settings_.contacts || settings_.mode == FeetMode::force) {
@@ -103,7 +114,8 @@ class FeetCleaning {
       report_.still.resize(count);
       report_.reasons.resize(count);
     } else {
-      Verdicts verdicts = judge(soles, legs_, report_.contacts, 100 * report_.metres_per_unit);
+      Verdicts verdicts = judge(soles, legs_, report_.contacts, 100 * report_.metres_per_unit,
+                                (limits_.is_slow ? slow_travel : quick_travel) * limits_.error);
       report_.held = std::move(verdicts.held);
       report_.still = std::move(verdicts.still);
       report_.reasons = std::move(verdicts.reasons);
@@ -115,6 +127,34 @@ class FeetCleaning {
       report_.held[i] = report_.still[i] = 0;
       report_.reasons[i] = "hip, knee and ankle may not all turn";
     }
+    report_.time = standing_time(found.expected_s);
+  }
+
+  StandingTime standing_time(std::optional<double> expected_s) const {
+    const std::size_t frames = legs_.frames;
+    std::vector<std::uint8_t> found(frames * legs_.legs()), held(found.size()), still(found.size());
+    StandingTime time;
+    double parts = 0;
+    for (std::size_t i = 0; i < report_.contacts.size(); ++i) {
+      const FootContact& c = report_.contacts[i];
+      for (std::size_t f = c.first_frame; f <= c.last_frame; ++f) {
+        const std::size_t at = f * legs_.legs() + c.leg;
+        found[at] = 1;
+        held[at] |= report_.held[i];
+        still[at] |= report_.still[i];
+        time.confidence += c.confidence;
+        ++parts;
+      }
+    }
+    const auto seconds = [&](const std::vector<std::uint8_t>& flags) {
+      return static_cast<double>(std::count(flags.begin(), flags.end(), 1)) / legs_.frame_rate_hz;
+    };
+    time.found_s = seconds(found);
+    time.held_s = seconds(held);
+    time.still_s = seconds(still);
+    time.expected_s = expected_s ? *expected_s : time.found_s;
+    if (parts > 0) time.confidence /= parts;
+    return time;
   }
 
   // In a noisy take a foot that hardly moves is as good a measurement as any.
@@ -127,7 +167,7 @@ class FeetCleaning {
     }
   }
 
-  // Puts parts in contact at their places.
+  // Puts parts in contact exactly at their places.
   void hold(const Soles& soles) {
     std::vector<FootTarget> targets = find_targets(soles);
     move(targets);
@@ -135,21 +175,78 @@ class FeetCleaning {
     warn_of_rest(targets);
   }
 
-  // Uses standing feet as measurements of the whole body.
-  void believe(const Soles& soles) {
-    const std::vector<PartCorrection> parts =
-        place_contacts(soles, legs_, report_.contacts, report_.held, settings_.blend_s);
-    const PoseUncertainty uncertainty = this->uncertainty(parts);
-    for_blocks(0, legs_.frames, [&](std::size_t first, std::size_t end) {
-      for (std::size_t f = first; f < end; ++f)
-        apply(f, update_by_contacts(legs_, f, parts, uncertainty));
-    });
-    update_poses(clip_, found_, legs_);
+  // Whether every contact is put at one place. In a noisy take the most likely errors already make
+  // standing feet nearly still, and more would turn joints without need.
+  bool holds_exactly() const {
+    return !is_noisy_ || settings_.contacts || settings_.mode == FeetMode::force;
   }
 
-  PoseUncertainty uncertainty(const std::vector<PartCorrection>& parts) const {
+  // Removes the most likely errors of root and legs, which standing feet show.
+  void estimate_errors(const Soles& soles) {
+    const MotionError error{uncertainty(std::max(limits_.error, joint_deviation(soles))),
+                            limits_.is_slow ? slow_error_s : quick_error_s};
+    ContactSmoother smoother(legs_, up_, standing_parts(soles), error);
+    for (int round = 0; round < rounds; ++round) {
+      const std::vector<PoseUpdate> updates = smoother.step(legs_);
+      for_blocks(0, legs_.frames, [&](std::size_t first, std::size_t end) {
+        for (std::size_t f = first; f < end; ++f) apply(f, updates[f]);
+      });
+      update_poses(clip_, found_, legs_);
+    }
+  }
+
+  Vec3 mean_place(const Soles& soles, const FootContact& c) const {
+    Vec3 sum;
+    for (std::size_t f = c.first_frame; f <= c.last_frame; ++f)
+      sum += soles.body.at(f, Soles::point_of(c));
+    return (1 / static_cast<double>(c.last_frame - c.first_frame + 1)) * sum;
+  }
+
+  // Returns the error of the joints, radians per axis, from the movement of standing feet.
+  double joint_deviation(const Soles& soles) const {
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < report_.contacts.size(); ++i) {
+      const FootContact& c = report_.contacts[i];
+      if (report_.held[i] == 0) continue;
+      const Vec3 place = mean_place(soles, c);
+      for (std::size_t f = c.first_frame; f <= c.last_frame; ++f) {
+        const Vec3 away = soles.body.at(f, Soles::point_of(c)) - place;
+        sum += dot(away, away);
+        count += 3;
+      }
+    }
+    return count > 0 ? std::sqrt(squares_per_part * sum / count) / legs_.height : 0;
+  }
+
+  // All contacts that are held lie on one floor, if most of them do nearly.
+  std::vector<StandingPart> standing_parts(const Soles& soles) const {
+    const std::vector<double> offsets = level_offsets(soles);
+    std::vector<StandingPart> parts(soles.body.points);
+    for (StandingPart& part : parts) {
+      part.certainty.resize(legs_.frames);
+      part.floor.assign(legs_.frames, std::nan(""));
+    }
+    std::vector<Vec3> places;
+    for (const FootContact& c : report_.contacts)
+      places.push_back(mean_place(soles, c) - offsets[Soles::point_of(c)] * up_.direction());
+    const std::vector<double> depths = depths_below_floor(
+        places, up_, noisy_close_to_floor * legs_.height, legs_.height / usual_height_m);
+    for (std::size_t i = 0; i < report_.contacts.size(); ++i) {
+      if (report_.held[i] == 0) continue;
+      const FootContact& c = report_.contacts[i];
+      StandingPart& part = parts[Soles::point_of(c)];
+      for (std::size_t f = c.first_frame; f <= c.last_frame; ++f) {
+        part.certainty[f] = c.confidence;
+        if (!depths.empty() && std::fabs(depths[i]) < 3 * noisy_close_to_floor * legs_.height)
+          part.floor[f] = along(places[i], up_) + depths[i] + offsets[Soles::point_of(c)];
+      }
+    }
+    return parts;
+  }
+
+  // `deviation`: of the joints, radians.
+  PoseUncertainty uncertainty(double deviation) const {
     PoseUncertainty result;
-    const double deviation = joint_deviation(parts, legs_.height);
     result.joint_rotation = deviation;
     for (const LegModel& model : legs_.models)
       result.legs.push_back(may_turn(model, limits_) ? 1 : 0);
@@ -157,7 +254,8 @@ class FeetCleaning {
     if (!may_move_carrier() || carrier.track != 0) return result;
     if (clip_.skeleton.rotation_order(carrier.joint).count == 3) result.root_rotation = deviation;
     if (limits_.root_position && clip_.skeleton.channels[carrier.joint].size() >= 6)
-      result.root_position = root_share * legs_.height * deviation;
+      result.root_position =
+          (limits_.has_noisy_root ? noisy_root_share : root_share) * legs_.height * deviation;
     return result;
   }
 

@@ -17,12 +17,15 @@ namespace kinemend::feet {
 // The length by which floors are judged, in body heights. Chosen by hand, not swept.
 inline constexpr double close_to_floor = 0.012;  ///< 2 cm
 
-/// The tracks that may change, and the state of the take.
+/// The tracks that may change, and the error that is known to be in the take.
 struct FeetLimits {
   std::vector<std::uint8_t> joints;  ///< J; empty: all
   bool root_position = true;
   bool translations = true;
-  bool is_noisy = false;  ///< noise was found in the joints; it also moves sliding feet
+  bool is_noisy = false;        ///< noise was found in the joints; it also moves standing feet
+  double error = 0;             ///< of the joints, radians per axis; 0: hardly any is known
+  bool has_noisy_root = false;  ///< the root's place has an error too
+  bool is_slow = false;         ///< the error is slow, as of video, depth cameras and suits
 };
 
 /// Implements `clean_feet` for a clip in which every frame is motion. Frames of settings and report
@@ -42,9 +45,10 @@ struct Verdicts {
 };
 
 /// Judges each contact. `unit_cm`: centimetres in the motion's unit of length, 0 if unknown.
-/// Contacts of one foot that touch in time are one stand and are decided together.
+/// `travel_by_error`: body heights by which errors of the joints move standing feet. Contacts of
+/// one foot that touch in time are one stand and are decided together.
 Verdicts judge(const Soles& soles, const LegMotion& motion,
-               const std::vector<FootContact>& contacts, double unit_cm);
+               const std::vector<FootContact>& contacts, double unit_cm, double travel_by_error);
 
 /// Returns the indices of contacts, grouped by stand.
 std::vector<std::vector<std::size_t>> stands_of(const std::vector<FootContact>& contacts);

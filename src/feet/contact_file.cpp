@@ -21,7 +21,9 @@ namespace {
 constexpr std::string_view heading =
     "# Times in which a foot stands: side, heel or toe, first and last frame, numbered as in the "
     "take.\n"
-    "# What is listed is held in place; lines that start with # are not.\n";
+    "# What is listed is held in place; lines that start with # are not. Behind # is how likely "
+    "the "
+    "foot stands.\n";
 
 std::string line_of(std::string side, const FootContact& contact, std::int64_t first_frame) {
   const auto number = [&](std::size_t frame) {
@@ -163,11 +165,28 @@ std::string contacts_text(const Take& clip, const FeetReport& report) {
   for (std::size_t i = 0; i < report.contacts.size(); ++i) {
     const std::string line =
         line_of(report.sides[report.contacts[i].leg], report.contacts[i], first_frame_number(clip));
-    text += report.held[i] != 0 || report.still[i] != 0
-                ? line + "\n"
-                : fmt::format("# {}  {}\n", line, report.reasons[i]);
+    const bool is_listed = report.held[i] != 0 || report.still[i] != 0;
+    text += fmt::format("{}{}  # {:.2f}{}{}\n", is_listed ? "" : "# ", line,
+                        report.contacts[i].confidence, is_listed ? "" : "  ",
+                        is_listed ? "" : report.reasons[i]);
   }
   return text;
+}
+
+std::vector<std::vector<double>> contact_curves(const FeetReport& report, std::size_t frames) {
+  std::vector<std::vector<double>> curves(report.sides.size(), std::vector<double>(frames));
+  for (const FootContact& contact : report.contacts) {
+    std::vector<double>& curve = curves[contact.leg];
+    std::fill(curve.begin() + static_cast<std::ptrdiff_t>(contact.first_frame),
+              curve.begin() + static_cast<std::ptrdiff_t>(contact.last_frame + 1), 1.0);
+  }
+  return curves;
+}
+
+std::string contact_curve_name(std::string_view side) {
+  if (side == "left") return "contact_l";
+  if (side == "right") return "contact_r";
+  return fmt::format("contact_{}", side);
 }
 
 std::vector<FootContact> parse_contacts(std::string_view text, std::string_view name,

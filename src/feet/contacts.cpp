@@ -14,6 +14,7 @@
 #include "base/parallel.hpp"
 #include "base/quantiles.hpp"
 #include "feet/clean_legs.hpp"
+#include "feet/contact_network.hpp"
 #include "kinemend/error.hpp"
 #include "motion/take.hpp"
 
@@ -142,9 +143,9 @@ std::vector<double> lowest_of(const Soles& soles, std::size_t leg) {
   return lowest;
 }
 
-class ContactFinder {
+class ThresholdFinder {
  public:
-  ContactFinder(const Soles& soles, const ContactSettings& settings)
+  ThresholdFinder(const Soles& soles, const ContactSettings& settings)
       : soles_(soles), settings_(settings) {
     for (std::size_t l = 0; l < soles.legs(); ++l) {
       lowest_.push_back(lowest_of(soles, l));
@@ -265,15 +266,25 @@ class ContactFinder {
 
 }  // namespace
 
-std::vector<FootContact> find_contacts(const Soles& soles, const ContactSettings& settings) {
-  const ContactFinder finder(soles, settings);
-  std::vector<FootContact> contacts;
+FoundContacts find_contacts(const Soles& soles, const ContactSettings& settings) {
+  const ThresholdFinder finder(soles, settings);
+  FoundContacts found;
   for (std::size_t p = 0; p < soles.points.size(); ++p) {
     if (soles.has[p] == 0) continue;
     for (const auto& [first, last] : finder.find(p))
-      contacts.push_back({p / 2, static_cast<FootPart>(p % 2), first, last});
+      found.contacts.push_back({p / 2, static_cast<FootPart>(p % 2), first, last});
   }
-  return contacts;
+  const auto network = shipped_contact_network(Lookahead::whole);
+  if (network == nullptr || soles.body.frame_rate_hz < least_contact_rate_hz) return found;
+  FoundContacts likely = likely_contacts(*network, soles, found.contacts, settings);
+  found.expected_s = likely.expected_s;
+  if (settings.finder == ContactFinder::thresholds) return found;
+  // The network has learned from feet with toes only.
+  for (const FootContact& contact : found.contacts) {
+    if (soles.has[2 * contact.leg + 1] == 0) likely.contacts.push_back(contact);
+  }
+  sort_contacts(likely.contacts);
+  return likely;
 }
 
 void check_settings(const ContactSettings& settings) {
@@ -322,7 +333,7 @@ std::vector<FootContact> find_contacts(const Take& clip, const ContactSettings& 
   if (!up) return {};
   feet::set_heels(motion, *up, legs);
   std::vector<FootContact> contacts =
-      feet::find_contacts(feet::find_soles(legs, *up, settings), settings);
+      feet::find_contacts(feet::find_soles(legs, *up, settings), settings).contacts;
   feet::shift_contacts(contacts, 0, first);
   return contacts;
 }

@@ -29,8 +29,26 @@ struct Soles {
 
 Soles find_soles(const LegMotion& motion, Up up, const ContactSettings& settings);
 
-/// Returns the contacts by leg, part, then frame.
-std::vector<FootContact> find_contacts(const Soles& soles, const ContactSettings& settings);
+/// Contacts by leg, part, then frame.
+struct FoundContacts {
+  std::vector<FootContact> contacts;
+  /// `StandingTime::expected_s`, of legs that the network knows; empty without a network.
+  std::optional<double> expected_s = {};
+};
+/// Finds the contacts as the settings ask. Legs without toes are left to the thresholds.
+FoundContacts find_contacts(const Soles& soles, const ContactSettings& settings);
+
+struct ContactNetwork;
+/// Returns the contacts that the network finds likely: of each foot the most likely sequence of
+/// standing on heel, toe, both or neither, where changes have a cost. The confidence of a contact
+/// is its mean likelihood. `by_thresholds`: contacts of the same take that thresholds find.
+FoundContacts likely_contacts(const ContactNetwork& network, const Soles& soles,
+                              const std::vector<FootContact>& by_thresholds,
+                              const ContactSettings& settings);
+
+/// Returns F x points, 1 where one of the contacts holds the point.
+std::vector<std::uint8_t> contact_flags(const std::vector<FootContact>& contacts,
+                                        std::size_t frames, std::size_t points);
 
 /// Throws `ErrorKind::usage` for settings out of range.
 void check_settings(const ContactSettings& settings);

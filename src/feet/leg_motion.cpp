@@ -289,6 +289,7 @@ BodyPoints sole_points(const LegMotion& motion) {
   body.height = motion.height;
   body.positions.reserve(body.frames * body.points);
   for (std::size_t f = 0; f < motion.frames; ++f) {
+    body.centres.push_back(motion.hips_at(f));
     for (std::size_t l = 0; l < motion.legs(); ++l) {
       const LegPose& pose = motion.pose(f, l);
       const LegModel& model = motion.models[l];

@@ -76,7 +76,8 @@ std::optional<Up> up_of(const LegMotion& motion, std::optional<Axis> wanted);
 /// Adds a heel if the skeleton has none, from the frames in which the foot is flat.
 void set_heels(const Take& clip, Up up, LegMotion& motion);
 
-/// Returns heel and toe of each leg as points 2 l and 2 l + 1; the heel represents a missing toe.
+/// Returns heel and toe of each leg as points 2 l and 2 l + 1, with the mean of the hips as the
+/// body's centre; the heel represents a missing toe.
 BodyPoints sole_points(const LegMotion& motion);
 
 /// Calls work(first, end) for blocks that together are [first, end), in any order and in several

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "base/frame_span.hpp"
 #include "base/portable.hpp"
@@ -17,10 +18,20 @@ constexpr double speed_s = 0.07;
 // The floor is the lowest level within this time.
 constexpr double floor_s = 2;
 // A larger correction, relative to the body's height, is not a slide.
-constexpr double most_offset = 0.06;
+constexpr double most_offset = 0.1;
 // The time in which a correction fades to a third once the foot lifts. The swing hides it; a faster
 // fade makes the knee pop.
 constexpr double fade_s = 0.15;
+// The time in which a correction follows the foot. Following every jitter of a nearly straight leg
+// makes the knee pop.
+constexpr double follow_s = 0.015;
+// As `FeetSettings::soft_reach`: more than offline, because the root does not move.
+constexpr double soft_reach = 0.04;
+
+std::array<Vec3, 2> places_of(const LegPose& pose, const LegModel& model) {
+  const Vec3 heel = model.has[0] ? pose.sole_at(model, FootPart::heel) : pose.ankle_at;
+  return {heel, model.has[1] ? pose.sole_at(model, FootPart::toe) : heel};
+}
 
 // Returns the mean of `count` places from `first` on.
 Vec3 mean_place(const std::deque<Vec3>& path, std::size_t first, std::size_t count) {
@@ -47,14 +58,14 @@ void LiveFeet::hold(std::vector<Quat>& rotations, const std::vector<Vec3>& posit
   one_.rotations = rotations;
   one_.positions = positions;
   update_poses(one_, legs_, motion_);
-  if (!up_) up_ = up_of(motion_, std::nullopt);
+  if (!up_) start();
   if (!up_) return;
+  if (estimate_) estimate();
   for (std::size_t l = 0; l < feet_.size(); ++l) {
     Foot& foot = feet_[l];
     const LegPose& pose = motion_.pose(0, l);
     const LegModel& model = motion_.models[l];
-    const std::array<Vec3, parts> places = {
-        pose.ankle_at, model.has[1] ? pose.sole_at(model, FootPart::toe) : pose.ankle_at};
+    const std::array<Vec3, parts> places = places_of(pose, model);
     for (std::size_t p = 0; p < parts; ++p) track(foot.at[p], places[p], along(places[p], *up_));
     move(foot);
     if (!(norm(foot.offset) > 1e-6 * motion_.height)) continue;
@@ -63,10 +74,39 @@ void LiveFeet::hold(std::vector<Quat>& rotations, const std::vector<Vec3>& posit
     target.hold = 1;
     target.rotation = pose.ankle;
     target.place = pose.ankle_at + foot.offset;
-    const LegRotations solved = solve_leg(pose, model, target, {}, FeetSettings{}.soft_reach);
+    const LegRotations solved = solve_leg(pose, model, target, {}, soft_reach);
     rotations[model.hip.index] = align_hemisphere(solved.hip, rotations[model.hip.index]);
     rotations[model.knee.index] = align_hemisphere(solved.knee, rotations[model.knee.index]);
     rotations[model.ankle.index] = align_hemisphere(solved.ankle, rotations[model.ankle.index]);
+  }
+}
+
+// The direction that is up is found in the first frame in which the body shows it.
+void LiveFeet::start() {
+  up_ = up_of(motion_, std::nullopt);
+  if (!up_) return;
+  set_heels(one_, *up_, motion_);
+  const bool has_toes = std::all_of(motion_.models.begin(), motion_.models.end(),
+                                    [](const LegModel& model) { return model.has[1]; });
+  const bool is_fast = motion_.frame_rate_hz >= least_contact_rate_hz;
+  network_ = has_toes && is_fast ? shipped_contact_network(Lookahead::none) : nullptr;
+  if (network_ == nullptr) return;
+  estimate_.emplace(
+      Estimate{LiveContactSteps(feet_.size(), motion_.frame_rate_hz, motion_.height, *up_),
+               LiveContactNetwork(*network_, feet_.size()),
+               std::vector<float>(feet_.size() * contact_features)});
+}
+
+void LiveFeet::estimate() {
+  std::vector<Vec3> places;
+  for (std::size_t l = 0; l < feet_.size(); ++l) {
+    for (const Vec3 place : places_of(motion_.pose(0, l), motion_.models[l]))
+      places.push_back(place);
+  }
+  estimate_->steps.push(places, motion_.hips_at(0));
+  while (estimate_->steps.next_step(estimate_->rows)) {
+    const std::span<const float> odds = estimate_->network.run(estimate_->rows);
+    for (std::size_t i = 0; i < odds.size(); ++i) feet_[i / parts].at[i % parts].odds = odds[i];
   }
 }
 
@@ -86,8 +126,26 @@ void LiveFeet::track(Part& part, Vec3 place, double height) const {
       apart > 0 && part.path.size() > reach ? norm(travel) / (apart * motion_.height) : HUGE_VAL;
 }
 
+// Returns the part that most likely stands, with a margin in favour of the held one.
+int LiveFeet::likely_anchor_of(const Foot& foot) const {
+  // Logarithms of odds. Chosen on takes that no table uses.
+  constexpr double begin = 0.5, keep = -0.5, margin = 1;
+  int best = -1;
+  double best_odds = -HUGE_VAL;
+  for (int p = 0; p < static_cast<int>(parts); ++p) {
+    const double own = foot.at[static_cast<std::size_t>(p)].odds;
+    if (own < (foot.anchor >= 0 ? keep : begin)) continue;
+    const double odds = foot.anchor == p ? own + margin : own;
+    if (odds <= best_odds) continue;
+    best = p;
+    best_odds = odds;
+  }
+  return best;
+}
+
 // Returns the standing part: the slower one, with a margin in favour of the held one.
 int LiveFeet::anchor_of(const Foot& foot) const {
+  if (estimate_) return likely_anchor_of(foot);
   const ContactSettings settings;
   int best = -1;
   double best_speed = HUGE_VAL;
@@ -110,7 +168,9 @@ void LiveFeet::move(Foot& foot) const {
   if (anchor >= 0) {
     const Vec3 place = foot.at[static_cast<std::size_t>(anchor)].path.back();
     if (anchor != foot.anchor) foot.target = place + foot.offset;
-    foot.offset = level_part(foot.target - place, *up_);
+    const Vec3 wanted = level_part(foot.target - place, *up_);
+    const double share = 1 - portable::exp(-1 / (follow_s * motion_.frame_rate_hz));
+    foot.offset = foot.offset + share * (wanted - foot.offset);
     const double length = norm(foot.offset), most = most_offset * motion_.height;
     if (length > most) {
       foot.offset = (most / length) * foot.offset;

@@ -5,17 +5,19 @@
 #include <array>
 #include <cstddef>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "feet/contact_network.hpp"
 #include "feet/leg_motion.hpp"
 #include "kinemend/feet.hpp"
 
 namespace kinemend::feet {
 
-/// Holds the feet of one stream of joints. A low and slow foot is held in place; when it lifts, its
-/// correction fades. Only legs change, and only horizontally. Does nothing for a skeleton without
-/// legs.
+/// Holds the feet of one stream of joints. A foot that likely stands (`ContactNetwork` without
+/// lookahead; without it, a low and slow foot) is held in place; when it lifts, its correction
+/// fades. Only legs change, and only horizontally. Does nothing for a skeleton without legs.
 class LiveFeet {
  public:
   /// `like`: a take of joints; its frames are not used.
@@ -26,13 +28,14 @@ class LiveFeet {
   std::size_t feet() const { return feet_.size(); }
 
  private:
-  static constexpr std::size_t parts = 2;  ///< the ankle, instead of the heel, and the toe
+  static constexpr std::size_t parts = 2;  ///< heel and toe
   /// A point of a foot over the last input frames.
   struct Part {
     std::deque<Vec3> path;
     std::deque<double> heights;
     double level = 0;  ///< its height in ground contact
     double speed = 0;  ///< body heights a second
+    double odds = 0;   ///< logarithm of the odds that it stands
   };
   struct Foot {
     std::array<Part, parts> at;
@@ -42,7 +45,10 @@ class LiveFeet {
   };
 
   void track(Part& part, Vec3 place, double height) const;
+  void start();
+  void estimate();
   int anchor_of(const Foot& foot) const;
+  int likely_anchor_of(const Foot& foot) const;
   void move(Foot& foot) const;
 
   std::vector<Leg> legs_;
@@ -50,6 +56,14 @@ class LiveFeet {
   LegMotion motion_;
   std::optional<Up> up_;
   std::vector<Foot> feet_;
+  /// The network on the steps of the stream.
+  struct Estimate {
+    LiveContactSteps steps;
+    LiveContactNetwork network;
+    std::vector<float> rows;
+  };
+  std::shared_ptr<const ContactNetwork> network_;  // null: thresholds decide
+  std::optional<Estimate> estimate_;
 };
 
 }  // namespace kinemend::feet

@@ -32,7 +32,8 @@ struct Judge {
   const LegMotion& motion;
   const std::vector<FootContact>& contacts;
   double unit_cm;
-  bool jitters = false;  // for the whole take
+  double travel_by_error;  // body heights
+  bool jitters = false;    // for the whole take
 
   std::string length_text(double length) const {
     if (unit_cm > 0) return fmt::format("{:.1f} cm", length * unit_cm);
@@ -120,12 +121,12 @@ struct Judge {
   // Returns why the slide of a contact is not an error; empty if it is one.
   std::string excuse(const FootContact& c) const {
     const double way = travel(c);
-    if (way < small_travel * soles.height) return {};
+    if (way < std::max(small_travel, travel_by_error) * soles.height) return {};
     if (slides_beside_standing_foot(c, way)) {
       return fmt::format("slides {} while the other foot stands: intended", length_text(way));
     }
     if (glides(c)) return fmt::format("slides {} along with the body: intended", length_text(way));
-    if (way > most_travel * soles.height)
+    if (way > (most_travel + travel_by_error) * soles.height)
       return fmt::format("slides {}, farther than an error does", length_text(way));
     return {};
   }
@@ -173,8 +174,8 @@ std::vector<std::vector<std::size_t>> stands_of(const std::vector<FootContact>& 
 }
 
 Verdicts judge(const Soles& soles, const LegMotion& motion,
-               const std::vector<FootContact>& contacts, double unit_cm) {
-  Judge bench{soles, motion, contacts, unit_cm};
+               const std::vector<FootContact>& contacts, double unit_cm, double travel_by_error) {
+  Judge bench{soles, motion, contacts, unit_cm, travel_by_error};
   bench.jitters = bench.take_jitters();
   Verdicts verdicts{std::vector<std::uint8_t>(contacts.size()),
                     std::vector<std::uint8_t>(contacts.size()),

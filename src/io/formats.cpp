@@ -234,6 +234,20 @@ TakeResult read_joints(std::string bytes, std::string_view name, const ReadOptio
   return with_joints(read_take(std::move(bytes), name, options));
 }
 
+std::string write_with_curves(const Take& take, std::string_view format,
+                              std::span<const NamedCurve> curves) {
+  take.validate();
+  if (!take.has_joints()) throw Error(ErrorKind::usage, "curves are written for takes of joints");
+  for (const NamedCurve& curve : curves) {
+    if (curve.values.size() != take.frame_count())
+      throw Error(ErrorKind::usage, fmt::format("curve {}: {} values for {} frames", curve.name,
+                                                curve.values.size(), take.frame_count()));
+  }
+  if (format == "fbx") return new_fbx_file(take, curves);
+  if (format == "glb") return new_glb_of(take, curves);
+  throw Error(ErrorKind::usage, fmt::format("{} holds no curves; expected fbx or glb", format));
+}
+
 std::string write_take(const Take& take, std::string_view format) {
   const Format& found = format_to_write(take, format);
   if (!take.has_joints()) return write_markers(take, found);

@@ -21,7 +21,8 @@ namespace kinemend {
 
 std::span<const ModelKind> model_kinds() {
   static constexpr std::array kinds = {example_models,        wiener_models,    sparse_models,
-                                       kalman_learned_models, recurrent_models, learned_models};
+                                       kalman_learned_models, recurrent_models, learned_models,
+                                       contact_models};
   return kinds;
 }
 

@@ -20,6 +20,7 @@ inline constexpr ModelKind sparse_models{"sparse", 1, "kinemend train"};
 inline constexpr ModelKind kalman_learned_models{"kalman-learned", 1, "kinemend train"};
 inline constexpr ModelKind recurrent_models{"recurrent", 1, "kinemend-train"};
 inline constexpr ModelKind learned_models{"learned", 1, "kinemend-train"};
+inline constexpr ModelKind contact_models{"contacts", 1, "kinemend-train", false};
 
 /// The kinds of models that a reader accepts.
 struct KnownModels {

@@ -43,12 +43,28 @@ std::string left_alone_text(const FeetReport& report, std::int64_t first_frame, 
   return text;
 }
 
+// Contacts are counted in seconds, because a stand that is found in slivers is not found.
+std::string standing_text(const FeetReport& report) {
+  const StandingTime& time = report.time;
+  if (report.contacts.empty()) {
+    return time.expected_s > 0
+               ? fmt::format("no contacts found; about {:.1f} s of standing expected",
+                             time.expected_s)
+               : std::string("no contacts found");
+  }
+  std::string text = fmt::format(
+      "stand for {:.1f} s, about {:.1f} s expected, confidence {:.2f}; "
+      "held for {:.1f} s",
+      time.found_s, time.expected_s, time.confidence, time.held_s);
+  if (time.still_s > 0) text += fmt::format(", still for {:.1f} s", time.still_s);
+  return text;
+}
+
 }  // namespace
 
 std::string feet_text(const FeetReport& report, std::int64_t first_frame, bool all) {
-  const std::size_t held = contacts_held(report);
-  std::string text =
-      fmt::format("  feet: {} of {} held", held, counted(report.contacts.size(), "contact"));
+  const StandingTime& time = report.time;
+  std::string text = "  feet: " + standing_text(report);
   const bool in_cm = report.metres_per_unit > 0;
   const double scale = in_cm ? 100 * report.metres_per_unit : 1;
   const std::string unit = in_cm ? "cm" : "units";
@@ -59,12 +75,14 @@ std::string feet_text(const FeetReport& report, std::int64_t first_frame, bool a
     constexpr double least = 1e-5;
     return figure(scale * units < least ? 0 : scale * units);
   };
-  if (held > 0) text += fmt::format(", {} adjusted", counted(frames_adjusted(report), "frame"));
+  if (time.held_s > 0)
+    text += fmt::format("; {} adjusted", counted(frames_adjusted(report), "frame"));
   if (!report.contacts.empty()) {
     text += fmt::format(
-        "; slide {} to {} {} a frame, {} to {} {} at most, sink {} to {} {}, knee pop {} to {} deg",
-        length(a.slide), length(b.slide), unit, length(a.most_slide), length(b.most_slide), unit,
-        length(a.sink), length(b.sink), unit, figure(a.knee_pop_deg), figure(b.knee_pop_deg));
+        "; slide {} to {} {}/s, {} to {} {} at most, sink {} to {} {}, knee pop {} to {} deg",
+        length(report.frame_rate_hz * a.slide), length(report.frame_rate_hz * b.slide), unit,
+        length(a.most_slide), length(b.most_slide), unit, length(a.sink), length(b.sink), unit,
+        figure(a.knee_pop_deg), figure(b.knee_pop_deg));
   }
   return text + "\n" + left_alone_text(report, first_frame, all);
 }

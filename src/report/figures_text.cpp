@@ -179,6 +179,9 @@ std::string result_text(const TakeFacts& take, const CheckReport& report,
   for (const CheckFigure& entry : check_figure_table()) {
     const std::optional<double> value = entry.get(report.figures);
     const bool of_markers = entry.rule.name == "swaps", of_joints = entry.rule.name == "flips";
+    // A take whose feet slide most may have no contact that is found, so this row never disappears.
+    if (!value && entry.rule.name == "slide_cm")
+      table.add({std::string(entry.rule.label), "no contacts found"});
     if (!value || (report.is_markers ? of_joints : of_markers)) continue;
     table.add({std::string(entry.rule.label), with_unit(*value, unit_of(entry, report))});
   }

@@ -101,6 +101,14 @@ Json json_of(const FeetFigures& figures) {
           {"knee_pop_deg", figures.knee_pop_deg}};
 }
 
+Json json_of(const StandingTime& time) {
+  return {{"expected_s", time.expected_s},
+          {"found_s", time.found_s},
+          {"held_s", time.held_s},
+          {"still_s", time.still_s},
+          {"confidence", time.confidence}};
+}
+
 Json contact_json(const std::string& side, const FootContact& contact, std::int64_t first_frame) {
   return {{"side", side},
           {"part", to_string(contact.part)},
@@ -114,6 +122,7 @@ Json contacts_json(const FeetReport& report, std::int64_t first_frame) {
     const FootContact& contact = report.contacts[i];
     const bool is_held = report.held[i] != 0;
     Json json = contact_json(report.sides[contact.leg], contact, first_frame);
+    json["confidence"] = contact.confidence;
     json["held"] = is_held;
     json["reason"] = is_held ? Json() : Json(report.reasons[i]);
     contacts.push_back(std::move(json));
@@ -125,6 +134,7 @@ Json feet_json(const FeetReport& report, std::int64_t first_frame, bool with_con
   // Without a contact, slide and sink are undefined.
   const bool has_contact = !report.contacts.empty();
   Json json = {{"metres_per_unit", positive_or_null(report.metres_per_unit)},
+               {"time", json_of(report.time)},
                {"held", contacts_held(report)},
                {"frames_adjusted", frames_adjusted(report)},
                {"before", has_contact ? json_of(report.before) : Json()},

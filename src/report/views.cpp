@@ -197,8 +197,8 @@ std::string verdict(const TakeFacts& take, const FillOutcome& outcome) {
 }
 std::string verdict(const TakeFacts& /*take*/, const CompareOutcome& /*outcome*/) { return ""; }
 std::string verdict(const TakeFacts& /*take*/, const FeetReport& report) {
-  return fmt::format("{} of {} held", grouped(contacts_held(report)),
-                     counted(report.contacts.size(), "contact"));
+  return fmt::format("{}, {:.1f} s; held for {:.1f} s", counted(report.contacts.size(), "contact"),
+                     report.time.found_s, report.time.held_s);
 }
 
 }  // namespace

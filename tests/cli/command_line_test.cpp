@@ -292,7 +292,7 @@ TEST_F(OptionNames, HelpNamesValuesAndDefaultsForPeople) {
 TEST_F(OptionNames, NothingIsSuggestedThatIsNotNear) {
   put(folder / "a.bvh", hand_take());
   EXPECT_EQ(run({"clean", "a.bvh", "--feet=on"}).err,
-            "kinemend: --feet: \"on\" is not one of off, auto, force\n");
+            "kinemend: --feet: \"on\" is not one of by-source, off, auto, force\n");
   EXPECT_EQ(run({"undo"}).err, "kinemend: unknown command undo (see kinemend -h)\n");
   EXPECT_THAT(run({"clean", "a.bvh", "--feet=of"}).err, HasSubstr("did you mean off?"));
   EXPECT_THAT(run({"celan"}).err, HasSubstr("did you mean clean?"));

@@ -54,7 +54,7 @@ TEST_F(Names, OfSideFilesMatchInAnyCapitalsToo) {
   synth("walk.bvh", "walk", "2");
   put(folder / "walk.contacts", "Left Toe 20 40\n");
   EXPECT_THAT(run({"clean", "walk.bvh", "--contacts", "walk.contacts", "--dry-run"}).out,
-              HasSubstr("feet: 1 of 1 contact held"));
+              HasSubstr("confidence 1.00; held for 0."));
 }
 
 // Options that take names accept `LeftArm` and `Left*` for "Ann:LeftArm".

@@ -184,8 +184,10 @@ double largest_kick(double rate, const std::vector<FootContact>& at_120) {
 TEST(CleanFeet, KeepsVelocityContinuousAtTheEndsOfContacts) {
   // At 960 Hz the steps of a smooth motion are small, and a jump is clearly visible: an uncorrected
   // jump is as large as the slide, 20 cm/s and more.
+  ContactSettings thresholds;
+  thresholds.finder = ContactFinder::thresholds;
   const std::vector<FootContact> contacts =
-      find_contacts(with_drift(synthetic_clip("walk", 6, 120), 4));
+      find_contacts(with_drift(synthetic_clip("walk", 6, 120), 4), thresholds);
   EXPECT_LT(largest_kick(960, contacts), 5);
 }
 

@@ -75,7 +75,7 @@ TEST(ContactFile, PutsWhatWasNotHeldIntoComments) {
   report.still = {0, 0};
   report.reasons = {"", "slides 9 cm while the other foot stands: intended"};
   const std::string text = contacts_text(clip, report);
-  EXPECT_THAT(text, testing::HasSubstr("\n# right toe 5 31  slides 9 cm while"));
+  EXPECT_THAT(text, testing::HasSubstr("\n# right toe 5 31  # 1.00  slides 9 cm while"));
   const std::vector<FootContact> left = {report.contacts[0]};
   EXPECT_EQ(parse_contacts(text, "x", clip), left);
 }

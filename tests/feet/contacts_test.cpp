@@ -108,11 +108,14 @@ TEST(FindContacts, SeesThroughADegreeOfJitter) {
 }
 
 TEST(FindContacts, SeesTheStandsOfARunnerThroughWhatAFilterLeaves) {
+  ContactSettings thresholds;
+  thresholds.finder = ContactFinder::thresholds;
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     const Take clip = synthetic_clip("run", 6, 120, seed);
     const Score clean = score(clip, find_contacts(clip), 0.07);
     EXPECT_GT(clean.precision, 0.95) << "seed " << seed;
-    const Score found = score(clip, find_contacts(test::with_smooth_noise(clip, 1.0, seed)), 0.07);
+    const Take noisy = test::with_smooth_noise(clip, 1.0, seed);
+    const Score found = score(clip, find_contacts(noisy, thresholds), 0.07);
     EXPECT_GT(found.precision, 0.9) << "seed " << seed;
     EXPECT_GT(found.recall, 0.6) << "seed " << seed;
   }

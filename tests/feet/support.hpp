@@ -8,12 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "feet/body_points.hpp"
 #include "kinemend/extend/motion.hpp"
 #include "kinemend/extend/random.hpp"
 #include "kinemend/feet.hpp"
 #include "kinemend/lab/synth.hpp"
 
 namespace kinemend::test {
+
+inline constexpr feet::Up y_up{Axis::y, 1};
 
 /// Settings that hold every standing foot.
 inline FeetSettings forced() {

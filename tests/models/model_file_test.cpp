@@ -187,7 +187,7 @@ TEST(ModelFile, RefusesNewerVersionsWithBothNumbers) {
   EXPECT_EQ(
       message_with("method", "oracle"),
       "walk.kmodel: metadata \"method\": expected one of example, wiener, sparse, kalman-learned, "
-      "recurrent, learned, "
+      "recurrent, learned, contacts, "
       "found \"oracle\"");
 }
 

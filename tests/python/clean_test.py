@@ -54,7 +54,7 @@ def test_settings_do_what_the_flags_of_the_program_do(all_formats, program):
 def test_the_settings_have_the_defaults_of_the_table():
     given = {name: one.default for name, one in inspect.signature(kinemend.clean).parameters.items()}
     # Python says None and infinity where a command line needs a word and a number.
-    words = {"fill": (None, "off"), "feet": (None, "off"), "max_change": (math.inf, 0.0)}
+    words = {"fill": (None, "off"), "max_change": (math.inf, 0.0)}
     table = kinemend._core.clean_option_table()
     assert len(table) >= 10
     for option in table:

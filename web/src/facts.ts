@@ -44,8 +44,10 @@ function feetFacts(entry: TakeEntry): Fact[] {
   const contacts = feet.contacts ?? [];
   const left = contacts.filter(({ held }) => !held);
   const time = (all: Contact[]): string => `${counted(all.length, 'contact')}, ${figure(standing(all) / (entry.frame_rate_hz || 1))} s`;
-  rows.push(['feet stand', contacts.length === 0 ? 'never' : time(contacts), 'Times in which a heel or a toe is on the floor, and seconds in which at least one is.']);
+  rows.push(['feet stand', contacts.length === 0 ? 'no contacts found' : time(contacts), 'Times in which a heel or a toe is on the floor, and seconds in which at least one is.'],
+    ['expected', `about ${figure(feet.time.expected_s)} s`, 'The time in which feet likely stand, from the motion of the whole body, summed over feet. Much more than is found: contacts are missing.']);
   if (contacts.length === 0) return rows;
+  rows.push(['confidence', figure(feet.time.confidence), 'How likely feet stand in the contacts, on average; 1 is certain.']);
   rows.push(['held', time(contacts.filter(({ held }) => held)), 'Contacts whose sliding was taken out.']);
   const kinds = new Map<string, Contact[]>();
   for (const contact of left) kinds.set(kindOf(contact), [...(kinds.get(kindOf(contact)) ?? []), contact]);

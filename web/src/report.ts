@@ -28,13 +28,24 @@ export interface Contact {
   part: string;
   first_frame: number;
   last_frame: number;
+  confidence: number;
   held: boolean;
   reason: string | null;
 }
 
 /** Lengths in units of the file. */
+/** Seconds in which feet stand, summed over feet. */
+export interface StandingTime {
+  expected_s: number;
+  found_s: number;
+  held_s: number;
+  still_s: number;
+  confidence: number;
+}
+
 export interface Feet {
   metres_per_unit: number | null;
+  time: StandingTime;
   held: number;
   frames_adjusted: number;
   before: FeetFigures | null;

@@ -55,13 +55,15 @@ std::string write_model(const Model& model);
 /// Returns XXH3 of the bytes of the file in hexadecimal, for the model's card.
 std::string model_checksum(std::string_view bytes);
 
-/// The models of one method.
+/// The models of one method, or of the step that finds standing feet.
 struct ModelKind {
-  std::string_view name;        ///< name of the method
+  std::string_view name;        ///< name of the method, or "contacts"
   int version = 1;              ///< version of the tensors and numbers: the newest that is read
   std::string_view trained_by;  ///< the program that fits them: "kinemend train"
+  bool is_method = true;        ///< false: it serves a step of cleaning
 };
-/// Returns the kinds of models that are read, one for each method that works with a model.
+/// Returns the kinds of models that are read: one for each method that works with a model, and that
+/// of the contacts.
 std::span<const ModelKind> model_kinds();
 
 /// A model that is part of the program.

@@ -1,6 +1,7 @@
 // The format FBX: recognises, reads and writes it.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,8 +23,9 @@ TakeResult read_fbx(std::string bytes, std::string_view name, const ReadOptions&
 /// move it.
 std::string write_fbx(const Take& take);
 /// Writes a take as a new binary file of version 7.5: limbs or nulls, one animation of one layer, a
-/// key per frame. Errors: `usage` for an invalid take.
-std::string new_fbx_file(const Take& take);
+/// key per frame, and the curves as animated properties of the first joint. Errors: `usage` for an
+/// invalid take.
+std::string new_fbx_file(const Take& take, std::span<const NamedCurve> curves = {});
 /// Lists the data besides the motion that is lost if the take needs a new file; empty if its source
 /// is rewritten or is of another format.
 std::vector<std::string> lost_beside_fbx(const Take& take);

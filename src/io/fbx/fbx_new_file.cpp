@@ -175,6 +175,7 @@ struct NewFbxModel {
 
 struct NewFbxScene {
   std::vector<NewFbxModel> models;
+  std::span<const NamedCurve> curves;  // of the first model
   std::vector<std::int64_t> times;
   double unit_cm = 1;
   double rate_hz = 30;
@@ -326,7 +327,7 @@ class NewFbxWriter {
   struct Link {
     std::int64_t from = 0;
     std::int64_t to = 0;
-    std::string_view property;  // empty: a connection of objects
+    std::string property;  // empty: a connection of objects
   };
 
   std::int64_t stop() const { return scene_.times.empty() ? 0 : scene_.times.back(); }
@@ -401,17 +402,18 @@ class NewFbxWriter {
   }
 
   void write_definitions() {
-    const std::size_t models = scene_.models.size(), curves = 3 * tracks_;
+    const std::size_t models = scene_.models.size(), nodes = tracks_ + scene_.curves.size(),
+                      curves = 3 * tracks_ + scene_.curves.size();
     file_.open("Definitions");
     file_.add("Version", 100);
-    file_.add("Count", static_cast<std::int32_t>(1 + models + limbs_ + 2 + tracks_ + curves));
+    file_.add("Count", static_cast<std::int32_t>(1 + models + limbs_ + 2 + nodes + curves));
     define("GlobalSettings", 1);
     define("Model", models);
     if (limbs_ > 0) define("NodeAttribute", limbs_);
     define("AnimationStack", 1);
     define("AnimationLayer", 1);
-    if (tracks_ > 0) define("AnimationCurveNode", tracks_);
-    if (tracks_ > 0) define("AnimationCurve", curves);
+    if (nodes > 0) define("AnimationCurveNode", nodes);
+    if (nodes > 0) define("AnimationCurve", curves);
     file_.close();
   }
 
@@ -422,7 +424,7 @@ class NewFbxWriter {
       links_.push_back(
           {ids_[m], model.parent < 0 ? 0 : ids_[static_cast<std::size_t>(model.parent)], {}});
       if (model.is_limb) write_attribute(model, ids_[m]);
-      write_model(model, ids_[m]);
+      write_model(model, ids_[m], m == 0 ? scene_.curves : std::span<const NamedCurve>());
     }
   }
 
@@ -435,7 +437,7 @@ class NewFbxWriter {
     links_.push_back({id, owner, {}});
   }
 
-  void write_model(const NewFbxModel& model, std::int64_t id) {
+  void write_model(const NewFbxModel& model, std::int64_t id, std::span<const NamedCurve> curves) {
     file_.open("Model").id(id).string(object_name(model.name, "Model"));
     file_.string(model.is_limb ? "LimbNode" : "Null");
     file_.add("Version", 232);
@@ -452,6 +454,8 @@ class NewFbxWriter {
     file_.set_animated("Lcl Translation", model.translation);
     file_.set_animated("Lcl Rotation", Vec3{});
     file_.set_animated("Lcl Scaling", Vec3{1, 1, 1});
+    for (const NamedCurve& curve : curves)
+      file_.property(curve.name, "Number", "", "A+U").number(first_of(curve)).close();
     file_.close();
     file_.add("Culling", "CullingOff");
     file_.close();
@@ -477,6 +481,24 @@ class NewFbxWriter {
       write_track(model.translations, "T", "Lcl Translation", layer, ids_[m]);
       write_track(model.rotations, "R", "Lcl Rotation", layer, ids_[m]);
     }
+    for (const NamedCurve& curve : scene_.curves) write_property(curve, layer, ids_.front());
+  }
+
+  static double first_of(const NamedCurve& curve) {
+    return curve.values.empty() ? 0 : curve.values.front();
+  }
+
+  void write_property(const NamedCurve& curve, std::int64_t layer, std::int64_t model) {
+    const std::string channel = "d|" + curve.name;
+    const std::int64_t node = next_id();
+    file_.open("AnimationCurveNode").id(node).string(object_name(curve.name, "AnimCurveNode"));
+    file_.string("").open("Properties70");
+    file_.set_animated(channel, first_of(curve));
+    file_.close();
+    file_.close();
+    links_.push_back({node, layer, {}});
+    links_.push_back({node, model, curve.name});
+    links_.push_back({write_curve({curve.values.begin(), curve.values.end()}), node, channel});
   }
 
   void write_track(const std::vector<Vec3>& track, std::string_view letter,
@@ -490,20 +512,23 @@ class NewFbxWriter {
     file_.close();
     file_.close();
     links_.push_back({node, layer, {}});
-    links_.push_back({node, model, property});
-    for (std::size_t a = 0; a < 3; ++a) links_.push_back({write_curve(track, a), node, axes[a]});
+    links_.push_back({node, model, std::string(property)});
+    for (std::size_t a = 0; a < 3; ++a) {
+      std::vector<double> values;
+      values.reserve(track.size());
+      for (const Vec3& value : track) values.push_back(component(value, a));
+      links_.push_back({write_curve(values), node, std::string(axes[a])});
+    }
   }
 
-  std::int64_t write_curve(const std::vector<Vec3>& track, std::size_t axis) {
+  std::int64_t write_curve(const std::vector<double>& curve) {
     // Linear interpolation, with weights of a third (3333 / 9999 twice).
     constexpr std::int32_t linear_flags = 24836;
     constexpr float third_weights = bits_as<float>(std::uint32_t{0x0D050D05});
-    std::vector<float> values;
-    values.reserve(track.size());
-    for (const Vec3& value : track) values.push_back(static_cast<float>(component(value, axis)));
+    const std::vector<float> values(curve.begin(), curve.end());
     const std::int64_t id = next_id();
     file_.open("AnimationCurve").id(id).string(object_name("", "AnimCurve")).string("");
-    file_.open("Default").number(component(track.front(), axis)).close();
+    file_.open("Default").number(curve.empty() ? 0 : curve.front()).close();
     file_.add("KeyVer", 4008);
     file_.add_array("KeyTime", 'l', std::span(scene_.times));
     file_.add_array("KeyValueFloat", 'f', std::span(std::as_const(values)));
@@ -546,9 +571,10 @@ class NewFbxWriter {
 
 }  // namespace
 
-std::string new_fbx_file(const Take& take) {
+std::string new_fbx_file(const Take& take, std::span<const NamedCurve> curves) {
   take.validate();
-  const NewFbxScene scene = scene_of(take);
+  NewFbxScene scene = scene_of(take);
+  scene.curves = curves;
   return NewFbxWriter(scene).write();
 }
 

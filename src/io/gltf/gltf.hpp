@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,8 +30,9 @@ TakeResult read_gltf(std::string bytes, std::string_view name, const ReadOptions
 std::string write_glb(const Take& take);
 std::string write_gltf(const Take& take);
 
-/// Returns a new binary file, as described at `write_glb`. The take must be valid.
-std::string new_glb_of(const Take& take);
+/// Returns a new binary file, as described at `write_glb`, with these curves in the extras of its
+/// animation. The take must be valid.
+std::string new_glb_of(const Take& take, std::span<const NamedCurve> curves = {});
 
 /// Returns `files_of_take` of a take in glTF. `output`: the path of the result.
 TakeFiles glb_files_of_take(const Take& take, const std::filesystem::path& output);

@@ -264,14 +264,18 @@ void add_sphere(GlbMesh& mesh, double radius, int cuts) {
 
 class SkeletonWriter {
  public:
-  explicit SkeletonWriter(const Take& clip)
-      : clip_(clip), skeleton_(clip.skeleton), scale_(likely_metres_per_unit(clip)) {
+  explicit SkeletonWriter(const Take& clip, std::span<const NamedCurve> curves)
+      : clip_(clip),
+        skeleton_(clip.skeleton),
+        curves_(curves),
+        scale_(likely_metres_per_unit(clip)) {
     if (!(scale_ > 0)) scale_ = 1;
   }
 
   std::string write() {
     add_nodes();
     add_animation();
+    add_curves();
     if (clip_.joint_count() > 0) add_skin();
     return std::move(file_).finish();
   }
@@ -334,6 +338,14 @@ class SkeletonWriter {
     }
   }
 
+  void add_curves() {
+    Json& document = file_.document();
+    if (curves_.empty() || !document.contains("animations")) return;
+    Json curves = Json::object();
+    for (const NamedCurve& curve : curves_) curves[curve.name] = curve.values;
+    document["animations"][0]["extras"] = {{"curves", std::move(curves)}};
+  }
+
   void add_skin() {
     find_rest_pose();
     std::vector<float> matrices;
@@ -377,6 +389,7 @@ class SkeletonWriter {
 
   const Take& clip_;
   const Skeleton& skeleton_;
+  std::span<const NamedCurve> curves_;
   double scale_;
   GlbBuilder file_;
   std::size_t armature_ = 0;
@@ -423,8 +436,8 @@ std::string new_glb_of_markers(const Take& clip) {
 
 }  // namespace
 
-std::string new_glb_of(const Take& take) {
-  return take.has_joints() ? SkeletonWriter(take).write() : new_glb_of_markers(take);
+std::string new_glb_of(const Take& take, std::span<const NamedCurve> curves) {
+  return take.has_joints() ? SkeletonWriter(take, curves).write() : new_glb_of_markers(take);
 }
 
 }  // namespace kinemend
