@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "kinemend/extend/motion.hpp"
 #include "kinemend/feet.hpp"
 #include "kinemend/io.hpp"
 #include "kinemend/report.hpp"

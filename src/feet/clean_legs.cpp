@@ -105,8 +105,8 @@ class FeetCleaning {
   }
 
   void find_and_judge(const Soles& soles) {
-    FoundContacts found = find_contacts(soles, settings_.contact);
-    report_.contacts = settings_.contacts ? *settings_.contacts : std::move(found.contacts);
+    const FoundContacts found = find_contacts(soles, settings_.contact);
+    report_.contacts = settings_.contacts ? *settings_.contacts : found.contacts;
     sort_contacts(report_.contacts);
     const std::size_t count = report_.contacts.size();
     if (settings_.contacts || settings_.mode == FeetMode::force) {

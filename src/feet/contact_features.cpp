@@ -14,6 +14,15 @@
 
 namespace kinemend::feet {
 
+// The motion of one foot at the steps, in the world.
+struct FootSteps {
+  std::array<std::vector<Vec3>, 2> path;  // heel, toe
+  std::vector<double> levels;             // of the floor
+  std::vector<Vec3> heading;              // horizontal, unit
+  std::vector<double> side;               // 1 or -1, so that the other foot is on the positive side
+  std::array<std::vector<float>, 2> touching;  // by thresholds; 0.5: not asked
+};
+
 namespace {
 
 // Times in steps. Chosen by hand; the network has learned with them.
@@ -64,15 +73,6 @@ StepRange around(std::size_t s, std::size_t count, std::size_t reach, Lookahead 
     return {s - std::min(s, reach), std::min(count, s + reach + 1)};
   return {s - std::min(s, 2 * reach), s + 1};
 }
-
-// The motion of one foot at the steps, in the world.
-struct FootSteps {
-  std::array<std::vector<Vec3>, 2> path;  // heel, toe
-  std::vector<double> levels;             // of the floor
-  std::vector<Vec3> heading;              // horizontal, unit
-  std::vector<double> side;               // 1 or -1, so that the other foot is on the positive side
-  std::array<std::vector<float>, 2> touching;  // by thresholds; 0.5: not asked
-};
 
 double lowest_level(const FootSteps& foot, StepRange range, Up up) {
   std::vector<double> lowest;
@@ -144,7 +144,7 @@ std::vector<float> touching_at_steps(std::span<const std::uint8_t> touching,
   std::vector<float> result(count);
   for (std::size_t s = 0; s < count; ++s) {
     const double at = static_cast<double>(s) * soles.frame_rate_hz / contact_rate_hz;
-    const auto frame = std::min(soles.frames - 1, static_cast<std::size_t>(at + 0.5));
+    const auto frame = std::min(soles.frames - 1, static_cast<std::size_t>(std::lround(at)));
     result[s] = touching[frame * soles.points + point];
   }
   return result;

@@ -1,5 +1,5 @@
-// What the network that finds standing feet sees: the motion of both feet and of the body's middle,
-// in a form that depends neither on the place and heading of the body nor on its size.
+// Features of the motion of both feet and of the body's middle for the network that finds standing
+// feet. They depend neither on the place and heading of the body nor on its size.
 #pragma once
 
 #include <array>
@@ -25,8 +25,7 @@ inline constexpr double least_contact_rate_hz = 12;
 enum class Lookahead : std::uint8_t { whole, none };
 
 /// Features of L feet at n steps, each foot's in the same form: lengths in body heights, in axes
-/// along the foot, towards the other foot, and up. They depend neither on the place and heading of
-/// the body nor on its size.
+/// along the foot, towards the other foot, and up.
 struct ContactSteps {
   std::size_t feet = 0, count = 0;
   std::vector<float> features;  ///< L x n x `contact_features`
