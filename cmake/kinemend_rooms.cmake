@@ -138,9 +138,10 @@ function(kinemend_embed_models folder)
   endif()
   file(GLOB models CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/models/*.kmodel)
   set(script ${PROJECT_SOURCE_DIR}/cmake/embed_models.cmake)
+  string(REPLACE ";" "|" names "${KINEMEND_MODELS}")  # a list would become several words of the command
   set(output ${PROJECT_BINARY_DIR}/embedded_models.cpp)
   add_custom_command(OUTPUT ${output}
-    COMMAND ${CMAKE_COMMAND} -DFOLDER=${PROJECT_SOURCE_DIR}/models -DNAMES=${KINEMEND_MODELS} -DOUTPUT=${output} -P ${script}
+    COMMAND ${CMAKE_COMMAND} -DFOLDER=${PROJECT_SOURCE_DIR}/models -DNAMES=${names} -DOUTPUT=${output} -P ${script}
     DEPENDS ${script} ${PROJECT_SOURCE_DIR}/cmake/bytes_literal.cmake ${models} COMMENT "Models that ship" VERBATIM)
   target_sources(kinemend_${room} PRIVATE ${output})
   set_source_files_properties(${output} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
