@@ -103,7 +103,8 @@ std::string learned_text(const CleanPlan& plan) {
       text += fmt::format("{},{}\n", known, name);
   }
   for (const ShippedModel& model : shipped_models()) {
-    if (model.method == plan.method) text += model_checksum(model.bytes) + "\n";
+    const bool holds_feet = plan.settings.feet && model.method == "contacts";
+    if (model.method == plan.method || holds_feet) text += model_checksum(model.bytes) + "\n";
   }
   return text;
 }

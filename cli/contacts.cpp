@@ -110,9 +110,8 @@ Command contacts_command() {
   command.description =
       "Finds the ground contacts of heels and toes and writes one a line: SIDE PART FIRST LAST, as "
       "in left heel 12 40, with frames as the file numbers them. # starts a comment: how likely "
-      "the "
-      "foot stands, 0 to 1. A slide that "
-      "clean --feet auto would keep as intentional is written as a comment with the reason. Edit "
+      "the foot stands, 0 to 1. A slide that clean --feet auto would keep as intentional is "
+      "written as a comment with the reason. Edit "
       "the file and give it to clean with --contacts, which holds every contact listed.";
   command.positionals = {{"IN", "take of joints; - is standard input", 1, 1, {}}};
   command.flags = {

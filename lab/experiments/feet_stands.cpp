@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "experiment.hpp"
+#include "feet/contacts.hpp"
 #include "kinemend/clean.hpp"
 #include "kinemend/extend/figures.hpp"
 #include "kinemend/extend/motion.hpp"
@@ -45,21 +46,14 @@ const std::vector<NoiseKind>& stands_noises() {
 }
 
 // Standing time in frames of parts: of the truth, of what is found, and of both.
-struct StandingTime {
+struct PartTime {
   double truth = 0, found = 0, both = 0;
 
   void add(const Take& take, const std::vector<FootContact>& right,
            const std::vector<FootContact>& says) {
     const std::size_t points = 2 * find_legs(take.skeleton).size();
-    const auto flags = [&](const std::vector<FootContact>& contacts) {
-      std::vector<std::uint8_t> result(take.frame_count() * points);
-      for (const FootContact& c : contacts) {
-        for (std::size_t f = c.first_frame; f <= c.last_frame; ++f)
-          result[f * points + 2 * c.leg + static_cast<std::size_t>(c.part)] = 1;
-      }
-      return result;
-    };
-    const std::vector<std::uint8_t> a = flags(right), b = flags(says);
+    const std::vector<std::uint8_t> a = feet::contact_flags(right, take.frame_count(), points),
+                                    b = feet::contact_flags(says, take.frame_count(), points);
     for (std::size_t i = 0; i < a.size(); ++i) {
       truth += a[i];
       found += b[i];
@@ -108,7 +102,7 @@ struct StandsRow {
   double takes = 0, truth = 0, cleaned = 0, held = 0, pop_cleaned = 0, pop_held = 0;
   LegErrors before, after;
   std::size_t worse = 0;  // takes whose legs or root are farther off than before
-  StandingTime thresholds, model;
+  PartTime thresholds, model;
 };
 
 void add(LegErrors& sum, const LegErrors& one) {

@@ -30,8 +30,8 @@ struct ContactSource {
 };
 
 /// Makes `versions` versions: the clean take, then by turns each capture system, white and
-/// correlated noise, gaps and held samples, at several rates; every other one cleaned by the
-/// default method. None if no legs with toes are found or no foot ever stands.
+/// correlated noise, some with biases, outliers and held samples, at several rates; every other one
+/// cleaned by the default method. None if no legs with toes are found or no foot ever stands.
 std::optional<ContactSource> contact_source(const Take& clean, std::size_t versions, Random random);
 
 /// A stretch of a version: played faster or slower, at another rate, on a sloping floor, drifting

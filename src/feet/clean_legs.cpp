@@ -36,7 +36,7 @@ constexpr double root_share = 0.05, noisy_root_share = 0.25, squares_per_part = 
 constexpr double quick_error_s = 0.05, slow_error_s = 0.2;
 constexpr int rounds = 2;
 // How far an error of a radian of the joints moves a standing foot, in body heights: smoothing
-// removes most of a quick one.
+// removes most of a quick one. Set by hand after a look at the takes of docs/feet.md, not swept.
 constexpr double quick_travel = 4, slow_travel = 8;
 constexpr double noisy_close_to_floor = 0.03;
 
@@ -193,13 +193,6 @@ class FeetCleaning {
       });
       update_poses(clip_, found_, legs_);
     }
-  }
-
-  Vec3 mean_place(const Soles& soles, const FootContact& c) const {
-    Vec3 sum;
-    for (std::size_t f = c.first_frame; f <= c.last_frame; ++f)
-      sum += soles.body.at(f, Soles::point_of(c));
-    return (1 / static_cast<double>(c.last_frame - c.first_frame + 1)) * sum;
   }
 
   // Returns the error of the joints, radians per axis, from the movement of standing feet.

@@ -70,6 +70,9 @@ void ease_knees(const LegMotion& motion, const std::vector<Reach>& reaches, Up u
 std::vector<double> root_drops(const LegMotion& motion, const std::vector<Reach>& reaches,
                                const std::vector<FootTarget>& targets, Up up, double blend_s);
 
+/// Returns where the part of a contact is on average.
+Vec3 mean_place(const Soles& soles, const FootContact& contact);
+
 /// Returns the usual height of each sole point above the lower one of its foot, 2 l + part.
 std::vector<double> level_offsets(const Soles& soles);
 

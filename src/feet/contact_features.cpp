@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <functional>
 #include <utility>
 
 #include "base/frame_span.hpp"
@@ -26,37 +25,56 @@ struct FootSteps {
 namespace {
 
 // Times in steps. Chosen by hand; the network has learned with them.
-constexpr std::size_t level_reach = 120;  // on either side, over which the floor is searched
-constexpr std::size_t level_spacing = 6;  // between the steps at which it is
-constexpr std::size_t heading_reach =
-    15;                                 // on either side, over which the foot's heading is a mean
-constexpr double level_quantile = 0.1;  // of heights, taken as the floor
+constexpr std::size_t level_reach = 120;   // on either side, over which the floor is searched
+constexpr std::size_t level_spacing = 6;   // between the steps at which it is
+constexpr std::size_t heading_reach = 15;  // on either side, for the mean heading of a foot
+constexpr double level_quantile = 0.1;     // of heights, taken as the floor
 // Scales and the limit of features. Chosen by hand; the network has learned with them.
 constexpr double height_scale = 10, speed_scale = 2, place_scale = 3, most_feature = 6;
 constexpr double slow_speed = 0.05;  // body heights a second, the finest resolved speed
-// Places of one point at the steps.
-std::vector<Vec3> resampled(const BodyPoints& soles, std::size_t count, Lookahead lookahead,
-                            const std::function<Vec3(std::size_t)>& at,
-                            const std::function<bool(std::size_t)>& is_seen) {
-  const double rate = soles.frame_rate_hz, step_frames = rate / contact_rate_hz;
+
+// Returns the steps up to the last of these frames.
+std::size_t steps_of(std::size_t frames, double rate_hz) {
+  const double seconds = static_cast<double>(frames - 1) / rate_hz;
+  return 1 + static_cast<std::size_t>(seconds * contact_rate_hz + 1e-6);
+}
+
+// The sum of weights and the mean of the frames about a step, under a hat as wide as the longer of
+// a step and a frame; without lookahead, under its first half if steps are longer.
+struct HatMean {
+  double weight = 0;
+  Vec3 mean;
+};
+template <class At, class IsSeen>
+HatMean hat_mean(std::size_t step, double rate_hz, std::size_t frames, Lookahead lookahead,
+                 const At& at, const IsSeen& is_seen) {
+  const double step_frames = rate_hz / contact_rate_hz;
+  const double middle = static_cast<double>(step) * step_frames;
   const double reach = std::max(1.0, step_frames);  // frames, half the width of the hat
   const double ahead = lookahead == Lookahead::none && step_frames > 1 ? 0 : reach;
+  const auto first = static_cast<std::size_t>(std::max(0.0, std::ceil(middle - reach)));
+  const auto last = std::min(frames - 1, static_cast<std::size_t>(middle + ahead));
+  HatMean result;
+  for (std::size_t f = first; f <= last; ++f) {
+    const double weight = 1 - std::fabs(static_cast<double>(f) - middle) / reach;
+    if (!(weight > 0) || !is_seen(f)) continue;
+    result.mean += weight * at(f);
+    result.weight += weight;
+  }
+  if (result.weight > 0) result.mean = (1 / result.weight) * result.mean;
+  return result;
+}
+
+// Places of one point at the steps.
+template <class At, class IsSeen>
+std::vector<Vec3> resampled(const BodyPoints& soles, std::size_t count, Lookahead lookahead,
+                            const At& at, const IsSeen& is_seen) {
   std::vector<Vec3> result(count);
   std::vector<std::uint8_t> known(count);
   for (std::size_t s = 0; s < count; ++s) {
-    const double middle = static_cast<double>(s) * step_frames;
-    const auto first = static_cast<std::size_t>(std::max(0.0, std::ceil(middle - reach)));
-    const auto last = std::min(soles.frames - 1, static_cast<std::size_t>(middle + ahead));
-    double sum = 0;
-    Vec3 place;
-    for (std::size_t f = first; f <= last; ++f) {
-      const double weight = 1 - std::fabs(static_cast<double>(f) - middle) / reach;
-      if (!(weight > 0) || !is_seen(f)) continue;
-      place += weight * at(f);
-      sum += weight;
-    }
-    if (sum > 0) result[s] = (1 / sum) * place;
-    known[s] = sum > 0 ? 1 : 0;
+    const HatMean mean = hat_mean(s, soles.frame_rate_hz, soles.frames, lookahead, at, is_seen);
+    result[s] = mean.mean;
+    known[s] = mean.weight > 0 ? 1 : 0;
   }
   bridge(
       count, [&](std::size_t s) { return known[s] != 0; },
@@ -239,20 +257,20 @@ ContactSteps contact_steps(const BodyPoints& soles, Up up, Lookahead lookahead,
   ContactSteps steps;
   steps.feet = soles.points / 2;
   if (soles.frames == 0 || steps.feet == 0) return steps;
-  const double seconds = static_cast<double>(soles.frames - 1) / soles.frame_rate_hz;
-  steps.count = 1 + static_cast<std::size_t>(seconds * contact_rate_hz + 1e-6);
+  steps.count = steps_of(soles.frames, soles.frame_rate_hz);
   steps.features.resize(steps.feet * steps.count * contact_features);
   const std::vector<Vec3> centres = resampled(
       soles, steps.count, lookahead, [&](std::size_t f) { return soles.centres[f]; },
       [](std::size_t) { return true; });
   std::vector<FootSteps> feet(steps.feet);
   for_each_index(steps.feet, [&](std::size_t l) {
-    for (std::size_t part = 0; part < 2; ++part)
+    for (std::size_t part = 0; part < 2; ++part) {
+      const std::size_t point = 2 * l + part;
       feet[l].path[part] = resampled(
-          soles, steps.count, lookahead, [&](std::size_t f) { return soles.at(f, 2 * l + part); },
-          [&](std::size_t f) { return soles.is_observed(f, 2 * l + part); });
-    for (std::size_t part = 0; part < 2; ++part)
-      feet[l].touching[part] = touching_at_steps(touching, soles, 2 * l + part, steps.count);
+          soles, steps.count, lookahead, [&](std::size_t f) { return soles.at(f, point); },
+          [&](std::size_t f) { return soles.is_observed(f, point); });
+      feet[l].touching[part] = touching_at_steps(touching, soles, point, steps.count);
+    }
     feet[l].levels = levels_of(feet[l], up, lookahead);
     feet[l].heading = headings_of(feet[l], up, soles.height, lookahead);
   });
@@ -284,23 +302,13 @@ struct LiveContactSteps::Body {
   std::vector<Vec3> centres;
   std::vector<double> ways_to_other;
 
-  // The place of a point at a step: as of `resampled` without lookahead.
   template <class At>
   Vec3 place_at(std::size_t step, const At& at) const {
-    const double step_frames = rate_hz / contact_rate_hz;
-    const double middle = static_cast<double>(step) * step_frames;
-    const double reach = std::max(1.0, step_frames), ahead = step_frames > 1 ? 0 : reach;
-    const auto first = static_cast<std::size_t>(std::max(0.0, std::ceil(middle - reach)));
-    const auto last = std::min(frames - 1, static_cast<std::size_t>(middle + ahead));
-    double sum = 0;
-    Vec3 place;
-    for (std::size_t f = std::max(first, first_frame); f <= last; ++f) {
-      const double weight = 1 - std::fabs(static_cast<double>(f) - middle) / reach;
-      if (!(weight > 0)) continue;
-      place += weight * at(kept[f - first_frame]);
-      sum += weight;
-    }
-    return (1 / sum) * place;
+    return hat_mean(
+               step, rate_hz, frames, Lookahead::none,
+               [&](std::size_t f) { return at(kept[f - first_frame]); },
+               [&](std::size_t f) { return f >= first_frame; })
+        .mean;
   }
 
   // Drops steps on which no later one depends.
@@ -376,10 +384,7 @@ void LiveContactSteps::push(std::span<const Vec3> parts, Vec3 centre) {
 
 bool LiveContactSteps::next_step(std::span<float> rows) {
   Body& body = *body_;
-  if (body.frames == 0) return false;
-  const double seconds = static_cast<double>(body.frames - 1) / body.rate_hz;
-  const std::size_t ready = 1 + static_cast<std::size_t>(seconds * contact_rate_hz + 1e-6);
-  if (body.steps >= ready) return false;
+  if (body.frames == 0 || body.steps >= steps_of(body.frames, body.rate_hz)) return false;
   body.add_step();
   const std::size_t now = body.centres.size() - 1;
   for (std::size_t l = 0; l < body.feet.size(); ++l) {

@@ -22,8 +22,7 @@ constexpr std::string_view heading =
     "# Times in which a foot stands: side, heel or toe, first and last frame, numbered as in the "
     "take.\n"
     "# What is listed is held in place; lines that start with # are not. Behind # is how likely "
-    "the "
-    "foot stands.\n";
+    "the foot stands.\n";
 
 std::string line_of(std::string side, const FootContact& contact, std::int64_t first_frame) {
   const auto number = [&](std::size_t frame) {

@@ -33,11 +33,7 @@ class Placement {
   std::size_t point(std::size_t contact) const { return Soles::point_of(contacts_[contact]); }
 
   Vec3 mean_place(std::size_t contact) const {
-    const FootContact& c = contacts_[contact];
-    Vec3 sum;
-    for (std::size_t f = c.first_frame; f <= c.last_frame; ++f)
-      sum += soles_.body.at(f, point(contact));
-    return (1.0 / static_cast<double>(c.last_frame - c.first_frame + 1)) * sum;
+    return feet::mean_place(soles_, contacts_[contact]);
   }
 
   // Returns how far each contact is lifted so that it does not sink.
@@ -160,6 +156,13 @@ void bridge(const Edge& from, const Edge& to, std::size_t blend, PartCorrection&
 }
 
 }  // namespace
+
+Vec3 mean_place(const Soles& soles, const FootContact& contact) {
+  Vec3 sum;
+  for (std::size_t f = contact.first_frame; f <= contact.last_frame; ++f)
+    sum += soles.body.at(f, Soles::point_of(contact));
+  return (1.0 / static_cast<double>(contact.last_frame - contact.first_frame + 1)) * sum;
+}
 
 std::vector<PartCorrection> place_contacts(const Soles& soles, const LegMotion& motion,
                                            const std::vector<FootContact>& contacts,

@@ -19,8 +19,8 @@ namespace {
 // A foot is in the air, or on its heel, its toe, or both: bit p says whether part p stands.
 constexpr std::size_t states = 4;
 // The cost of a part that comes down or lifts, in nats; and the share of a step's evidence that is
-// new, because neighbouring steps see the same motion. Swept on the takes that training looks at
-// (docs/details/feet.md).
+// new, because neighbouring steps see the same motion. Swept on 16 takes that no
+// table uses (docs/details/feet.md).
 constexpr double change_cost = 0.75, new_share = 0.5;
 
 bool stands(std::size_t state, std::size_t part) { return ((state >> part) & 1) != 0; }

@@ -33,7 +33,6 @@ export interface Contact {
   reason: string | null;
 }
 
-/** Lengths in units of the file. */
 /** Seconds in which feet stand, summed over feet. */
 export interface StandingTime {
   expected_s: number;
@@ -43,6 +42,7 @@ export interface StandingTime {
   confidence: number;
 }
 
+/** Lengths in units of the file. */
 export interface Feet {
   metres_per_unit: number | null;
   time: StandingTime;
