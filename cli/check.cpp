@@ -145,7 +145,8 @@ struct Checked {
 
 Checked check_file(const std::string& input, const Arguments& arguments) {
   TakeResult read = read_take(std::filesystem::path(input), read_options(arguments));
-  const CheckSettings settings = check_settings(arguments);
+  CheckSettings settings = check_settings(arguments);
+  settings.plates = force_plates(read.take);
   CheckReport report = check_take(read.take, settings);
   TakeFacts facts = facts_of(read.take, input, std::move(read.diagnostics));
   return {std::move(read.take), {std::move(facts), std::move(report)}};

@@ -19,13 +19,26 @@ namespace kinemend::cli {
 
 namespace {
 
-Take take_of_joints(const std::string& input, const ReadOptions& options) {
-  TakeResult read = read_and_warn(input, options);
-  if (read.take.has_joints()) return std::move(read.take);
-  throw Error(
-      ErrorKind::usage,
-      fmt::format("{}: this take holds markers; ground contacts are found in takes of joints",
-                  input_name(input)));
+// Contacts of joints with what clean --feet auto would hold; those of markers, which stay where
+// they are.
+FeetReport report_of(const Take& clip, const KnownNames& names) {
+  if (clip.has_joints()) {
+    Take copy = clip;
+    FeetSettings settings;
+    settings.names = names;
+    return clean_feet(copy, settings);
+  }
+  FootStands stands = find_stands(clip, {}, names);
+  FeetReport report;
+  report.sides = std::move(stands.sides);
+  report.frame_rate_hz = clip.frame_rate_hz;
+  report.time = stands.time;
+  report.contacts = std::move(stands.contacts);
+  const std::size_t count = report.contacts.size();
+  report.held.assign(count, 0);
+  report.still.assign(count, 1);
+  report.reasons.assign(count, "markers are measured points and stay where they are");
+  return report;
 }
 
 std::vector<NamedCurve> curves_of(const FeetReport& report, const Take& clip) {
@@ -81,14 +94,13 @@ int run_contacts(const Arguments& arguments) {
   if (output.empty() && (to == "fbx" || to == "glb"))
     throw Error(ErrorKind::usage, fmt::format("contacts: --to {} needs --output", to));
   if (!output.empty()) check_free(output, force);
-  const Take clip = take_of_joints(input, read_options(arguments));
-  Take copy = clip;
-  FeetSettings settings;
-  settings.names = names_of_map(map);
-  const FeetReport report = clean_feet(copy, settings);
+  const TakeResult read = read_and_warn(input, read_options(arguments));
+  const Take& clip = read.take;
+  const FeetReport report = report_of(clip, names_of_map(map));
   if (report.sides.empty()) {
-    say_warning(fmt::format("{}: no legs found; --map FILE gives the names of the feet",
-                            input_name(input)));
+    say_warning(fmt::format("{}: no {} found; --map FILE gives the names of the feet",
+                            input_name(input),
+                            clip.has_joints() ? "legs" : "feet with markers on heel and toe"));
   }
   for (const std::string& warning : report.warnings)
     say_warning(fmt::format("{}: {}", input_name(input), warning));
@@ -112,8 +124,9 @@ Command contacts_command() {
       "in left heel 12 40, with frames as the file numbers them. # starts a comment: how likely "
       "the foot stands, 0 to 1. A slide that clean --feet auto would keep as intentional is "
       "written as a comment with the reason. Edit "
-      "the file and give it to clean with --contacts, which holds every contact listed.";
-  command.positionals = {{"IN", "take of joints; - is standard input", 1, 1, {}}};
+      "the file and give it to clean with --contacts, which holds every contact listed. Feet of "
+      "markers need one on the heel and one on the toe, and are only listed.";
+  command.positionals = {{"IN", "take; - is standard input", 1, 1, {}}};
   command.flags = {
       choice_flag("to", "Output", "what to write", {"text", "csv", "json", "fbx", "glb"}, "text",
                   "csv: contact_l and contact_r for each frame, 1 where the foot "
@@ -124,6 +137,7 @@ Command contacts_command() {
   append(command.flags, reading_flags());
   command.examples = {
       {"kinemend contacts dance.bvh -o dance.contacts", "to look at and edit"},
+      {"kinemend contacts gait.c3d", "when the feet of a marker set stand"},
       {"kinemend contacts rig.bvh --map names.csv -o rig.contacts",
        "names of feet that the program does not know"},
       {"kinemend contacts walk.bvh --to fbx -o walk_contacts.fbx",

@@ -156,6 +156,8 @@ struct CheckSettings {
   std::optional<double> metres_per_unit;
   KnownNames names;  ///< names of the joints or markers of feet, if they are not recognised
   std::optional<RobotSettings> robot;  ///< empty: these checks are left out
+  bool with_stands = true;             ///< false: `CheckReport::stands` stays empty, for speed
+  std::vector<ForcePlate> plates{};    ///< of the take, with which stands are compared
   /// The system that recorded the take, as `CleanSettings::source`. It decides which noise and
   /// spikes cleaning would remove; these are the findings.
   Source source = Source::unknown;
@@ -167,6 +169,25 @@ struct SubjectHealth {
   std::size_t markers = 0;
   std::optional<double> slide_cm, sink_cm;  ///< as in `CheckFigures`
 };
+
+/// The time in which a foot alone loads force plates, and how the stands of that foot differ.
+struct PlateStand {
+  std::vector<std::size_t> plates;  ///< their indices, ascending
+  std::size_t foot = 0;             ///< index into `FootStands::sides`
+  double first_s = 0, last_s = 0;   ///< begin and end of the load, from the first frame
+  bool is_found = false;            ///< whether the foot stands at some time of it
+  /// How much later the foot comes down and lifts off (`GroundTime`) than its load begins and ends,
+  /// ms. Empty where the take shows no begin or end of either.
+  std::optional<double> onset_ms, offset_ms;
+};
+
+/// How well stands agree with force plates.
+struct PlateFigures {
+  std::size_t loads = 0, found = 0;  ///< `PlateStand`s, and those with a stand
+  /// The medians of the absolute differences; empty without any.
+  std::optional<double> onset_ms, offset_ms;
+};
+PlateFigures plate_figures(const std::vector<PlateStand>& stands);
 
 /// Findings that only `CheckSettings::robot` produces.
 struct RobotFindings {
@@ -192,6 +213,8 @@ struct CheckReport {
   std::vector<Finding> findings;  ///< worst first
   std::vector<MarkerSwap> swaps;
   std::optional<RobotFindings> robot;
+  FootStands stands;                     ///< of joints or markers, in frames of the take
+  std::vector<PlateStand> plate_stands;  ///< by foot, then time; only of markers
   std::vector<NamedGap> stale;  ///< frozen and bridged spans, by track, then frame, for a side
                                 ///< file of gaps
 };

@@ -1,6 +1,7 @@
 // Feet on the floor: when they stand, how they slide, and how to stop them sliding.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -122,6 +123,34 @@ struct StandingTime {
   double still_s = 0;     ///< in contacts that had no slide to remove
   double confidence = 0;  ///< mean over the time found (0..1)
 };
+
+/// The time in which a foot carries load, as a force plate sees it, from when it comes down to when
+/// it lifts off. A part of a foot stands, that is does not move, for a part of this time.
+struct GroundTime {
+  std::size_t leg = 0;
+  std::size_t first_frame = 0, last_frame = 0;  ///< in which heel or toe stand; inclusive
+  /// From the first frame of the take. Empty if the foot stands in the first or the last frame.
+  std::optional<double> touch_down_s, lift_off_s;
+};
+
+/// The feet of a take and the times in which they stand.
+struct FootStands {
+  std::vector<std::string> sides;  ///< "left", "right"; "Ann left" in a take of several people
+  /// By foot and `FootPart`: the joint or marker that shows the part; the ankle shows the heel.
+  std::vector<std::array<std::size_t, 2>> tracks;
+  /// Sorted by foot, part, then frame; `leg` is an index into `sides`.
+  std::vector<FootContact> contacts;
+  std::vector<GroundTime> ground;  ///< by foot, then time; `leg` as in contacts
+  StandingTime time;               ///< nothing is held
+};
+/// Finds the feet of a take of joints or markers and their contacts, those of joints as
+/// `find_contacts` does. A foot of markers has one on the heel and one on the toe or the ball of
+/// the foot, of a marker set in use: LHEE and LTOE, R_FCC and R_FM1, "l heel" and "l met". `names`:
+/// of joints or markers, if they are not recognised. `metres_per_unit`: of markers; 0: as the take
+/// states, else the unit that gives the body the size of a person. No feet are found without such
+/// a unit, and if no direction is clearly up.
+FootStands find_stands(const Take& take, const ContactSettings& settings = {},
+                       const KnownNames& names = {}, double metres_per_unit = 0);
 
 struct FeetReport {
   std::vector<std::string> sides;  ///< sides of the legs

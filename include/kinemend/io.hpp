@@ -84,6 +84,11 @@ std::string write_with_curves(const Take& take, std::string_view format,
 /// stable (`not_kept`). Errors: `usage` for an unknown format.
 Diagnostics lost_in_writing(const Take& take, std::string_view format);
 
+/// Returns the force plates of the C3D file that a take comes from, of types 1 to 5, with corners
+/// in the unit and axes of the take. Loads start at zero: FORCE_PLATFORM:ZERO names the frames
+/// without load. Empty for other takes, and for analog samples that no channel explains.
+std::vector<ForcePlate> force_plates(const Take& take);
+
 /// A file that another file needs in the same folder.
 struct SideFile {
   std::filesystem::path path;

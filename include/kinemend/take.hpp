@@ -2,6 +2,7 @@
 // skeleton, the system that recorded it, and its gaps.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -172,6 +173,13 @@ struct MarkerEvent {
   std::string label;    ///< "Foot Strike"
   std::string context;  ///< "Left"; often empty
   double time_s = 0;    ///< from frame 1 of the trial, which may lie before the first stored frame
+};
+
+/// A force plate and the load on it.
+struct ForcePlate {
+  std::array<Vec3, 4> corners{};  ///< in order around the plate, file units
+  double rate_hz = 0;             ///< of `loads`, the first of which is at the first frame
+  std::vector<double> loads;      ///< normal force, above zero under a foot; newtons in most files
 };
 
 /// A motion of F frames: J rotations of a skeleton's joints and P positions, frame-major. A take of

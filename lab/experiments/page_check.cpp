@@ -1,6 +1,9 @@
 // Figures of docs/measured/check.md: detection of randomly exchanged marker labels; takes whose
-// noise does not show, and clean takes.
+// noise does not show, and clean takes; stands beside force plates.
+#include <array>
 #include <map>
+#include <optional>
+#include <vector>
 
 #include "check/marker_support.hpp"
 #include "clean_worlds.hpp"
@@ -82,12 +85,53 @@ void doubts(const Arguments& arguments) {
   table.close();
 }
 
+// Takes of marker sets with force plates, from four laboratories. The windows of touch-down and
+// lift-off (src/feet/ground_times.cpp) are tuned on half of them.
+struct PlateTake {
+  const char* file;
+  bool is_tuned_on;
+};
+constexpr std::array<PlateTake, 7> plate_takes{{{"PiG_Motion3_FF.c3d", true},
+                                                {"PiG_Motion-FlatFoot-One.c3d", true},
+                                                {"PiG_Motion-FlatFoot-Full.c3d", true},
+                                                {"FunctionalWalk.c3d", true},
+                                                {"ADemo1_rewrite_c3d_pc_float.c3d", false},
+                                                {"c3d_sample.c3d", false},
+                                                {"type-2a.c3d", false}}};
+
+void force_plate_stands(const Arguments& arguments) {
+  Table table(arguments, "page_plates.csv", "takes,number,loads,found,onset_ms,offset_ms");
+  for (const bool is_tuned_on : {true, false}) {
+    std::size_t takes = 0;
+    std::vector<PlateStand> stands;
+    for (const PlateTake& plate_take : plate_takes) {
+      const auto path = find_take(arguments.data, plate_take.file);
+      if (plate_take.is_tuned_on != is_tuned_on || !path) continue;
+      const Take take = read_take(*path).take;
+      CheckSettings settings;
+      settings.plates = force_plates(take);
+      const CheckReport report = check_take(take, settings);
+      ++takes;
+      stands.insert(stands.end(), report.plate_stands.begin(), report.plate_stands.end());
+    }
+    const PlateFigures figures = plate_figures(stands);
+    const auto text = [](const std::optional<double>& ms) {
+      return ms ? fmt::format("{:.4g}", *ms) : std::string();
+    };
+    table.add({is_tuned_on ? "tuned on" : "others", fmt::format("{}", takes),
+               fmt::format("{}", figures.loads), fmt::format("{}", figures.found),
+               text(figures.onset_ms), text(figures.offset_ms)});
+  }
+  table.close();
+}
+
 void page_check(const Arguments& arguments) {
   exchanged_labels(arguments);
   doubts(arguments);
 }
 
 const Registration page_check_entry("page_check", page_check);
+const Registration page_plates_entry("page_plates", force_plate_stands);
 
 }  // namespace
 }  // namespace kinemend::papers

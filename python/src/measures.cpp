@@ -16,6 +16,7 @@
 #include "kinemend/extend/method_options.hpp"
 #include "kinemend/feet.hpp"
 #include "kinemend/fill.hpp"
+#include "kinemend/io.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "kinemend/metrics.hpp"
 #include "reports.hpp"
@@ -135,6 +136,7 @@ ReportPtr check(const HeldTakePtr& held, const std::optional<std::string>& up,
   settings.metres_per_unit = metres_per_unit;
   settings.names = known_names_of(feet_names);
   const py::gil_scoped_release release;
+  settings.plates = force_plates(held->take);
   return report_of(*held, held->take, check_take(held->take, settings));
 }
 

@@ -130,6 +130,15 @@ void check_rows(const check::Rows& labelled, const CheckSettings& settings, Chec
   check::check_robot_feet(labelled, settings, report);
 }
 
+void add_stands(const Take& take, const CheckSettings& settings, CheckReport& report) {
+  if (!settings.with_stands || report.frames == 0) return;
+  ContactSettings contact;
+  contact.up = settings.up;
+  report.stands = find_stands(take, contact, settings.names, report.metres_per_unit);
+  if (report.is_markers)
+    report.plate_stands = check::plate_stands(take, report.stands, settings.plates);
+}
+
 }  // namespace
 
 CheckReport check_take(const Take& take, const CheckSettings& settings) {
@@ -142,6 +151,7 @@ CheckReport check_take(const Take& take, const CheckSettings& settings) {
   check::check_gaps(rows, report);
   if (take.has_joints()) {
     check_rows(rows, settings, report);
+    add_stands(take, settings, report);
     shift_frames(report, report.calibration_frames);
     check::check_zero_frames(take, report);
     check::check_euler_flips(take, report);
@@ -152,6 +162,7 @@ CheckReport check_take(const Take& take, const CheckSettings& settings) {
     Take labelled = take;
     undo_swaps(labelled, report.swaps);
     check_rows(rows.of(labelled), settings, report);
+    add_stands(labelled, settings, report);
     report_left_out(rows, report);
   }
   check::sort_worst_first(report.findings);

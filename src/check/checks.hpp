@@ -144,6 +144,12 @@ std::vector<Contact> find_contacts(const BodyPoints& body, Up up);
 /// None if that is ambiguous, if the body has no feet, or if it has less than 10 frames.
 std::optional<Up> up_of_body(const BodyPoints& body, const CheckSettings& settings);
 
+/// Compares stands of markers with the loads of force plates. Loads under two feet, or under none
+/// whose heel and toe are above the plate, are left out, and plates without load under a foot that
+/// stands on them.
+std::vector<PlateStand> plate_stands(const Take& clip, const FootStands& stands,
+                                     const std::vector<ForcePlate>& plates);
+
 /// Returns the spans in which every point of every foot is clear of the floor.
 std::vector<FrameSpan> find_flights(const BodyPoints& body, Up up);
 

@@ -154,6 +154,7 @@ std::vector<Leftover> reasons_unchanged(const Take& take, const CleanSettings& s
   if (report.frames == 0 || report.tracks.empty()) return reasons;
   CheckSettings check_settings;
   check_settings.source = report.source.source;
+  check_settings.with_stands = false;
   const CheckReport check = check_take(take, check_settings);
   const Leftover reason = reason_of_method(report, settings);
   if (!reason.what.empty()) reasons.push_back(reason);

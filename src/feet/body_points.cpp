@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -108,12 +109,20 @@ std::vector<Foot> feet_of(const Skeleton& skeleton, const KnownNames& names) {
   return feet;
 }
 
-bool names_a_sole(std::string_view name) {
-  static constexpr std::array<std::string_view, 12> fragments{
-      "TOE", "HEE", "MT1", "MT2", "MT5", "MTP", "FM1", "FM5", "FCC", "CALC", "MET1", "MET5"};
-  return std::any_of(fragments.begin(), fragments.end(),
-                     [&](std::string_view fragment) { return name.find(fragment) != name.npos; });
+using Fragments = std::span<const std::string_view>;
+
+bool has_any(std::string_view name, Fragments fragments) {
+  return std::any_of(fragments.begin(), fragments.end(), [&](std::string_view fragment) {
+    return name.find(fragment) != std::string_view::npos;
+  });
 }
+
+// Parts of the names of markers, in capitals.
+constexpr std::array<std::string_view, 3> heel_names{"HEE", "FCC", "CALC"};
+constexpr std::array<std::string_view, 8> toe_names{"TOE", "MT1", "MT2", "MT5",
+                                                    "MTP", "FM1", "FM5", "MET"};
+constexpr std::array<std::string_view, 6> pelvis_names{"ASI", "PSI", "SACR", "FWT", "BWT", "PELV"};
+constexpr std::array<std::string_view, 1> not_of_feet{"HELMET"};
 
 std::string upper_case(std::string_view name) {
   std::string upper(name);
@@ -133,11 +142,25 @@ std::vector<Foot> feet_of(const Take& clip, const std::vector<std::size_t>& mark
       const std::string marker = upper_case(without_subject(known[markers[i]]));
       const bool on_side =
           !marker.empty() && (marker.front() == letter || marker.find(word) != std::string::npos);
-      if (on_side && names_a_sole(marker)) foot.points.push_back(i);
+      if (!on_side || has_any(marker, not_of_feet)) continue;
+      const bool is_heel = has_any(marker, heel_names);
+      if (!is_heel && !has_any(marker, toe_names)) continue;
+      foot.points.push_back(i);
+      foot.parts[is_heel ? 0 : 1].push_back(i);
     }
     if (!foot.points.empty()) feet.push_back(std::move(foot));
   }
   return feet;
+}
+
+std::vector<std::size_t> pelvis_of(const Take& clip, const std::vector<std::size_t>& markers,
+                                   const KnownNames& names) {
+  const std::vector<std::string> known = known_names(clip.names, names);
+  std::vector<std::size_t> pelvis;
+  for (std::size_t i = 0; i < markers.size(); ++i) {
+    if (has_any(upper_case(without_subject(known[markers[i]])), pelvis_names)) pelvis.push_back(i);
+  }
+  return pelvis;
 }
 
 }  // namespace
@@ -165,6 +188,7 @@ BodyPoints body_points(const Take& clip, const std::vector<std::size_t>& markers
   body.frame_rate_hz = clip.frame_rate_hz;
   body.feet = feet_of(clip, markers, names);
   if (body.feet.empty()) return body;
+  body.pelvis = pelvis_of(clip, markers, names);
   for (std::size_t f = 0; f < body.frames; ++f) {
     Vec3 sum;
     std::size_t seen = 0;

@@ -1,6 +1,7 @@
 // The points of a body that touch the floor, and its up direction.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -19,6 +20,9 @@ inline constexpr double usual_height_m = 1.7;
 struct Foot {
   std::string name;                 ///< of the joint or marker that represents it
   std::vector<std::size_t> points;  ///< toe, ball, heel: indices into `BodyPoints`
+  /// The markers on the heel, and those on the toe and the ball of the foot, by `FootPart`; empty
+  /// for joints.
+  std::array<std::vector<std::size_t>, 2> parts = {};
 };
 
 /// Points of a body in contact with the floor or in flight: F frames of P points, in one unit of
@@ -31,7 +35,8 @@ struct BodyPoints {
   std::vector<std::uint8_t> observed;  ///< F x P; empty means all
   std::vector<Vec3> centres;           ///< F: pelvis, or mean of the markers seen
   std::vector<Foot> feet;
-  double height = 0;  ///< of the body
+  std::vector<std::size_t> pelvis;  ///< markers on it, if any are recognised
+  double height = 0;                ///< of the body
 
   Vec3 at(std::size_t frame, std::size_t point) const { return positions[frame * points + point]; }
   bool is_observed(std::size_t frame, std::size_t point) const {

@@ -127,34 +127,13 @@ class FeetCleaning {
       report_.held[i] = report_.still[i] = 0;
       report_.reasons[i] = "hip, knee and ankle may not all turn";
     }
-    report_.time = standing_time(found.expected_s);
-  }
-
-  StandingTime standing_time(std::optional<double> expected_s) const {
-    const std::size_t frames = legs_.frames;
-    std::vector<std::uint8_t> found(frames * legs_.legs()), held(found.size()), still(found.size());
-    StandingTime time;
-    double parts = 0;
-    for (std::size_t i = 0; i < report_.contacts.size(); ++i) {
-      const FootContact& c = report_.contacts[i];
-      for (std::size_t f = c.first_frame; f <= c.last_frame; ++f) {
-        const std::size_t at = f * legs_.legs() + c.leg;
-        found[at] = 1;
-        held[at] |= report_.held[i];
-        still[at] |= report_.still[i];
-        time.confidence += c.confidence;
-        ++parts;
-      }
-    }
+    report_.time = standing_time(report_.contacts, found.expected_s, legs_.frames, legs_.legs(),
+                                 legs_.frame_rate_hz);
     const auto seconds = [&](const std::vector<std::uint8_t>& flags) {
-      return static_cast<double>(std::count(flags.begin(), flags.end(), 1)) / legs_.frame_rate_hz;
+      return standing_s(report_.contacts, flags, legs_.frames, legs_.legs(), legs_.frame_rate_hz);
     };
-    time.found_s = seconds(found);
-    time.held_s = seconds(held);
-    time.still_s = seconds(still);
-    time.expected_s = expected_s ? *expected_s : time.found_s;
-    if (parts > 0) time.confidence /= parts;
-    return time;
+    report_.time.held_s = seconds(report_.held);
+    report_.time.still_s = seconds(report_.still);
   }
 
   // In a noisy take a foot that hardly moves is as good a measurement as any.

@@ -93,37 +93,43 @@ SolePoint quiet_sole_point(const BodyPoints& body, std::size_t point, Up up,
 
 // A faster body rolls its feet faster, and its stands are so short that smoothing mixes them with
 // the swing.
-std::vector<double> paces_of(const LegMotion& motion, Up up) {
+std::vector<double> paces_of(const BodyPoints& body, Up up) {
   // Chosen by hand, not swept.
   constexpr double walk = 1.2;     // body heights a second: from 2 m/s on people run
   constexpr double reach_s = 0.1;  // on either side, over which the speed is measured
-  const std::size_t reach = frames_in(reach_s, motion.frame_rate_hz, 0);
-  std::vector<double> paces(motion.frames, 1);
-  for (std::size_t f = 0; f < motion.frames; ++f) {
+  const std::size_t reach = frames_in(reach_s, body.frame_rate_hz, 0);
+  std::vector<double> paces(body.frames, 1);
+  for (std::size_t f = 0; f < body.frames; ++f) {
     const std::size_t first = f < reach ? 0 : f - reach;
-    const std::size_t last = std::min(f + reach, motion.frames - 1);
+    const std::size_t last = std::min(f + reach, body.frames - 1);
     if (last == first) continue;
-    const Vec3 way = level_part(motion.hips_at(last) - motion.hips_at(first), up);
-    const double speed = norm(way) * motion.frame_rate_hz / static_cast<double>(last - first);
-    paces[f] = std::max(1.0, speed / (walk * motion.height));
+    const Vec3 way = level_part(body.centres[last] - body.centres[first], up);
+    const double speed = norm(way) * body.frame_rate_hz / static_cast<double>(last - first);
+    paces[f] = std::max(1.0, speed / (walk * body.height));
   }
   return paces;
 }
 
 }  // namespace
 
-Soles find_soles(const LegMotion& motion, Up up, const ContactSettings& settings) {
+Soles find_soles(BodyPoints heels_and_toes, Up up, const ContactSettings& settings) {
   Soles soles;
-  soles.body = sole_points(motion);
+  soles.body = std::move(heels_and_toes);
   soles.up = up;
-  soles.height = motion.height;
-  for (std::size_t p = 0; p < soles.body.points; ++p)
-    soles.has.push_back(motion.models[p / 2].has[p % 2] ? 1 : 0);
-  soles.paces = paces_of(motion, up);
+  soles.height = soles.body.height;
+  soles.has.assign(soles.body.points, 1);
+  soles.paces = paces_of(soles.body, up);
   soles.points.resize(soles.body.points);
   for_each_index(soles.body.points, [&](std::size_t p) {
     soles.points[p] = quiet_sole_point(soles.body, p, up, settings);
   });
+  return soles;
+}
+
+Soles find_soles(const LegMotion& motion, Up up, const ContactSettings& settings) {
+  Soles soles = find_soles(sole_points(motion), up, settings);
+  for (std::size_t p = 0; p < soles.has.size(); ++p)
+    soles.has[p] = motion.models[p / 2].has[p % 2] ? 1 : 0;
   return soles;
 }
 
@@ -322,20 +328,5 @@ void sort_contacts(std::vector<FootContact>& contacts) {
 }
 
 }  // namespace feet
-
-std::vector<FootContact> find_contacts(const Take& clip, const ContactSettings& settings) {
-  feet::check_settings(settings);
-  const std::size_t first = leading_calibration_frames(clip);
-  std::optional<Take> part;
-  const Take& motion = frames_from(clip, first, part);
-  feet::LegMotion legs = feet::leg_motion(motion, find_legs(clip.skeleton));
-  const std::optional<feet::Up> up = feet::up_of(legs, settings.up);
-  if (!up) return {};
-  feet::set_heels(motion, *up, legs);
-  std::vector<FootContact> contacts =
-      feet::find_contacts(feet::find_soles(legs, *up, settings), settings).contacts;
-  feet::shift_contacts(contacts, 0, first);
-  return contacts;
-}
 
 }  // namespace kinemend

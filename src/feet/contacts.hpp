@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "feet/floor.hpp"
@@ -28,6 +31,8 @@ struct Soles {
 };
 
 Soles find_soles(const LegMotion& motion, Up up, const ContactSettings& settings);
+/// The same of heels and toes as points 2 l and 2 l + 1, all of which exist.
+Soles find_soles(BodyPoints heels_and_toes, Up up, const ContactSettings& settings);
 
 /// Contacts by leg, part, then frame.
 struct FoundContacts {
@@ -49,6 +54,14 @@ FoundContacts likely_contacts(const ContactNetwork& network, const Soles& soles,
 /// Returns F x points, 1 where one of the contacts holds the point.
 std::vector<std::uint8_t> contact_flags(const std::vector<FootContact>& contacts,
                                         std::size_t frames, std::size_t points);
+
+/// Returns the time found in contacts, with their confidence, and what is expected of it.
+StandingTime standing_time(const std::vector<FootContact>& contacts,
+                           std::optional<double> expected_s, std::size_t frames, std::size_t legs,
+                           double frame_rate_hz);
+/// Returns the seconds of `contacts` with a flag, summed over legs; all of them without flags.
+double standing_s(const std::vector<FootContact>& contacts, std::span<const std::uint8_t> flags,
+                  std::size_t frames, std::size_t legs, double frame_rate_hz);
 
 /// Throws `ErrorKind::usage` for settings out of range.
 void check_settings(const ContactSettings& settings);

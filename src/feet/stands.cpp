@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <span>
 
 #include "base/frame_span.hpp"
 #include "base/portable.hpp"
@@ -113,6 +115,33 @@ FoundContacts likely_contacts(const ContactNetwork& network, const Soles& soles,
   }
   found.expected_s = expected / soles.body.frame_rate_hz;
   return found;
+}
+
+double standing_s(const std::vector<FootContact>& contacts, std::span<const std::uint8_t> flags,
+                  std::size_t frames, std::size_t legs, double frame_rate_hz) {
+  std::vector<std::uint8_t> stands(frames * legs);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (!flags.empty() && flags[i] == 0) continue;
+    for (std::size_t f = contacts[i].first_frame; f <= contacts[i].last_frame; ++f)
+      stands[f * legs + contacts[i].leg] = 1;
+  }
+  return static_cast<double>(std::count(stands.begin(), stands.end(), 1)) / frame_rate_hz;
+}
+
+StandingTime standing_time(const std::vector<FootContact>& contacts,
+                           std::optional<double> expected_s, std::size_t frames, std::size_t legs,
+                           double frame_rate_hz) {
+  StandingTime time;
+  time.found_s = standing_s(contacts, {}, frames, legs, frame_rate_hz);
+  time.expected_s = expected_s.value_or(time.found_s);
+  double parts = 0;
+  for (const FootContact& contact : contacts) {
+    const auto length = static_cast<double>(contact.last_frame - contact.first_frame + 1);
+    time.confidence += length * contact.confidence;
+    parts += length;
+  }
+  if (parts > 0) time.confidence /= parts;
+  return time;
 }
 
 }  // namespace kinemend::feet

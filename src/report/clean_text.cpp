@@ -43,19 +43,11 @@ std::string left_alone_text(const FeetReport& report, std::int64_t first_frame, 
   return text;
 }
 
-// Contacts are counted in seconds, because a stand that is found in slivers is not found.
 std::string standing_text(const FeetReport& report) {
   const StandingTime& time = report.time;
-  if (report.contacts.empty()) {
-    return time.expected_s > 0
-               ? fmt::format("no contacts found; about {:.1f} s of standing expected",
-                             time.expected_s)
-               : std::string("no contacts found");
-  }
-  std::string text = fmt::format(
-      "stand for {:.1f} s, about {:.1f} s expected, confidence {:.2f}; "
-      "held for {:.1f} s",
-      time.found_s, time.expected_s, time.confidence, time.held_s);
+  std::string text = stand_words(time);
+  if (report.contacts.empty()) return text;
+  text += fmt::format("; held for {:.1f} s", time.held_s);
   if (time.still_s > 0) text += fmt::format(", still for {:.1f} s", time.still_s);
   return text;
 }

@@ -93,6 +93,25 @@ std::string check_verdict(const CheckReport& report) {
 
 namespace {
 
+// Returns when feet stand, and how that differs from the loads of force plates.
+std::vector<std::pair<std::string, std::string>> stand_rows(const CheckReport& report) {
+  const FootStands& stands = report.stands;
+  if (stands.sides.empty()) return {};
+  std::vector<std::pair<std::string, std::string>> rows = {
+      {"feet stand", stand_words(stands.time)}};
+  if (report.plate_stands.empty()) return rows;
+  const PlateFigures plates = plate_figures(report.plate_stands);
+  std::string words = fmt::format("{} of one foot, {} with a stand", counted(plates.loads, "load"),
+                                  grouped(plates.found));
+  const auto add = [&](const std::optional<double>& ms, const char* name) {
+    if (ms) words += fmt::format("; {} {} ms apart in the median", name, figure(*ms));
+  };
+  add(plates.onset_ms, "onset");
+  add(plates.offset_ms, "offset");
+  rows.emplace_back("force plates", words);
+  return rows;
+}
+
 // Lists the first few of each kind: a hundred spikes say no more than five.
 std::string findings_text(const TakeFacts& take, const CheckReport& report, bool all) {
   // Chosen by hand.
@@ -185,6 +204,7 @@ std::string result_text(const TakeFacts& take, const CheckReport& report,
     if (!value || (report.is_markers ? of_joints : of_markers)) continue;
     table.add({std::string(entry.rule.label), with_unit(*value, unit_of(entry, report))});
   }
+  for (const auto& [label, words] : stand_rows(report)) table.add({label, words});
   for (const NoiseCharacter& noise : report.noise) {
     table.add({"noise found",
                noise_words(noise, kind_checked(report), report.noise_unit, report.frame_rate_hz)});

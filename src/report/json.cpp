@@ -211,6 +211,35 @@ Json robot_json(const RobotFindings& robot, std::int64_t first_frame) {
   return {{"contacts", std::move(contacts)}};
 }
 
+Json stands_json(const CheckReport& report, std::int64_t first_frame) {
+  const FootStands& stands = report.stands;
+  Json contacts = Json::array(), ground = Json::array(), plates = Json::array();
+  for (const FootContact& contact : stands.contacts) {
+    Json json = contact_json(stands.sides[contact.leg], contact, first_frame);
+    json["confidence"] = contact.confidence;
+    contacts.push_back(std::move(json));
+  }
+  for (const GroundTime& time : stands.ground) {
+    ground.push_back({{"side", stands.sides[time.leg]},
+                      {"touch_down_s", number(time.touch_down_s)},
+                      {"lift_off_s", number(time.lift_off_s)}});
+  }
+  for (const PlateStand& stand : report.plate_stands) {
+    Json numbers = Json::array();
+    for (const std::size_t plate : stand.plates) numbers.push_back(plate + 1);
+    plates.push_back({{"side", stands.sides[stand.foot]},
+                      {"plates", std::move(numbers)},
+                      {"first_s", stand.first_s},
+                      {"last_s", stand.last_s},
+                      {"found", stand.is_found},
+                      {"onset_ms", number(stand.onset_ms)},
+                      {"offset_ms", number(stand.offset_ms)}});
+  }
+  return {{"expected_s", stands.time.expected_s}, {"found_s", stands.time.found_s},
+          {"confidence", stands.time.confidence}, {"contacts", std::move(contacts)},
+          {"ground", std::move(ground)},          {"loads", std::move(plates)}};
+}
+
 // Adds the entries of a single command, between the verdict and the figures.
 void add_own(const TakeFacts& take, const CleanReport& report, Depth depth, Json& json) {
   json["method"] = report.method;
@@ -229,6 +258,7 @@ void add_own(const TakeFacts& take, const CheckReport& report, Depth /*depth*/, 
   add_source(report.source, json);
   json["noise"] = noise_json(report.noise, report.frame_rate_hz);
   json["subjects"] = subjects_json(report);
+  if (!report.stands.sides.empty()) json["stands"] = stands_json(report, take.first_frame);
   if (report.robot) json["robot"] = robot_json(*report.robot, take.first_frame);
 }
 void add_own(const TakeFacts& /*take*/, const FillOutcome& /*outcome*/, Depth /*depth*/,

@@ -135,4 +135,15 @@ std::string noise_words(const NoiseCharacter& noise, TakeKind kind, std::string_
                              figure(noise.frames_per_sample));
 }
 
+// Contacts are counted in seconds, because a stand that is found in slivers is not found.
+std::string stand_words(const StandingTime& time) {
+  if (time.found_s > 0) {
+    return fmt::format("stand for {:.1f} s, about {:.1f} s expected, confidence {:.2f}",
+                       time.found_s, time.expected_s, time.confidence);
+  }
+  return time.expected_s > 0 ? fmt::format("no contacts found; about {:.1f} s of standing expected",
+                                           time.expected_s)
+                             : std::string("no contacts found");
+}
+
 }  // namespace kinemend

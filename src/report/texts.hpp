@@ -16,6 +16,8 @@ std::string shown_name(const TakeFacts& take);
 /// `unit`: of the tracks.
 std::string noise_words(const NoiseCharacter& noise, TakeKind kind, std::string_view unit,
                         double frame_rate_hz);
+/// Returns for example "stand for 3.2 s, about 3.3 s expected, confidence 0.95".
+std::string stand_words(const StandingTime& time);
 /// Returns for example "video (given)" or "not known".
 std::string source_words(const TakeSource& source);
 /// Returns for example "; written to walk.clean.bvh"; empty for standard output.

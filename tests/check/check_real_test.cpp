@@ -31,6 +31,34 @@ TEST_P(KnownFaults, AreFound) {
   FAIL() << to_string(fault.kind) << " not found";
 }
 
+TEST(RealPlates, TouchDownAndLiftOffAgreeWithForcePlates) {
+  std::vector<PlateStand> stands;
+  for (const char* file : {"btk/PiG/PiG_Motion3_FF.c3d", "btk/others/FunctionalWalk.c3d",
+                           "kineticstoolkit/c3d_sample.c3d"}) {
+    const Take take = read_take(std::filesystem::path(KINEMEND_DATA_FOLDER) / "c3d" / file).take;
+    CheckSettings settings;
+    settings.plates = force_plates(take);
+    const CheckReport report = check_take(take, settings);
+    EXPECT_EQ(report.plate_stands.size(), 3u) << file;
+    stands.insert(stands.end(), report.plate_stands.begin(), report.plate_stands.end());
+  }
+  const PlateFigures figures = plate_figures(stands);
+  EXPECT_EQ(figures.found, figures.loads);
+  EXPECT_LT(figures.onset_ms.value_or(1000), 20);
+  EXPECT_LT(figures.offset_ms.value_or(1000), 20);
+}
+
+// The persons stand on the plates while the file calls them unloaded.
+TEST(RealPlates, APlateIsNotBelievedUnderAPersonWhoAlreadyStoodOnIt) {
+  const Take take =
+      read_take(std::filesystem::path(KINEMEND_DATA_FOLDER) / "c3d/btk/others/FunctionalStatic.c3d")
+          .take;
+  CheckSettings settings;
+  settings.plates = force_plates(take);
+  EXPECT_EQ(settings.plates.size(), 3u);
+  EXPECT_TRUE(check_take(take, settings).plate_stands.empty());
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Takes, KnownFaults,
     testing::Values(KnownFault{"cmu/bvh/07_12.bvh", FindingKind::zero_frames, 2, 2},

@@ -1,8 +1,13 @@
 // Tests of the feet flags and of files of contacts; of feet with meaningless names, feet of several
 // people, and feet that never stand.
+#include <algorithm>
 #include <sstream>
+#include <utility>
 
+#include "cli/plate.hpp"
 #include "cli/program.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/io.hpp"
 
 namespace kinemend::test {
 namespace {
@@ -46,6 +51,38 @@ TEST_F(Feet, AreToldToPrograms) {
   bool adjusted = false;
   for (const Json& span : spans) adjusted = adjusted || span["verdict"] == "foot_adjusted";
   EXPECT_TRUE(adjusted);
+}
+
+TEST_F(Feet, OfMarkersAreListedAndShownByCheck) {
+  synth("walk.bvh", "walk", "3");
+  const Take joints = read_take(folder / "walk.bvh").take;
+  Take markers = joint_markers(joints, true);
+  for (const auto& [joint, marker] :
+       {std::pair("LeftFoot", "LHEE"), std::pair("LeftToeBase", "LTOE"),
+        std::pair("RightFoot", "RHEE"), std::pair("RightToeBase", "RTOE")}) {
+    std::replace(markers.names.begin(), markers.names.end(), std::string(joint),
+                 std::string(marker));
+  }
+  markers.unit = "cm";
+  put(folder / "walk.trc", write_take(markers, "trc"));
+  const Ran listed = run({"contacts", "walk.trc"});
+  EXPECT_EQ(listed.code, 0) << listed.err;
+  EXPECT_THAT(listed.out, testing::ContainsRegex("\nleft toe [0-9]+ [0-9]+  # [01]\\.[0-9]+\n"));
+  EXPECT_EQ(run({"contacts", "walk.trc", "--to", "glb", "-o", "walk.glb"}).code, 2);
+  EXPECT_THAT(run({"check", "walk.trc"}).out,
+              testing::ContainsRegex("feet stand +stand for [0-9.]+ s, about [0-9.]+ s expected"));
+  const Json stands = Json::parse(run({"check", "walk.trc", "--json"}).out)["takes"][0]["stands"];
+  EXPECT_EQ(stands["contacts"][0]["side"], "left");
+  EXPECT_GT(stands["contacts"][0]["confidence"], 0.5);
+  EXPECT_FALSE(stands["ground"].empty());
+  EXPECT_TRUE(stands["loads"].empty());
+}
+
+TEST_F(Feet, OfMarkersThatAreNotRecognisedAreSaidToBeMissing) {
+  put(folder / "plate.trc", plate_take());
+  const Ran listed = run({"contacts", "plate.trc"});
+  EXPECT_EQ(listed.code, 0);
+  EXPECT_THAT(listed.err, HasSubstr("no feet with markers on heel and toe found"));
 }
 
 TEST_F(Feet, CanBeListedEditedAndHeldAsListed) {

@@ -15,7 +15,8 @@ SCHEMA = json.loads((ROOT / "docs" / "report.schema.json").read_text())["$defs"]
 CLASSES = {"take": reports.Report, "figures": reports.Figures, "finding": reports.Finding, "track": reports.Track,
            "diagnostic": reports.Diagnostic, "noise": reports.Noise, "fall_back": reports.FallBack, "leftover": reports.Leftover,
            "subject": reports.Subject, "feet": reports.Feet, "standing_time": reports.StandingTime, "feet_figures": reports.FeetFigures, "contact": reports.Contact, "standing": reports.Standing,
-           "robot": reports.Robot}
+           "robot": reports.Robot, "stand": reports.Stand, "ground_time": reports.GroundTime, "plate_load": reports.PlateLoad,
+           "stands": reports.Stands}
 PLAIN = {"string": str, "integer": int, "number": float, "boolean": bool, "null": type(None), "array": list, "object": dict}
 
 

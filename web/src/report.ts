@@ -104,6 +104,16 @@ export interface Skeleton {
   translated: number[];
 }
 
+/** A time in which a part of a foot stands; frames of the whole take, from 0. */
+export interface StageContact {
+  points: number[];
+  first: number;
+  last: number;
+  /** "left heel" */
+  foot: string;
+  confidence: number;
+}
+
 export interface TakeData {
   kind: 'joints' | 'markers';
   names: string[];
@@ -121,7 +131,7 @@ export interface TakeData {
     sign: number;
     floor: number;
     height: number;
-    contacts: { points: number[]; first: number; last: number }[];
+    contacts: StageContact[];
   };
   gaps: { before: Gaps; after: Gaps | null };
   skeleton?: Skeleton;

@@ -8,6 +8,7 @@ import { Player } from './player';
 import type { Finding, ReportDocument, TakeEntry } from './report';
 import { TrackTable } from './tables';
 import { pause } from './slices';
+import { Stands } from './stands';
 import type { Take } from './take';
 import { themeButton } from './theme';
 import { Timeline } from './timeline';
@@ -130,6 +131,8 @@ export interface Shown {
   player: Player;
   body: Body | null;
   timeline: Timeline;
+  /** Null for a take without contacts. */
+  stands: Stands | null;
   curves: Curves;
   /** Called before another page replaces this one. */
   dispose(): void;
@@ -190,6 +193,8 @@ export async function showTake(page: HTMLElement, document_: ReportDocument, tak
     const tracks = take.tracksOf(finding.track);
     if (tracks.length > 0) player.choose(tracks.slice(0, 4));
   });
+  const [standsSection] = section('Standing feet', 'stands');
+  const stands = data.stage.contacts.length > 0 ? new Stands(standsSection, take, player) : null;
   await pause();
   if (isOver()) throw new Error('another result replaces this one');
   // The canvas of the body leaves its old page first: from here on, nothing is awaited until this page is shown.
@@ -203,13 +208,14 @@ export async function showTake(page: HTMLElement, document_: ReportDocument, tak
   const theme = themeButton(() => {
     body?.paint();
     timeline.draw();
+    stands?.draw();
     curves.rebuild();
     onTheme?.();
   }, ended.signal);
   const header = element('header', {}, element('div', {}, title, verdict), loading, theme);
   const parts = [
     element('div', { class: 'top' }, bodySection, tableSection),
-    timelineSection, curvesSection, facts,
+    timelineSection, ...(stands === null ? [] : [standsSection]), curvesSection, facts,
     element('footer', {}, element('p', {}, help)),
   ];
   // An element that is removed and inserted again would lose the focus.
@@ -226,7 +232,7 @@ export async function showTake(page: HTMLElement, document_: ReportDocument, tak
   body?.look('orbit');
   listenToKeys(player, take, timeline, body, ended.signal);
   const shown: Shown = {
-    take, player, body, curves, timeline,
+    take, player, body, curves, timeline, stands,
     dispose: () => {
       ended.abort();
       player.pause();

@@ -174,6 +174,40 @@ step('the page opens at the worst finding, which is marked, in the frame where t
   assert.ok(ways.here > 0.9 * Math.max(...ways.all), `${ways.here} of ${Math.max(...ways.all)}`);
 });
 
+step('stands are drawn by foot and part, the surer the stronger, and a click goes there', async () => {
+  for (const file of ['clean.html', 'walk_check.html']) {
+    const page = await open(file);
+    assert.deepEqual(await page.locator('.stand-lanes .lane span:first-child').allTextContents(), ['left heel', 'left toe', 'right heel', 'right toe']);
+    const told = await page.evaluate(() => {
+      const { player, take } = window.kinemend;
+      player.zoom(0, take.told - 1);
+      const own = take.data.stage.contacts.filter(({ foot }) => foot === 'left toe');
+      return { own, frames: take.told, all: take.data.stage.contacts.every(({ confidence }) => confidence > 0 && confidence <= 1) };
+    });
+    assert.ok(told.all && told.own.length > 1, 'stands of the left toe with a confidence');
+    const stand = told.own[1];
+    const box = await page.locator('.stand-lanes canvas').boundingBox();
+    const at = (frame) => box.x + (box.width * frame) / (told.frames - 1);
+    const middle = Math.round((stand.first + stand.last) / 2);
+    await page.mouse.click(at(middle), box.y + 16 + 8);
+    assert.equal(await frame(page), middle);
+    assert.match(await page.getAttribute('.stand-lanes canvas', 'title'), new RegExp(`left toe stands in frames ${stand.first + 1} to ${stand.last + 1}, confidence`));
+    const paint = await page.evaluate(([x, y]) => {
+      const canvas = document.querySelector('.stand-lanes canvas');
+      const scale = canvas.width / canvas.clientWidth;
+      return [...canvas.getContext('2d').getImageData(x * scale, y * scale, 1, 1).data];
+    }, [at(middle) - box.x, 24]);
+    const air = await page.evaluate(([x, y]) => {
+      const canvas = document.querySelector('.stand-lanes canvas');
+      const scale = canvas.width / canvas.clientWidth;
+      return canvas.getContext('2d').getImageData(x * scale, y * scale, 1, 1).data[3];
+    }, [at((told.own[0].last + stand.first) / 2) - box.x, 24]);
+    assert.ok(paint[3] > 128, `a sure stand is painted: ${paint}`);
+    assert.equal(air, 0, 'nothing is painted between two stands');
+  }
+  assert.equal(await (await open('fill.html')).locator('.stand-lanes').count(), 0, 'markers without feet have no lanes');
+});
+
 step('figures of feet are shown, before and after', async () => {
   const page = await open('clean.html');
   const text = await page.textContent('.feet');

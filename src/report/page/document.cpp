@@ -112,6 +112,9 @@ Stage stage_for(const Take& take, const Report& report) {
   Stage stage = page::stage_of(take);
   const auto* clean = std::get_if<CleanReport>(&report.result);
   if (clean != nullptr && clean->feet) stage.contacts = page::contacts_of(*clean->feet, take);
+  const auto* check = std::get_if<CheckReport>(&report.result);
+  if (check != nullptr && !check->stands.sides.empty())
+    stage.contacts = page::contacts_of(check->stands);
   return stage;
 }
 
@@ -219,8 +222,11 @@ Json json_of(const Stage& stage) {
   static constexpr const char* axes[] = {"x", "y", "z"};
   Json contacts = Json::array();
   for (const StageContact& contact : stage.contacts) {
-    contacts.push_back(
-        {{"points", contact.points}, {"first", contact.first_frame}, {"last", contact.last_frame}});
+    contacts.push_back({{"points", contact.points},
+                        {"first", contact.first_frame},
+                        {"last", contact.last_frame},
+                        {"foot", contact.foot},
+                        {"confidence", contact.confidence}});
   }
   return {{"up", axes[static_cast<std::size_t>(stage.up.axis)]},
           {"sign", stage.up.sign},
@@ -320,6 +326,7 @@ void find_feet(const BodyPoints& body, const std::vector<std::size_t>& points,
     added.last_frame = contact.span.last;
     for (const std::size_t point : body.feet[contact.foot].points)
       added.points.push_back(points[point]);
+    added.foot = body.feet[contact.foot].name;
     levels.push_back(along(contact.place, *up) / metres_per_unit);
   }
   if (!levels.empty()) stage.floor = median_of(levels);
@@ -379,6 +386,14 @@ Stage stage_of(const Take& take) {
   return stage;
 }
 
+namespace {
+
+std::string part_of_foot(std::string_view side, FootPart part) {
+  return fmt::format("{} {}", side, to_string(part));
+}
+
+}  // namespace
+
 std::vector<StageContact> contacts_of(const FeetReport& report, const Take& clip) {
   const std::vector<Leg> legs = find_legs(clip.skeleton);
   std::vector<StageContact> contacts;
@@ -388,7 +403,21 @@ std::vector<StageContact> contacts_of(const FeetReport& report, const Take& clip
     const bool is_toe = contact.part == FootPart::toe && leg.toe >= 0;
     contacts.push_back({{static_cast<std::size_t>(is_toe ? leg.toe : leg.ankle)},
                         contact.first_frame,
-                        contact.last_frame});
+                        contact.last_frame,
+                        part_of_foot(report.sides[contact.leg], contact.part),
+                        contact.confidence});
+  }
+  return contacts;
+}
+
+std::vector<StageContact> contacts_of(const FootStands& stands) {
+  std::vector<StageContact> contacts;
+  for (const FootContact& contact : stands.contacts) {
+    contacts.push_back({{stands.tracks[contact.leg][static_cast<std::size_t>(contact.part)]},
+                        contact.first_frame,
+                        contact.last_frame,
+                        part_of_foot(stands.sides[contact.leg], contact.part),
+                        contact.confidence});
   }
   return contacts;
 }

@@ -42,6 +42,8 @@ struct StageContact {
   std::vector<std::size_t> points;  ///< joints, then end sites, or markers, with ground contact
   std::size_t first_frame = 0;
   std::size_t last_frame = 0;  ///< inclusive
+  std::string foot;       ///< "left heel"; the name of the foot if its parts are not told apart
+  double confidence = 1;  ///< 0 to 1
 };
 
 struct Stage {
@@ -54,6 +56,8 @@ struct Stage {
 Stage stage_of(const Take& take);
 /// Returns the contacts that `clean` used.
 std::vector<StageContact> contacts_of(const FeetReport& report, const Take& clip);
+/// Returns the contacts that `check` found.
+std::vector<StageContact> contacts_of(const FootStands& stands);
 
 using Json = nlohmann::ordered_json;
 
