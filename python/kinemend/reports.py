@@ -745,6 +745,135 @@ class Robot(Shown):
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
+class Stand(Shown):
+    """A time in which a heel or a toe stands, and how likely.
+
+    Attributes
+    ----------
+    side : str
+        Of the foot: "left", "right", the name of its ankle, or "Ann left".
+    part : {"heel", "toe"}
+    first_frame : int
+        As the file counts.
+    last_frame : int
+        Inclusive.
+    confidence : float
+        How likely it stands, 0 to 1.
+    """
+
+    side: str
+    part: Literal["heel", "toe"]
+    first_frame: int
+    last_frame: int
+    confidence: float
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Stand:
+        """The same from a JSON object. Raises TypeError for a key that there is not."""
+        return cls(**data)
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class GroundTime(Shown):
+    """A time in which a foot carries load.
+
+    Attributes
+    ----------
+    side : str
+        Of the foot.
+    touch_down_s : float or None
+        From the first frame, seconds.
+    lift_off_s : float or None
+        From the first frame, seconds.
+    """
+
+    side: str
+    touch_down_s: float | None
+    lift_off_s: float | None
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> GroundTime:
+        """The same from a JSON object. Raises TypeError for a key that there is not."""
+        return cls(**data)
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class PlateLoad(Shown):
+    """A load of force plates under one foot, and how the motion of the foot differs.
+
+    Attributes
+    ----------
+    side : str
+        Of the foot.
+    plates : list[int]
+        Their numbers, from 1.
+    first_s : float
+        Begin of the load, seconds from the first frame.
+    last_s : float
+        Its end.
+    found : bool
+        Whether the foot stands at some time of it.
+    onset_ms : float or None
+        By how much the foot comes down later than the load begins; null: unknown.
+    offset_ms : float or None
+        By how much it lifts off later than the load ends; null: unknown.
+    """
+
+    side: str
+    plates: list[int]
+    first_s: float
+    last_s: float
+    found: bool
+    onset_ms: float | None
+    offset_ms: float | None
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> PlateLoad:
+        """The same from a JSON object. Raises TypeError for a key that there is not."""
+        return cls(**data)
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Stands(Shown):
+    """When feet stand.
+
+    Attributes
+    ----------
+    expected_s : float
+        The sum of the likelihoods that a foot stands, seconds.
+    found_s : float
+        In contacts, seconds summed over feet.
+    confidence : float
+        Mean over the time found, 0 to 1.
+    contacts : list[Stand]
+        Heels and toes that stand.
+    ground : list[GroundTime]
+        When each foot comes down and lifts off.
+    loads : list[PlateLoad]
+        Loads of force plates under one foot.
+    """
+
+    expected_s: float
+    found_s: float
+    confidence: float
+    contacts: list[Stand]
+    ground: list[GroundTime]
+    loads: list[PlateLoad]
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Stands:
+        """The same from a JSON object. Raises TypeError for a key that there is not."""
+        values = dict(data)
+        if data.get("contacts") is not None:
+            values["contacts"] = [Stand.from_dict(row) for row in data["contacts"]]
+        if data.get("ground") is not None:
+            values["ground"] = [GroundTime.from_dict(row) for row in data["ground"]]
+        if data.get("loads") is not None:
+            values["loads"] = [PlateLoad.from_dict(row) for row in data["loads"]]
+        return cls(**values)
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Report(Shown):
     """What a command found in a take, or did to it.
 
@@ -798,6 +927,7 @@ class Report(Shown):
     feet : Feet or None
     subjects : list[Subject] or None
         Check: of several people in a file of markers the feet of each.
+    stands : Stands or None
     robot : Robot or None
     reference : str or None
         Compare: the take that is the truth.
@@ -845,6 +975,7 @@ class Report(Shown):
     leftovers: list[Leftover] | None = None
     feet: Feet | None = None
     subjects: list[Subject] | None = None
+    stands: Stands | None = None
     robot: Robot | None = None
     reference: str | None = None
     fit: Literal["none", "rigid", "gain-offset"] | None = None
@@ -864,6 +995,8 @@ class Report(Shown):
             values["feet"] = Feet.from_dict(data["feet"])
         if data.get("subjects") is not None:
             values["subjects"] = [Subject.from_dict(row) for row in data["subjects"]]
+        if data.get("stands") is not None:
+            values["stands"] = Stands.from_dict(data["stands"])
         if data.get("robot") is not None:
             values["robot"] = Robot.from_dict(data["robot"])
         if data.get("figures") is not None:
