@@ -238,6 +238,64 @@ higher = {higher}
         self.page.write_text(PAGE)
         self.assert_fails("docs/wiener.figures.toml: may_repeat has '2.32', but the prose does not repeat it")
 
+    # Claims of papers.
+
+    CLAIM = """
+[[claim]]
+of = "lou"
+place = "figure 7"
+paper = "The example-based filter is first of the learned ones."
+here = "{ours:.2f} beside {others[0]:.2f}"
+holds = "all(ours <= other for other in others)"
+why = "at 20 % it is not"
+[claim.values]
+ours = {file = "lou_outliers.csv", column = "rms_deg", where = {method = "example", level = "20 %"}}
+others = {file = "lou_outliers.csv", column = "rms_deg", where = {level = "20 %", method = ["kalman-learned", "wiener"]}, take = "list"}
+
+[[claim]]
+of = "lou"
+place = "section 5"
+paper = "It takes under 5 s."
+cannot = "the machine is another"
+"""
+    MARKERS = "\n<!-- table: claims_lou -->\n<!-- end of table -->\n"
+
+    def with_claims(self, claim=CLAIM):
+        self.spec.write_text(SPEC + claim)
+        self.page.write_text(PAGE + self.MARKERS)
+
+    def test_a_claim_has_the_verdict_that_the_stored_figures_give(self):
+        self.with_claims()
+        self.assert_fails("table 'claims_lou' has 0 lines")
+        self.assert_passes("--write")
+        self.assertIn("0 of 1 claims hold; 1 are not compared", self.page.read_text())
+        self.assertIn("| figure 7 | The example-based filter is first of the learned ones. | 2.32 beside 4.14; at 20 % it is not | no |",
+                      self.page.read_text())
+        self.assertIn("| section 5 | It takes under 5 s. | the machine is another | not compared |", self.page.read_text())
+        self.replace(self.figures / "lou_outliers.csv", "wiener,20 %,1.08", "wiener,20 %,2.40")
+        self.assert_fails("table 'claims_lou'", "1 of 1 claims hold")
+
+    def test_a_claim_without_its_figures_a_verdict_or_a_reason_is_an_error(self):
+        for old, new, message in (("20 %\"}}\nothers", "30 %\"}}\nothers", "no lines of lou_outliers.csv"), ("take = \"list\"", "take = \"sum\"", "take is one of"),
+                                  ("take = \"list\"", "where = 1", "figures.toml"), ("holds = \"all(ours <= other for other in others)\"", "holds = \"ours\"", "neither true nor false"),
+                                  ("why = \"at 20 % it is not\"", "", "`why` is missing"), ("cannot = \"the machine is another\"", "", "one of holds and cannot"),
+                                  ("{ours:.2f} beside", "{mine:.2f} beside", "the template"), ("in others", "in open", "open")):
+            with self.subTest(new):
+                self.with_claims(self.CLAIM.replace(old, new))
+                self.assert_fails(message)
+
+    def test_claims_without_their_place_in_the_page_are_an_error(self):
+        self.spec.write_text(SPEC + self.CLAIM)
+        self.assert_fails("the page has no table 'claims_lou'")
+
+    def test_prose_that_compares_with_a_paper_is_an_error(self):
+        for words in ("Unlike in the paper, it is first.", "It is first, as in the paper.", "It is faster than in the paper."):
+            with self.subTest(words):
+                self.page.write_text(PAGE + f"\n{words}\n")
+                self.assert_fails("compares with a paper")
+        self.page.write_text(PAGE + "\nIts windows are the paper's, unlike the paper's weights.\n")
+        self.assert_passes()
+
     def test_numbers_of_prose_that_look_measured_are_listed(self):
         self.replace(self.page, "Gaps:", "Gaps of 2.5 mm, by `--window 2.6`:")
         self.assertEqual(self.assert_passes("--unpinned"), "docs/wiener.md:14: 2.5 mm: Gaps of 2.5 mm, by `--window 2.6`:\n")

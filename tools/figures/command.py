@@ -81,6 +81,22 @@ An ordering that the prose states:
   where = {noise = ["1 degree", "half"]}     # optional: only these lines
   ties = true                      # optional: the two may be equal
 
+A claim of a paper, in the table <!-- table: claims_NAME -->, of which the first line counts how many hold:
+
+  [[claim]]
+  of = "NAME"
+  place = "figure 3"
+  paper = "Five passes leave the least error."            # what the paper states
+  here = "{five:.4f} after five, {least:.4f} at best"      # optional: the values, and
+  why = "the least is left by 14 passes"                   # a reason, which a claim that does not hold must have
+  holds = "five <= least"          # an expression of the values, min, max, abs, sum, len, all, any, sorted, zip and range
+  cannot = "it names no takes"     # in place of `holds`: why the claim is not compared
+  [claim.values]
+  five = {file = "courty_mse.csv", column = "mse", where = {passes = 5}}
+  least = {file = "courty_mse.csv", column = "mse", take = "min"}      # of all lines that `where` selects: min, max, mean or list
+
+Prose that compares with a paper in words ("as in the paper") is an error: a claim says it.
+
 Prose must not repeat a figure of a table on its page: a number with a decimal point and three significant digits that both have
 is an error. If the number is not that figure but a setting, or a paper's figure, allow it:
 

@@ -2,7 +2,7 @@
 import os
 from pathlib import Path
 
-from figures import orderings, tables
+from figures import claims, orderings, tables
 from figures.markers import CODE_SPAN, COMMENT, END, LIKE_A_MARKER, START, fold, is_fence
 from figures.prose import DECIMAL, repeated
 from figures.spec import Spec, read_spec, spec_path
@@ -54,14 +54,21 @@ class Page:
         titles: set[str] = set()
         for name in (table.name for table in spec.tables if table.name not in found):
             self.complaints.append(f"{self.spec_name}: the page has no table {name!r}")
-        by_name = {table.name: table for table in spec.tables}
+        by_name = {table.name: (tables.generate, table) for table in spec.tables}
+        for claim in spec.claims:
+            by_name.setdefault(f"claims_{claim.of}", (claims.generate, []))[1].append(claim)
+        for name in by_name.keys() - found.keys() - {table.name for table in spec.tables}:
+            self.complaints.append(f"{self.spec_name}: the page has no table {name!r}")
+        self.complaints += [f"{self.name}:{number}: {text!r} compares with a paper; put that into a [[claim]] of the page, whose figures "
+                            "are compared, or name the setting" for number, text in claims.compare_in_words(self.lines)]
         # From last to first, so that earlier positions stay valid.
         for name, (first, last) in reversed(found.items()):
             if name not in by_name:
                 self.complaints.append(f"{self.name}:{first + 1}: {self.spec_name} has no table {name!r}")
                 continue
             try:
-                generated, figures = tables.generate(store, by_name[name])
+                make, content = by_name[name]
+                generated, figures = make(store, content)
             except FigureError as error:
                 self.complaints.append(f"{self.name}:{first + 1}: table {name!r}: {error}")
                 continue

@@ -4,6 +4,7 @@ import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from figures.claims import REDUCED, Claim
 from figures.stored import FigureError
 
 FORMAT = re.compile(r"(\+?)(,?)\.(\d+)f")
@@ -63,6 +64,7 @@ class Ordering:
 class Spec:
     tables: list[Table]
     orderings: list[Ordering]
+    claims: list[Claim]
     may_repeat: list[str]  # numbers of the prose that are not those of a table, although they look the same
 
 
@@ -74,12 +76,12 @@ def read_spec(page: Path) -> Spec:
     """The specification of a page; an empty one if there is no file beside it."""
     path = spec_path(page)
     if not path.is_file():
-        return Spec([], [], [])
+        return Spec([], [], [], [])
     try:
         content = tomllib.loads(path.read_text())
     except tomllib.TOMLDecodeError as error:
         raise FigureError(f"{path.name}: {error}") from None
-    take(content, "the file", {"table": list, "ordering": list, "prose": dict})
+    take(content, "the file", {"table": list, "ordering": list, "claim": list, "prose": dict})
     prose = content.get("prose", {})
     take(prose, "[prose]", {"may_repeat": list})
     tables = [read_table(entry) for entry in content.get("table", [])]
@@ -87,7 +89,8 @@ def read_spec(page: Path) -> Spec:
     for name in names:
         if names.count(name) > 1:
             raise FigureError(f"{path.name}: two tables are named {name!r}")
-    return Spec(tables, [read_ordering(entry) for entry in content.get("ordering", [])], prose.get("may_repeat", []))
+    return Spec(tables, [read_ordering(entry) for entry in content.get("ordering", [])],
+                [read_claim(entry) for entry in content.get("claim", [])], prose.get("may_repeat", []))
 
 
 def take(entry: dict, place: str, types: dict, required: tuple[str, ...] = ()) -> None:
@@ -165,3 +168,16 @@ def read_ordering(entry: dict) -> Ordering:
         raise FigureError(f"{place}: says is empty")
     return Ordering(entry["says"], entry["file"], entry["value"], *sides, entry.get("for_each", []), entry.get("where", {}),
                     entry.get("ties", False))
+
+
+def read_claim(entry: dict) -> Claim:
+    place = f"claim {entry.get('paper', '') if isinstance(entry, dict) else ''!r}"
+    take(entry, place, {"of": str, "place": str, "paper": str, "here": str, "holds": str, "cannot": str, "why": str, "values": dict},
+         ("of", "place", "paper"))
+    if ("holds" in entry) == ("cannot" in entry):
+        raise FigureError(f"{place}: it has one of holds and cannot")
+    for name, value in entry.get("values", {}).items():
+        take(value, f"{place}, value {name!r}", {"file": str, "column": str, "where": dict, "take": str}, ("file", "column"))
+        if value.get("take", "list") not in REDUCED:
+            raise FigureError(f"{place}, value {name!r}: take is one of {', '.join(REDUCED)}")
+    return Claim(**entry)
