@@ -1,6 +1,6 @@
 // Table I of Dean 2016, Non-local Pose Means for Denoising Motion Capture Data: peak
-// signal-to-noise ratio of denoising methods on a run, for five strengths of Gaussian noise and for
-// impulses; and the curves of its figures 3 to 6.
+// signal-to-noise ratio of denoising methods on a run, for six strengths of Gaussian noise and for
+// impulses; the curves of its figures 3 to 6, and the slide of the feet.
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -8,6 +8,8 @@
 #include "experiment.hpp"
 #include "kinemend/extend/cleaner.hpp"
 #include "kinemend/extend/figures.hpp"
+#include "kinemend/extend/motion.hpp"
+#include "kinemend/feet.hpp"
 #include "kinemend/lab/corrupt.hpp"
 #include "kinemend/methods.hpp"
 
@@ -23,7 +25,8 @@ struct Noise {
   double multiple;  // 0: impulses
 };
 const std::vector<Noise> noises{{"1 sigma", 1},   {"15 sigma", 15}, {"30 sigma", 30},
-                                {"50 sigma", 50}, {"75 sigma", 75}, {"impulse", 0}};
+                                {"50 sigma", 50}, {"75 sigma", 75}, {"100 sigma", 100},
+                                {"impulse", 0}};
 
 Take damaged(const Take& truth, const Noise& noise) {
   Take clip = truth;
@@ -149,17 +152,63 @@ void curves(const Arguments& arguments, const std::vector<Shown>& shown) {
   one.close();
 }
 
+double channel_rms_deg(const Take& truth, const Take& clip, std::size_t joint) {
+  double sum = 0;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f)
+    sum += std::pow(log_at(clip, f, joint).x - log_at(truth, f, joint).x, 2);
+  return 2 * degrees_per_radian * std::sqrt(sum / static_cast<double>(clip.frame_count()));
+}
+
+// Impulses hit few channels; the knee's is often none of them.
+std::size_t joint_hit_most(const Take& truth, const Take& noisy) {
+  std::size_t most = 0;
+  for (std::size_t j = 1; j < truth.joint_count(); ++j) {
+    if (channel_rms_deg(truth, noisy, j) > channel_rms_deg(truth, noisy, most)) most = j;
+  }
+  return most;
+}
+
 // Figure 6 as a number: the root mean square error of the knee's first channel, in degrees of
-// rotation.
+// rotation; under impulses that of the joint whose first channel they hit most.
 void knee(const Arguments& arguments, const Take& truth, const std::vector<Shown>& shown) {
   Table table(arguments, "dean_knee.csv", "noise,version,rms_deg");
+  std::size_t hit = knee_of(truth);
   for (const auto& [noise, version, clip] : shown) {
-    double sum = 0;
-    for (std::size_t f = 0; f < clip.frame_count(); ++f)
-      sum += std::pow(log_at(clip, f, knee_of(clip)).x - log_at(truth, f, knee_of(truth)).x, 2);
-    const double rms = std::sqrt(sum / static_cast<double>(clip.frame_count()));
-    table.add({noise, version, fmt::format("{:.4g}", 2 * degrees_per_radian * rms)});
+    if (noise == "impulse" && version == "noisy") hit = joint_hit_most(truth, clip);
   }
+  fmt::print("impulses: {}\n", truth.skeleton.names[hit]);
+  for (const auto& [noise, version, clip] : shown) {
+    const std::size_t joint = noise == "impulse" ? hit : knee_of(truth);
+    table.add({noise, version, fmt::format("{:.4g}", channel_rms_deg(truth, clip, joint))});
+  }
+  table.close();
+}
+
+// Mean travel a frame of toes in the frames in which they stand in the truth.
+double travel_of_toes(const Take& clip, const std::vector<FootContact>& stands) {
+  const std::vector<Leg> legs = find_legs(clip.skeleton);
+  const std::vector<Vec3> places = joint_positions(clip);
+  double travel = 0, frames = 0;
+  for (const FootContact& stand : stands) {
+    const std::int32_t toe = legs[stand.leg].toe;
+    if (stand.part != FootPart::toe || toe < 0) continue;
+    for (std::size_t f = stand.first_frame + 1; f <= stand.last_frame; ++f, ++frames) {
+      const std::size_t at = f * clip.joint_count() + static_cast<std::size_t>(toe);
+      travel += norm(places[at] - places[at - clip.joint_count()]);
+    }
+  }
+  return frames > 0 ? travel / frames : 0;
+}
+
+// "Foot contact remains solid", as a number.
+void feet(const Arguments& arguments, const Take& truth, const std::vector<Shown>& shown) {
+  Table table(arguments, "dean_feet.csv", "noise,version,travel_cm");
+  ContactSettings rules;
+  rules.finder = ContactFinder::thresholds;
+  const std::vector<FootContact> stands = find_contacts(truth, rules);
+  const double cm = 100 * likely_metres_per_unit(truth);
+  for (const auto& [noise, version, clip] : shown)
+    table.add({noise, version, fmt::format("{:.4g}", cm * travel_of_toes(clip, stands))});
   table.close();
 }
 
@@ -215,6 +264,7 @@ void dean_psnr(const Arguments& arguments) {
   table.close();
   curves(arguments, shown);
   knee(arguments, take.clip, shown);
+  feet(arguments, take.clip, shown);
 }
 
 const Registration dean_psnr_entry("dean_psnr", dean_psnr);
