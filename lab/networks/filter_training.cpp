@@ -130,6 +130,14 @@ void marks_in_form(std::vector<std::uint8_t>& marks, MotionForm form, const Body
   marks = std::move(result);
 }
 
+// The statistics with which a network's inputs are radians, and radians a second.
+void use_radians(FilterStatistics& statistics) {
+  constexpr auto radian = static_cast<float>(degrees_per_radian);
+  std::fill(statistics.mean.begin(), statistics.mean.end(), 0.0F);
+  std::fill(statistics.deviation.begin(), statistics.deviation.end(), radian);
+  std::fill(statistics.turning.begin(), statistics.turning.end(), radian);
+}
+
 // Mean over frames of the root mean square over channels; optionally over missing samples only.
 double mean_error(const FilterTake& take, const std::vector<float>& values,
                   const std::vector<float>& truth, bool only_missing) {
@@ -172,6 +180,7 @@ FilterTrainer::FilterTrainer(std::vector<Take> takes, const FilterTraining& sett
     chunks_of_epoch_ += (take.frame_count() + chunk - 1) / chunk;
   }
   statistics_ = statistics_of(clean);
+  if (!settings_.standardises) use_radians(statistics_);
   if (settings_.kind == "ebd") {
     stride_ = 4;
     margin_ = 0;
@@ -182,7 +191,8 @@ FilterTrainer::FilterTrainer(std::vector<Take> takes, const FilterTraining& sett
   }
   shape_ = shape_of(settings_.kind, head_, clean.front().channels, inputs());
   shape_.weight_bound = settings_.weight_bound;
-  if (head_ == FilterHead::gaussian || head_ == FilterHead::biased)
+  shape_.draws_last = !settings_.has_head_start;
+  if (settings_.has_head_start && (head_ == FilterHead::gaussian || head_ == FilterHead::biased))
     shape_.outset = best_constants();
   network_ = std::make_unique<SequenceNetwork>(shape_, settings_.descent, settings_.seed);
 }
@@ -328,7 +338,7 @@ double FilterTrainer::step() {
         chunks[((batch_ % batches_an_epoch) * settings_.batch + i) % chunks.size()];
     rows.push_back(rows_of(chunk));
     // Dividing by the squared noise gives takes with weak and strong noise the same weight.
-    const double scale = samples_[chunk.take].scale;
+    const double scale = settings_.scales_loss ? samples_[chunk.take].scale : 1;
     for (float& weight : rows.back().weight) weight /= static_cast<float>(scale * scale);
     const std::vector<float> own = filter_features(rows.back().take, statistics_, inputs());
     features.insert(features.end(), own.begin(), own.end());

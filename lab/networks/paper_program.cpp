@@ -114,6 +114,12 @@ int paper_program(int count, char** values) {
                "shows how rough each channel is; the paper's networks do not see it");
   app.add_option("--weight-bound", training.weight_bound,
                  "weights of dense layers are drawn within this; 0: by the width of their layers");
+  app.add_flag("--head-start,!--no-head-start", training.has_head_start,
+               "filters begin at the best constant widths, with a last layer of zeros");
+  app.add_flag("--scaled-loss,!--no-scaled-loss", training.scales_loss,
+               "divides the loss of a take by its noise");
+  app.add_flag("--standardised,!--no-standardised", training.standardises,
+               "inputs with mean 0 and deviation 1; else radians");
   app.add_option("--rate", training.rate, "of learning, at its highest")->capture_default_str();
   int exit_code = 0;
   if (!parse(app, count, values, arguments.run, exit_code)) return exit_code;

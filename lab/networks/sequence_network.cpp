@@ -81,10 +81,12 @@ void make(const BidirectionalShape& shape, WeightMaker& maker) {
   // Layer outputs have the variance of their inputs. With smaller weights, each of ten layers would
   // shrink the signal, and almost only the biases would reach the outputs.
   std::size_t width = shape.inputs * (2 * shape.reach + 1);
-  const auto add_dense = [&](const std::string& name, std::size_t outputs) {
+  const auto gain = [&] {
     const double by_width = std::sqrt(3.0 / static_cast<double>(width));
-    maker.add_dense(name, width, outputs,
-                    shape.weight_bound > 0 ? shape.weight_bound / by_width : 1);
+    return shape.weight_bound > 0 ? shape.weight_bound / by_width : 1;
+  };
+  const auto add_dense = [&](const std::string& name, std::size_t outputs) {
+    maker.add_dense(name, width, outputs, gain());
     width = outputs;
   };
   for (std::size_t i = 0; i < shape.encoder.size(); ++i)
@@ -97,7 +99,7 @@ void make(const BidirectionalShape& shape, WeightMaker& maker) {
   for (std::size_t i = 0; i < shape.decoder.size(); ++i)
     add_dense(fmt::format("decoder{}", i), shape.decoder[i]);
   const std::string last = fmt::format("decoder{}", shape.decoder.size());
-  maker.add_dense(last, width, shape.outputs, 0);
+  maker.add_dense(last, width, shape.outputs, shape.draws_last ? gain() : 0);
   if (!shape.outset.empty()) maker.set(last + ".bias", shape.outset);
 }
 

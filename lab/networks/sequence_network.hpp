@@ -33,12 +33,13 @@ struct BidirectionalShape {
   std::vector<std::size_t> decoder{192, 160, 128};    ///< followed by `outputs`
   std::size_t reach = 0;       ///< without LSTM layers: frames on either side of a window
   std::vector<double> outset;  ///< initial outputs before training; empty: 0
-  double weight_bound = 0;     ///< uniform initial bound, except the last dense layer; 0: by width
+  bool draws_last = false;     ///< draws the last dense layer too, which is else zero
+  double weight_bound = 0;     ///< uniform initial bound of dense layers; 0: by width
 };
 
 class SequenceNetwork {
  public:
-  /// `seed` determines the weights; those of the last layer are zero.
+  /// `seed` determines the weights.
   SequenceNetwork(const BidirectionalShape& shape, const DescentSettings& settings,
                   std::uint64_t seed);
   ~SequenceNetwork();

@@ -100,6 +100,18 @@ TEST(FilterTraining, LeavesLessErrorTheLongerItGoesOn) {
   EXPECT_LT(trainer.share_left(walks()), 0.9 * before);
 }
 
+TEST(FilterTraining, WithoutAHeadStartBeginsWithMoreErrorAndLearns) {
+  FilterTraining training = tiny("ebf", "gaussian");
+  training.epochs = 40;
+  const FilterTrainer given(walks(), training);
+  training.has_head_start = training.scales_loss = training.standardises = false;
+  FilterTrainer drawn(walks(), training);
+  const double before = drawn.share_left(walks());
+  EXPECT_GT(before, 1.02 * given.share_left(walks()));
+  for (int i = 0; i < 120; ++i) drawn.step();
+  EXPECT_LT(drawn.share_left(walks()), 0.98 * before);
+}
+
 TEST(FilterTraining, LearnsABiasThatIsOnTopOfTheNoise) {
   FilterTraining training = tiny("nn", "biased");
   training.epochs = 40;
