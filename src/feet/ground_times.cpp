@@ -91,11 +91,6 @@ std::vector<FootSpan> spans_of_foot(const std::vector<FootContact>& contacts, st
   return spans;
 }
 
-// The frames in which events of a foot are searched, between its other stands.
-struct Around {
-  std::size_t first = 0, last = 0;
-};
-
 // After O'Connor, Thorpe, O'Malley & Vaughan 2007 the foot falls fastest just before it comes down;
 // after Hreljac & Marshall 2000 its first part then slows down most as it hits the floor.
 double touch_down(const FootHeights& heights, const FootSpan& stand, std::size_t first_free) {
