@@ -158,36 +158,6 @@ class Drift {
   std::array<Wave, 3> waves_;
 };
 
-// Where markers of a foot and of the pelvis are: above heel and toe, and off the middle of the
-// hips. Zero for joints.
-struct MarkerOffsets {
-  std::array<double, 2> above{};  // by `FootPart`, in body heights
-  Vec3 of_centre;                 // in body heights
-
-  MarkerOffsets(Vec3 up, Random& random) {
-    if (random.chance(0.6)) return;
-    for (double& height : above) height = random.uniform(0, 0.035);
-    of_centre = random.uniform(-0.02, 0.1) * up +
-                0.04 * Vec3{random.normal(), random.normal(), random.normal()};
-  }
-};
-
-// Hides some spans of a part, as gaps of markers and of trackers do.
-void hide_spans(BodyPoints& body, Random& random) {
-  constexpr double chance_of_part = 0.15, most_s = 0.6;
-  for (std::size_t p = 0; p < body.points; ++p) {
-    if (!random.chance(chance_of_part)) continue;
-    if (body.observed.empty()) body.observed.assign(body.positions.size(), 1);
-    for (std::size_t count = 1 + random.below(4); count > 0; --count) {
-      const auto length =
-          1 + static_cast<std::size_t>(random.uniform(0, most_s) * body.frame_rate_hz);
-      const std::size_t first = random.below(body.frames);
-      for (std::size_t f = first; f < std::min(body.frames, first + length); ++f)
-        body.observed[f * body.points + p] = 0;
-    }
-  }
-}
-
 // Takes count by their length up to some seconds, and short ones, which hold runs and jumps, by
 // more, so that neither dominate.
 const ContactSource& drawn_source(std::span<const ContactSource> sources, Random& random) {
@@ -239,7 +209,6 @@ ContactSample random_contact_sample(std::span<const ContactSource> sources, std:
   Vec3 slope{random.normal(), random.normal(), random.normal()};
   slope = (random.chance(0.2) ? 0.05 : 0) * feet::level_part(slope, source.up);
   const double toe_by = random.uniform(-0.15, 0.1), heel_by = random.uniform(-0.1, 0.15);
-  const MarkerOffsets markers(up, random);
   const Vec3 from = centre_between(version, start_s * own_hz);
   std::vector<std::uint8_t> touching;
   for (std::size_t f = 0; f < frames; ++f) {
@@ -251,19 +220,15 @@ ContactSample random_contact_sample(std::span<const ContactSource> sources, std:
     const auto moved = [&](Vec3 p) { return p + shift + dot(slope, p - from) * up; };
     for (std::size_t p = 0; p < body.points; p += 2) {
       const Vec3 heel = between(version, p, frame), toe = between(version, p + 1, frame);
-      const auto above = [&](std::size_t part) {
-        return version.height * markers.above[part] * up;
-      };
-      body.positions.push_back(moved(heel + heel_by * (toe - heel) + above(0)));
-      body.positions.push_back(moved(toe + toe_by * (toe - heel) + above(1)));
+      body.positions.push_back(moved(heel + heel_by * (toe - heel)));
+      body.positions.push_back(moved(toe + toe_by * (toe - heel)));
     }
-    body.centres.push_back(moved(centre + version.height * markers.of_centre));
+    body.centres.push_back(moved(centre));
     const auto nearest = static_cast<std::size_t>(std::lround(frame));
     for (std::size_t p = 0; p < body.points; ++p)
       touching.push_back(drawn.touching[nearest * body.points + p]);
   }
 
-  hide_spans(body, random);
   ContactSample sample;
   if (lookahead == feet::Lookahead::none) touching.clear();  // a stream knows no later frames
   sample.steps = feet::contact_steps(body, source.up, lookahead, touching);
