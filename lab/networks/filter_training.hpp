@@ -40,7 +40,7 @@ struct FilterTraining {
   /// last layer of zeros; the loss of a take is divided by its noise; inputs have mean 0 and
   /// deviation 1, else they are radians.
   bool has_head_start = true, scales_loss = true, standardises = true;
-  double rate = 5e-4;               ///< peak learning rate; at 2e-3 layers saturate
+  double rate = 5e-4;  ///< peak learning rate; at 2e-3 layers saturate
   DescentSettings descent;
 };
 
