@@ -36,7 +36,7 @@ struct FilterTraining {
   std::vector<FilterDamage> bias;   ///< one of these is added on top; empty: none
   std::vector<FilterDamage> gaps;   ///< one of these is added; empty: none
   double weight_bound = 0;          ///< `BidirectionalShape`; the paper's is 0.5
-  /// What the paper does not have: filters begin at the best constant width of each channel, with a
+  /// The paper has none of these. Filters begin at the best constant width of each channel, with a
   /// last layer of zeros; the loss of a take is divided by its noise; inputs have mean 0 and
   /// deviation 1, else they are radians.
   bool has_head_start = true, scales_loss = true, standardises = true;

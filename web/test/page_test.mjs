@@ -186,6 +186,7 @@ step('stands are drawn by foot and part, the surer the stronger, and a click goe
     });
     assert.ok(told.all && told.own.length > 1, 'stands of the left toe with a confidence');
     const stand = told.own[1];
+    await page.locator('.stand-lanes canvas').scrollIntoViewIfNeeded();
     const box = await page.locator('.stand-lanes canvas').boundingBox();
     const at = (frame) => box.x + (box.width * frame) / (told.frames - 1);
     const middle = Math.round((stand.first + stand.last) / 2);
