@@ -156,8 +156,8 @@ struct CheckSettings {
   std::optional<double> metres_per_unit;
   KnownNames names;  ///< names of the joints or markers of feet, if they are not recognised
   std::optional<RobotSettings> robot;  ///< empty: these checks are left out
-  bool with_stands = true;             ///< false: `CheckReport::stands` stays empty, for speed
-  std::vector<ForcePlate> plates{};    ///< of the take, with which stands are compared
+  bool with_stands = true;  ///< false: `CheckReport::stands` stays empty without `robot`, for speed
+  std::vector<ForcePlate> plates{};  ///< of the take, with which stands are compared
   /// The system that recorded the take, as `CleanSettings::source`. It decides which noise and
   /// spikes cleaning would remove; these are the findings.
   Source source = Source::unknown;

@@ -85,8 +85,8 @@ void doubts(const Arguments& arguments) {
   table.close();
 }
 
-// Takes of marker sets with force plates, from four laboratories. The windows of touch-down and
-// lift-off (src/feet/ground_times.cpp) are tuned on half of them.
+// Takes of marker sets with force plates. The windows of touch-down and lift-off
+// (src/feet/ground_times.cpp) are tuned on some of them; the others are of other laboratories.
 struct PlateTake {
   const char* file;
   bool is_tuned_on;

@@ -63,11 +63,6 @@ void shift_frames(CheckReport& report, std::size_t frames) {
     gap.first_frame += frames;
     gap.last_frame += frames;
   }
-  if (!report.robot) return;
-  for (FootContact& contact : report.robot->contacts) {
-    contact.first_frame += frames;
-    contact.last_frame += frames;
-  }
 }
 
 void report_calibration(CheckReport& report) {
@@ -131,7 +126,7 @@ void check_rows(const check::Rows& labelled, const CheckSettings& settings, Chec
 }
 
 void add_stands(const Take& take, const CheckSettings& settings, CheckReport& report) {
-  if (!settings.with_stands || report.frames == 0) return;
+  if ((!settings.with_stands && !settings.robot) || report.frames == 0) return;
   ContactSettings contact;
   contact.up = settings.up;
   report.stands = find_stands(take, contact, settings.names, report.metres_per_unit);
@@ -150,8 +145,8 @@ CheckReport check_take(const Take& take, const CheckSettings& settings) {
   check::check_unit(take, settings, report);
   check::check_gaps(rows, report);
   if (take.has_joints()) {
-    check_rows(rows, settings, report);
     add_stands(take, settings, report);
+    check_rows(rows, settings, report);
     shift_frames(report, report.calibration_frames);
     check::check_zero_frames(take, report);
     check::check_euler_flips(take, report);
@@ -161,8 +156,8 @@ CheckReport check_take(const Take& take, const CheckSettings& settings) {
     // Without this, other checks would report an exchange of labels twice for both tracks.
     Take labelled = take;
     undo_swaps(labelled, report.swaps);
-    check_rows(rows.of(labelled), settings, report);
     add_stands(labelled, settings, report);
+    check_rows(rows.of(labelled), settings, report);
     report_left_out(rows, report);
   }
   check::sort_worst_first(report.findings);

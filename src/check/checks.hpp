@@ -85,8 +85,8 @@ void check_joint_limits(const Take& clip, const RobotSettings& settings, CheckRe
 /// the scale from `check_unit`.
 void check_jumps(const Rows& rows, const RobotSettings& settings, CheckReport& report);
 /// Finds feet in or above the floor and times in the air, for a take with `CheckSettings::robot`;
-/// for joints also contacts of heels and toes, and the height of the floor. Requires the scale from
-/// `check_unit`.
+/// for joints also the height of the floor. Requires the scale from `check_unit`, and
+/// `CheckReport::stands`.
 void check_robot_feet(const Rows& rows, const CheckSettings& settings, CheckReport& report);
 
 /// One flag for each step of each of N tracks, from the track's samples.

@@ -245,20 +245,17 @@ void mark(std::vector<std::uint8_t>& flags, std::size_t first, std::size_t last)
             flags.begin() + static_cast<std::ptrdiff_t>(last + 1), std::uint8_t{1});
 }
 
-// Marks contacts of heels and toes of a take of joints, including those on steps, in the report.
-void mark_contacts(const Take& clip, const CheckSettings& settings, const BodyPoints& body,
-                   FeetByFrame& all, RobotFindings& robot) {
-  Take named = clip;
-  named.skeleton.names = known_names(clip.skeleton.names, settings.names);
-  const std::vector<Leg> legs = find_legs(named.skeleton);
-  ContactSettings contact;
-  contact.up = settings.up;
-  robot.contacts = find_contacts(named, contact);
-  for (const Leg& leg : legs) robot.sides.push_back(leg.side);
-  for (const FootContact& one : robot.contacts) {
-    const std::string& ankle = clip.skeleton.names[static_cast<std::size_t>(legs[one.leg].ankle)];
+// Marks the stands of heels and toes of a take of joints, including those on steps. `clip` and
+// `body` have no calibration frames, in which no foot stands.
+void mark_stands(const Take& clip, const BodyPoints& body, const CheckReport& report,
+                 FeetByFrame& all) {
+  const FootStands& stands = report.stands;
+  for (const FootContact& one : stands.contacts) {
+    const std::string& ankle = clip.skeleton.names[stands.tracks[one.leg].front()];
     for (std::size_t i = 0; i < body.feet.size(); ++i) {
-      if (body.feet[i].name == ankle) mark(all.stands[i], one.first_frame, one.last_frame);
+      if (body.feet[i].name == ankle)
+        mark(all.stands[i], one.first_frame - report.calibration_frames,
+             one.last_frame - report.calibration_frames);
     }
   }
 }
@@ -345,14 +342,15 @@ void report_floor(const BodyPoints& body, Up up, const RobotSettings& settings,
 }  // namespace
 
 void check_robot_feet(const Rows& rows, const CheckSettings& settings, CheckReport& report) {
-  RobotFindings& robot = report.robot.emplace();
+  report.robot.emplace();
   for (const auto& [subject, body] : bodies_of(rows, settings, report)) {
     const std::optional<Up> up = up_of_body(body, settings);
     if (!up) continue;
     const std::size_t known = report.findings.size();
     FeetByFrame all = feet_by_frame(body, *up);
     if (rows.clip.has_joints()) {
-      mark_contacts(rows.clip, settings, body, all, robot);
+      *report.robot = {report.stands.sides, report.stands.contacts};
+      mark_stands(rows.clip, body, report, all);
     } else {
       for (const Contact& contact : find_contacts(body, *up))
         mark(all.stands[contact.foot], contact.span.first, contact.span.last);

@@ -12,7 +12,6 @@ namespace kinemend {
 namespace {
 
 using test::synthetic_clip;
-using test::track_of;
 using testing::ElementsAre;
 using testing::IsEmpty;
 

@@ -55,6 +55,24 @@ export function describeCanvas(canvas: HTMLCanvasElement | null, text: string): 
   canvas?.setAttribute('aria-label', text);
 }
 
+/** Fits a canvas to its element and the pixels of the screen; null while it is not shown. Lengths are those of the page. */
+export function fittedContext(canvas: HTMLCanvasElement): CanvasRenderingContext2D | null {
+  const { clientWidth, clientHeight } = canvas;
+  if (clientWidth === 0) return null;
+  const scale = devicePixelRatio;
+  canvas.width = clientWidth * scale;
+  canvas.height = clientHeight * scale;
+  const context = canvas.getContext('2d');
+  context?.scale(scale, scale);
+  return context;
+}
+
+/** Puts the line of the current time over a field of this width; it is hidden outside of it. */
+export function placeCursor(cursor: HTMLElement, x: number, width: number): void {
+  cursor.hidden = !(x >= 0 && x <= width);
+  if (!cursor.hidden) cursor.style.transform = `translateX(${x}px)`;
+}
+
 /** A colour of the style sheet in the current theme. */
 export function colour(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();

@@ -1,6 +1,6 @@
 // The times in which each foot stands, as lanes: the surer a stand, the stronger its bar.
 
-import { colour, element, figure } from './dom';
+import { colour, element, figure, fittedContext, placeCursor } from './dom';
 import type { Player } from './player';
 import type { StageContact } from './report';
 import type { Take } from './take';
@@ -58,15 +58,10 @@ export class Stands {
   }
 
   draw(): void {
-    const { clientWidth, clientHeight } = this.canvas;
-    if (clientWidth === 0) return;
-    this.width = clientWidth;
-    const scale = devicePixelRatio;
-    this.canvas.width = clientWidth * scale;
-    this.canvas.height = clientHeight * scale;
-    const context = this.canvas.getContext('2d');
+    const context = fittedContext(this.canvas);
     if (context === null) return;
-    context.scale(scale, scale);
+    const { clientWidth } = this.canvas;
+    this.width = clientWidth;
     context.fillStyle = colour('held');
     const laneOf = new Map(this.feet.map((foot, lane) => [foot, lane]));
     for (const contact of this.contacts) {
@@ -81,8 +76,6 @@ export class Stands {
   }
 
   private drawCursor(): void {
-    const x = this.x(this.player.shown * this.take.data.step);
-    this.cursor.hidden = !(x >= 0 && x <= this.width);
-    if (!this.cursor.hidden) this.cursor.style.transform = `translateX(${x}px)`;
+    placeCursor(this.cursor, this.x(this.player.shown * this.take.data.step), this.width);
   }
 }

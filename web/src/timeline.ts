@@ -1,6 +1,6 @@
 // Everything found and changed over time, as lanes by kind and as a list.
 
-import { button, colour, counted, element, figure, isolated, words } from './dom';
+import { button, colour, counted, element, figure, fittedContext, isolated, placeCursor, words } from './dom';
 import type { Player } from './player';
 import type { Finding } from './report';
 import { oneTabStop } from './roving';
@@ -200,15 +200,10 @@ export class Timeline {
   }
 
   draw(): void {
-    const { clientWidth, clientHeight } = this.canvas;
-    if (clientWidth === 0) return;
-    this.width = clientWidth;
-    const scale = devicePixelRatio;
-    this.canvas.width = clientWidth * scale;
-    this.canvas.height = clientHeight * scale;
-    const context = this.canvas.getContext('2d');
+    const context = fittedContext(this.canvas);
     if (context === null) return;
-    context.scale(scale, scale);
+    const { clientWidth } = this.canvas;
+    this.width = clientWidth;
     context.strokeStyle = colour('grid');
     for (let lane = 1; lane < this.kinds.length; ++lane) {
       context.beginPath();
@@ -230,9 +225,7 @@ export class Timeline {
 
   /** Drawn separately from the bars, of which there may be thousands. */
   private drawCursor(): void {
-    const x = this.x(this.player.shown);
-    this.cursor.hidden = !(x >= 0 && x <= this.width);
-    if (!this.cursor.hidden) this.cursor.style.transform = `translateX(${x}px)`;
+    placeCursor(this.cursor, this.x(this.player.shown), this.width);
   }
 
   /** A refused finding is drawn as an outline. */
