@@ -47,6 +47,7 @@ inline Arguments parse_arguments(const std::vector<std::string>& words) {
                       " (--data FOLDER, --output FOLDER, --models FOLDER, --quick)");
     }
   }
+  std::filesystem::create_directories(arguments.output);
   return arguments;
 }
 

@@ -30,7 +30,7 @@ std::vector<XiaoVariant> xiao_variants() {
   add("no fall-back", [](XiaoVariant& v) { v.tuning.leaves_biased = false; });
   add("no hold", [](XiaoVariant& v) { v.tuning.holds = false; });
   add("no cap", [](XiaoVariant& v) { v.tuning.caps_noise = false; });
-  add("no release", [](XiaoVariant& v) { v.tuning.releases = false; });
+  add("hold at outliers too", [](XiaoVariant& v) { v.tuning.marks_impulses = false; });
   add("no mean with auto", [](XiaoVariant& v) { v.tuning.averages = false; });
   add("one pass", [](XiaoVariant& v) { v.tuning.guides_again = false; });
   add("local coordinates", [](XiaoVariant& v) { v.is_local = true; });

@@ -19,18 +19,47 @@ XiaoFilter cleaner_filter(std::unique_ptr<Cleaner> cleaner) {
   };
 }
 
+double error_on(const XiaoFilter& filter, const std::vector<Take>& clips,
+                const std::vector<XiaoDamaged>& damaged) {
+  double sum = 0;
+  for (std::size_t c = 0; c < clips.size(); ++c)
+    sum += xiao_error(clips[c], damaged[c], filter(damaged[c].clip, clips[c])).mean;
+  return sum;
+}
+
+std::vector<XiaoDamaged> tuning_noise(const std::vector<Take>& clips, const XiaoNoise& noise) {
+  std::vector<XiaoDamaged> damaged;
+  for (const Take& clip : clips) damaged.push_back(xiao_noise(clip, noise, 1000 + damaged.size()));
+  return damaged;
+}
+
+// A method that tries all of its settings.
+template <class Settings>
+XiaoMethod method_with(const std::string& name, const Settings& settings_for) {
+  return {name, [=](const XiaoModels& models, const std::vector<Take>& clips,
+                    const XiaoNoise& noise) {
+            const std::vector<XiaoSetting> settings = settings_for(noise);
+            if (settings.size() == 1) return settings.front();
+            const std::vector<XiaoDamaged> damaged = tuning_noise(clips, noise);
+            std::vector<double> errors;
+            for (const XiaoSetting& setting : settings)
+              errors.push_back(error_on(setting.make(models), clips, damaged));
+            const auto best = std::ranges::min_element(errors) - errors.begin();
+            return settings[static_cast<std::size_t>(best)];
+          }};
+}
+
 // A method with the same settings for every noise.
 template <class Add>
 XiaoMethod of_any_noise(const std::string& name, const Add& add_all) {
-  return {name, [=](const XiaoNoise&) {
-            std::vector<XiaoSetting> settings;
-            add_all([&settings](const std::string& setting, const auto& make) {
-              settings.push_back({setting, [=](const XiaoModels& models) {
-                                    return cleaner_filter(make(models));
-                                  }});
-            });
-            return settings;
-          }};
+  return method_with(name, [=](const XiaoNoise&) {
+    std::vector<XiaoSetting> settings;
+    add_all([&settings](const std::string& setting, const auto& make) {
+      settings.push_back(
+          {setting, [=](const XiaoModels& models) { return cleaner_filter(make(models)); }});
+    });
+    return settings;
+  });
 }
 
 XiaoMethod xiao_gaussian() {
@@ -93,89 +122,150 @@ XiaoMethod xiao_example(const Arguments& arguments) {
 
 // The kind of noise is known, as in the paper.
 XiaoMethod xiao_sparse() {
-  return {"sparse", [](const XiaoNoise& noise) {
-            const std::vector<double> all{0.02, 0.1, 0.3}, dense{0.1};
-            std::vector<XiaoSetting> settings;
-            for (std::size_t w = 0; w < xiao_sparse_windows.size(); ++w) {
-              for (const double lambda : noise.share > 0 ? dense : all) {
-                SparseOptions options;
-                options.loss = noise.share > 0 ? "mixed" : "l2";
-                options.lambda = lambda;
-                settings.push_back(
-                    {fmt::format("M {} {} {}", xiao_sparse_windows[w], options.loss, lambda),
-                     [=](const XiaoModels& models) {
-                       return cleaner_filter(make_sparse(options, models.sparse[w]));
-                     }});
-              }
-            }
-            return settings;
-          }};
-}
-
-// The kind of noise determines the equation; lambda is from the paper's grid.
-std::vector<XiaoPaperSettings> paper_settings(const XiaoNoise& noise) {
-  std::vector<XiaoPaperSettings> settings;
-  if (noise.share == 0) {
-    for (const double lambda : {0.01, 0.1, 1.0, 10.0})
-      settings.push_back({.loss = XiaoPaperLoss::squares, .lambda_squares = lambda});
-  } else if (noise.snr_db == 0) {
-    for (const double lambda : {0.1, 1.0})
-      settings.push_back({.loss = XiaoPaperLoss::absolute, .lambda_absolute = lambda});
-  } else {
-    for (const double first : {0.1, 1.0}) {
-      for (const double second : {0.1, 1.0})
+  return method_with("sparse", [](const XiaoNoise& noise) {
+    const std::vector<double> all{0.02, 0.1, 0.3}, dense{0.1};
+    std::vector<XiaoSetting> settings;
+    for (std::size_t w = 0; w < xiao_sparse_windows.size(); ++w) {
+      for (const double lambda : noise.share > 0 ? dense : all) {
+        SparseOptions options;
+        options.loss = noise.share > 0 ? "mixed" : "l2";
+        options.lambda = lambda;
         settings.push_back(
-            {.loss = XiaoPaperLoss::sequence, .lambda_squares = second, .lambda_absolute = first});
+            {fmt::format("M {} {} {}", xiao_sparse_windows[w], options.loss, lambda),
+             [=](const XiaoModels& models) {
+               return cleaner_filter(make_sparse(options, models.sparse[w]));
+             }});
+      }
     }
-  }
-  return settings;
+    return settings;
+  });
 }
 
-std::string name_of(const XiaoPaperSizes& sizes, const XiaoPaperSettings& settings) {
-  std::string text = fmt::format("M {} K {}", sizes.window_frames, sizes.atoms);
-  if (settings.loss != XiaoPaperLoss::squares)
-    text += fmt::format(" l1 lambda {}", settings.lambda_absolute);
-  if (settings.loss != XiaoPaperLoss::absolute)
-    text += fmt::format(" l2 lambda {}", settings.lambda_squares);
+// A value of each coordinate of the paper's grid. A search moves from the middle of the lists; at
+// an end of one it goes on by the same step, so that no choice lies on the edge of what was tried.
+struct PaperChoice {
+  XiaoPaperSettings settings;
+  int window_frames = 27, atoms = 500, steady_frames = 1;
+};
+
+// The paper's: M of 9 to 39 in steps of 6, K of 500 to 1000 (in steps of 50; here 250), and powers
+// of ten for lambda.
+constexpr int window_step = 6, atom_step = 250, steady_step = 4, least_window = 9, least_atoms = 250;
+constexpr double lambda_step = 10;
+
+std::string name_of(const PaperChoice& choice) {
+  std::string text = fmt::format("M {} K {}", choice.window_frames, choice.atoms);
+  if (choice.steady_frames > 1) text += fmt::format(" steady {}", choice.steady_frames);
+  if (choice.settings.loss != XiaoPaperLoss::squares)
+    text += fmt::format(" l1 lambda {}", choice.settings.lambda_absolute);
+  if (choice.settings.loss != XiaoPaperLoss::absolute)
+    text += fmt::format(" l2 lambda {}", choice.settings.lambda_squares);
   return text;
 }
 
-XiaoMethod xiao_algorithm(bool has_true_frames, const XiaoPaperSizes& sizes) {
-  const auto filter_of = [=](const XiaoPaperSettings& one) {
-    return [=](const XiaoModels& models) {
-      return [=](const Take& noisy, const Take& truth) {
-        return models.paper->filtered(noisy, has_true_frames ? truth : noisy, one,
-                                      models.paper_hop);
-      };
-    };
-  };
-  return {has_true_frames ? "paper true frames" : "paper",
-          [=](const XiaoNoise& noise) {
-            std::vector<XiaoSetting> settings;
-            for (const XiaoPaperSettings& one : paper_settings(noise))
-              settings.push_back({name_of(sizes, one), filter_of(one)});
-            return settings;
+// The kind of noise determines the equation.
+XiaoPaperLoss loss_for(const XiaoNoise& noise) {
+  if (noise.share == 0) return XiaoPaperLoss::squares;
+  return noise.snr_db == 0 ? XiaoPaperLoss::absolute : XiaoPaperLoss::sequence;
+}
+
+XiaoSetting setting_of(const PaperChoice& choice, XiaoFrames frames) {
+  return {name_of(choice), [=](const XiaoModels& models) {
+            return [=](const Take& noisy, const Take& truth) {
+              const Take posed =
+                  frames == XiaoFrames::truth
+                      ? truth
+                      : steady_take(noisy, static_cast<std::size_t>(choice.steady_frames));
+              return models.papers
+                  ->of(static_cast<std::size_t>(choice.window_frames),
+                       static_cast<std::size_t>(choice.atoms))
+                  .filtered(noisy, posed, choice.settings, models.paper_hop);
+            };
+          }};
+}
+
+// Steps of one coordinate, back or forth; false at its least value.
+using PaperStep = std::function<bool(PaperChoice&, bool is_up)>;
+
+bool step_by(int& value, int step, int least, bool is_up) {
+  value += is_up ? step : -step;
+  return value >= least;
+}
+
+bool step_lambda(double& lambda, bool is_up) {
+  // Rounding keeps powers of ten as they are printed.
+  lambda = std::stod(fmt::format("{:.3g}", is_up ? lambda * lambda_step : lambda / lambda_step));
+  return true;
+}
+
+std::vector<PaperStep> paper_steps(const Arguments& arguments, const XiaoNoise& noise,
+                                   XiaoFrames frames) {
+  const XiaoPaperLoss loss = loss_for(noise);
+  std::vector<PaperStep> steps;
+  if (loss != XiaoPaperLoss::squares)
+    steps.emplace_back(
+        [](PaperChoice& c, bool up) { return step_lambda(c.settings.lambda_absolute, up); });
+  if (loss != XiaoPaperLoss::absolute)
+    steps.emplace_back(
+        [](PaperChoice& c, bool up) { return step_lambda(c.settings.lambda_squares, up); });
+  if (frames == XiaoFrames::steady)
+    steps.emplace_back(
+        [](PaperChoice& c, bool up) { return step_by(c.steady_frames, steady_step, 1, up); });
+  if (arguments.quick) return steps;
+  steps.emplace_back([](PaperChoice& c, bool up) {
+    return step_by(c.window_frames, window_step, least_window, up);
+  });
+  steps.emplace_back(
+      [](PaperChoice& c, bool up) { return step_by(c.atoms, atom_step, least_atoms, up); });
+  return steps;
+}
+
+// Coordinate search: walks along each coordinate in turn as long as the error falls by more than a
+// share of it, until none moves.
+PaperChoice search(PaperChoice choice, const std::vector<PaperStep>& steps,
+                   const std::function<double(const PaperChoice&)>& error_of) {
+  constexpr double least_gain = 0.005;
+  double least = error_of(choice);
+  for (bool has_moved = true; has_moved;) {
+    has_moved = false;
+    for (const PaperStep& step : steps) {
+      for (const bool is_up : {true, false}) {
+        bool is_better = true;
+        while (is_better) {
+          PaperChoice next = choice;
+          const double error = step(next, is_up) ? error_of(next) : least;
+          is_better = error < (1 - least_gain) * least;
+          if (!is_better) break;
+          choice = next, least = error, has_moved = true;
+        }
+      }
+    }
+  }
+  return choice;
+}
+
+XiaoMethod xiao_algorithm(const Arguments& arguments, const std::string& name, XiaoFrames frames) {
+  return {name,
+          [=](const XiaoModels& models, const std::vector<Take>& clips, const XiaoNoise& noise) {
+            XiaoModels with_fewer_windows = models;
+            with_fewer_windows.paper_hop = tuning_hop;
+            const std::vector<XiaoDamaged> damaged = tuning_noise(clips, noise);
+            PaperChoice choice{.settings = {.loss = loss_for(noise)}};
+            if (arguments.quick) choice.window_frames = 9, choice.atoms = 60;
+            if (frames == XiaoFrames::steady) choice.steady_frames = 1 + 2 * steady_step;
+            choice = search(choice, paper_steps(arguments, noise, frames),
+                            [&](const PaperChoice& tried) {
+                              return error_on(setting_of(tried, frames).make(with_fewer_windows),
+                                              clips, damaged);
+                            });
+            return setting_of(choice, frames);
           },
           true};
 }
 
-double error_on(const XiaoFilter& filter, const std::vector<Take>& clips,
-                const std::vector<XiaoDamaged>& damaged) {
-  double sum = 0;
-  for (std::size_t c = 0; c < clips.size(); ++c)
-    sum += xiao_error(clips[c], damaged[c], filter(damaged[c].clip, clips[c])).mean;
-  return sum;
-}
-
-std::vector<XiaoDamaged> tuning_noise(const std::vector<Take>& clips, const XiaoNoise& noise) {
-  std::vector<XiaoDamaged> damaged;
-  for (const Take& clip : clips) damaged.push_back(xiao_noise(clip, noise, 1000 + damaged.size()));
-  return damaged;
-}
-
 }  // namespace
 
-std::vector<XiaoMethod> xiao_methods(const Arguments& arguments, const XiaoPaperSizes& sizes) {
+std::vector<XiaoMethod> xiao_methods(const Arguments& arguments) {
   XiaoMethod automatic = of_any_noise(
       "auto", [](const auto& add) { add("", [](const XiaoModels&) { return make_auto(); }); });
   return {xiao_gaussian(),
@@ -184,13 +274,17 @@ std::vector<XiaoMethod> xiao_methods(const Arguments& arguments, const XiaoPaper
           xiao_example(arguments),
           xiao_sparse(),
           std::move(automatic),
-          xiao_algorithm(false, sizes),
-          xiao_algorithm(true, sizes)};
+          xiao_algorithm(arguments, "paper", XiaoFrames::noisy),
+          xiao_algorithm(arguments, "paper steady frames", XiaoFrames::steady),
+          xiao_algorithm(arguments, "paper true frames", XiaoFrames::truth)};
 }
 
 XiaoModels xiao_models(const Arguments& arguments, const std::vector<Take>& clips,
-                       const XiaoPaperSizes& sizes) {
-  XiaoModels models{{}, {}, std::make_shared<const XiaoPaper>(clips, sizes)};
+                       bool is_tuning) {
+  XiaoPaperSizes sizes{.windows = 5000, .iterations = 6};
+  if (is_tuning) sizes.iterations = 3;
+  if (arguments.quick) sizes.windows = 500, sizes.iterations = 3;
+  XiaoModels models{{}, {}, std::make_shared<XiaoPapers>(clips, sizes)};
   for (const std::int64_t frames : xiao_sparse_windows) {
     OptionValues options = xiao_training(arguments);
     options["window_frames"] = frames;
@@ -216,36 +310,6 @@ XiaoFold xiao_fold(const XiaoGroup& group) {
     fold.tuning.push_back(slice(clip, first, first + frames));
   }
   return fold;
-}
-
-XiaoSetting xiao_tuned(const XiaoMethod& method, XiaoModels models, const std::vector<Take>& clips,
-                       const XiaoNoise& noise) {
-  models.paper_hop = tuning_hop;
-  const std::vector<XiaoSetting> settings = method.settings(noise);
-  if (settings.size() == 1) return settings.front();
-  const std::vector<XiaoDamaged> damaged = tuning_noise(clips, noise);
-  std::vector<double> errors;
-  for (const XiaoSetting& setting : settings)
-    errors.push_back(error_on(setting.make(models), clips, damaged));
-  return settings[static_cast<std::size_t>(std::ranges::min_element(errors) - errors.begin())];
-}
-
-XiaoPaperSizes xiao_paper_sizes(const Arguments& arguments, const XiaoFold& fold) {
-  if (arguments.quick) return {.window_frames = 9, .atoms = 60, .windows = 500, .iterations = 3};
-  XiaoPaperSizes best{.windows = 5000, .iterations = 6};
-  const XiaoNoise noise{"20 dB", 20, 0};
-  const std::vector<XiaoDamaged> damaged = tuning_noise(fold.tuning, noise);
-  double least = 1e300;
-  for (const std::size_t window_frames : {9U, 15U, 27U}) {
-    const XiaoPaperSizes sizes{.window_frames = window_frames, .windows = 2000, .iterations = 3};
-    const XiaoModels models{
-        {}, {}, std::make_shared<const XiaoPaper>(fold.training, sizes), tuning_hop};
-    for (const XiaoSetting& setting : xiao_algorithm(true, sizes).settings(noise)) {
-      const double error = error_on(setting.make(models), fold.tuning, damaged);
-      if (error < least) least = error, best.window_frames = window_frames;
-    }
-  }
-  return best;
 }
 
 }  // namespace kinemend::papers

@@ -20,7 +20,7 @@ inline constexpr std::array<std::int64_t, 2> xiao_sparse_windows{9, 15};
 struct XiaoModels {
   std::vector<std::shared_ptr<const Model>> sparse;
   std::vector<std::shared_ptr<const Model>> example;
-  std::shared_ptr<const XiaoPaper> paper;
+  std::shared_ptr<XiaoPapers> papers;
   std::size_t paper_hop = 1;  ///< frames from window to window of Algorithm 1; 1: all windows
 };
 
@@ -34,7 +34,8 @@ struct XiaoSetting {
 
 struct XiaoMethod {
   std::string name;
-  std::function<std::vector<XiaoSetting>(const XiaoNoise&)> settings;
+  /// The setting with the least mean error on clips with that noise.
+  std::function<XiaoSetting(const XiaoModels&, const std::vector<Take>&, const XiaoNoise&)> tuned;
   bool is_slow = false;  ///< runs on the paper's own sequences only
 };
 
@@ -43,23 +44,18 @@ inline std::vector<double> xiao_windows_s(const Arguments& arguments) {
   return arguments.quick ? std::vector<double>{0.5} : std::vector<double>{1.0 / 3, 2.0 / 3, 1};
 }
 
-/// The paper's five methods including our `sparse`, then `auto`, and Algorithm 1 itself.
-std::vector<XiaoMethod> xiao_methods(const Arguments& arguments, const XiaoPaperSizes& sizes);
+/// The paper's five methods including our `sparse`, then `auto`, and Algorithm 1 itself in the
+/// coordinates of three poses.
+std::vector<XiaoMethod> xiao_methods(const Arguments& arguments);
 
-XiaoModels xiao_models(const Arguments& arguments, const std::vector<Take>& clips,
-                       const XiaoPaperSizes& sizes);
+/// `is_tuning`: models to choose settings with, whose dictionaries of Algorithm 1 have fewer
+/// iterations.
+XiaoModels xiao_models(const Arguments& arguments, const std::vector<Take>& clips, bool is_tuning);
 
 /// The training clips in two parts: a second of two clips for choosing settings, and the others.
 struct XiaoFold {
   std::vector<Take> training, tuning;
 };
 XiaoFold xiao_fold(const XiaoGroup& group);
-
-/// The setting with the least mean error on the clips with that noise.
-XiaoSetting xiao_tuned(const XiaoMethod& method, XiaoModels models, const std::vector<Take>& clips,
-                       const XiaoNoise& noise);
-
-/// The sizes of Algorithm 1, with the M that has the least error at 20 dB.
-XiaoPaperSizes xiao_paper_sizes(const Arguments& arguments, const XiaoFold& fold);
 
 }  // namespace kinemend::papers

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/quantiles.hpp"
 #include "lab/training/ksvd.hpp"
 #include "lab/training/sparse_body.hpp"
 #include "motion/rotation.hpp"
-#include "papers/xiao2015_sparse/descent_solver.hpp"
 
 namespace kinemend::papers {
 
@@ -19,7 +19,6 @@ namespace {
 // about centimetres of an adult.
 constexpr double trunk_length = 50;
 constexpr std::size_t windows_at_once = 256;
-constexpr sparse::DescentSettings xiao_descent{};
 
 PoseMatrix positions_of(const Take& clip) {
   PoseMatrix positions(clip.frame_count(), 3 * clip.marker_count());
@@ -62,7 +61,35 @@ void append_window(const PoseMatrix& local, const SparsePoselet& poselet, std::s
         static_cast<Number>(local(first + i / poselet.channels(), channel_of(poselet, i))));
 }
 
+// Calls `merge` with the values of each window of one coordinate, and writes what it returns.
+template <class Merge>
+void run_along(Take& clip, std::size_t frames, const Merge& merge) {
+  const std::size_t markers = clip.marker_count(), reach = frames / 2;
+  const std::vector<Vec3> given = clip.positions;
+  std::vector<double> values;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f) {
+    const std::size_t own = std::min({reach, f, clip.frame_count() - 1 - f}), first = f - own,
+                      last = f + own + 1;
+    for (std::size_t m = 0; m < markers; ++m) {
+      for (double Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+        values.clear();
+        for (std::size_t g = first; g < last; ++g) values.push_back(given[g * markers + m].*axis);
+        clip.positions[f * markers + m].*axis = merge(values);
+      }
+    }
+  }
+}
+
 }  // namespace
+
+Take steady_take(Take clip, std::size_t frames) {
+  if (frames < 2) return clip;
+  run_along(clip, frames, [](std::vector<double>& values) { return median_of(values); });
+  run_along(clip, frames, [](const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  });
+  return clip;
+}
 
 // Finds the poselets of `sparse`, with the markers' numbers in the clips.
 void XiaoPaper::find_parts(const std::vector<Take>& clips) {
@@ -75,7 +102,7 @@ void XiaoPaper::find_parts(const std::vector<Take>& clips) {
   local_ = find_local_points(layout);
   for (std::int32_t* point : {&local_.root, &local_.left_hip, &local_.right_hip, &local_.neck})
     to_marker(*point);
-  poselets_ = find_poselets(layout, marker_points(layout));
+  poselets_ = find_poselets(layout, marker_points(layout), sizes_.whole);
   for (SparsePoselet& poselet : poselets_) std::ranges::for_each(poselet.points, to_marker);
 }
 
@@ -108,8 +135,9 @@ XiaoPaper::XiaoPaper(const std::vector<Take>& clips, const XiaoPaperSizes& sizes
   }
 }
 
-PoseMatrix XiaoPaper::filter(const PoseMatrix& local, bool is_absolute, double lambda,
-                             std::size_t hop) const {
+PoseMatrix XiaoPaper::filter(const PoseMatrix& local, bool is_absolute,
+                             const XiaoPaperSettings& settings, std::size_t hop) const {
+  const double lambda = is_absolute ? settings.lambda_absolute : settings.lambda_squares;
   PoseMatrix sums(local.frames, local.channels), counts(local.frames, local.channels);
   const std::size_t window = sizes_.window_frames;
   std::vector<std::size_t> starts;
@@ -126,7 +154,7 @@ PoseMatrix XiaoPaper::filter(const PoseMatrix& local, bool is_absolute, double l
       const sparse::SparseProblem problem{
           is_absolute ? sparse::Loss::absolute : sparse::Loss::squares, signals, {}, lambdas, {}};
       const std::vector<double> values =
-          sparse::descend_sparse(poselet.dictionary, problem, xiao_descent).reconstructed;
+          sparse::descend_sparse(poselet.dictionary, problem, settings.descent).reconstructed;
       for (std::size_t i = 0; i < values.size(); ++i) {
         const std::size_t frame = starts[first + i / rows] + i % rows / poselet.channels();
         const std::size_t channel = channel_of(poselet, i % rows);
@@ -149,9 +177,9 @@ Take XiaoPaper::filtered(const Take& noisy, const Take& posed, const XiaoPaperSe
   const std::vector<LocalFrame> frames = local_frames(poses, local_);
   to_local(frames, local);
   if (settings.loss != XiaoPaperLoss::squares)
-    local = filter(local, true, settings.lambda_absolute, hop);
+    local = filter(local, true, settings, hop);
   if (settings.loss != XiaoPaperLoss::absolute)
-    local = filter(local, false, settings.lambda_squares, hop);
+    local = filter(local, false, settings, hop);
   from_local(frames, local);
   scale_by(1 / factor, local);
   Take result = noisy;

@@ -4,12 +4,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kinemend/extend/body.hpp"
 #include "kinemend/extend/frames.hpp"
 #include "kinemend/take.hpp"
+#include "papers/xiao2015_sparse/descent_solver.hpp"
 #include "papers/xiao2015_sparse/sparse_prior.hpp"
 
 namespace kinemend::papers {
@@ -19,6 +22,7 @@ struct XiaoPaperSizes {
   std::size_t atoms = 500;         ///< K
   std::size_t windows = 10'000;    ///< for training dictionaries, drawn evenly from all
   std::size_t iterations = 10;     ///< of K-SVD
+  bool whole = false;              ///< one part of all markers, in place of poselets (table 2)
 };
 
 enum class XiaoPaperLoss : std::uint8_t {
@@ -30,7 +34,20 @@ enum class XiaoPaperLoss : std::uint8_t {
 struct XiaoPaperSettings {
   XiaoPaperLoss loss = XiaoPaperLoss::squares;
   double lambda_squares = 1, lambda_absolute = 1;  ///< for eq. 4 and 5, lengths in centimetres
+  /// Near the minimum. Closer to it, the error of a take changes in the third digit.
+  sparse::DescentSettings descent{};
 };
+
+/// The poses whose local coordinates Algorithm 1 uses; the paper does not state them.
+enum class XiaoFrames : std::uint8_t {
+  noisy,   ///< those of the noisy take: noise came before the change of coordinates
+  steady,  ///< the same after a running median and a running mean
+  truth,   ///< those of the ground truth: noise came after the change of coordinates
+};
+
+/// Every marker's running median over `frames` frames, then its running mean over as many; 1: the
+/// take itself. Windows reach as far forth as back, so at the ends they are shorter.
+Take steady_take(Take clip, std::size_t frames);
 
 class XiaoPaper {
  public:
@@ -45,15 +62,39 @@ class XiaoPaper {
                 std::size_t hop = 1) const;
 
   const XiaoPaperSizes& sizes() const noexcept { return sizes_; }
+  /// The parts with their dictionaries: values of a window are ordered by frame, point and axis.
+  const std::vector<SparsePoselet>& poselets() const noexcept { return poselets_; }
 
  private:
   void find_parts(const std::vector<Take>& clips);
-  PoseMatrix filter(const PoseMatrix& local, bool is_absolute, double lambda,
+  PoseMatrix filter(const PoseMatrix& local, bool is_absolute, const XiaoPaperSettings& settings,
                     std::size_t hop) const;
 
   XiaoPaperSizes sizes_;
   LocalPoints local_;
   std::vector<SparsePoselet> poselets_;  // means are not used
+};
+
+/// Algorithm 1 in several sizes, each trained when it is first wanted.
+class XiaoPapers {
+ public:
+  /// `sizes`: what all have besides M and K.
+  XiaoPapers(std::vector<Take> clips, const XiaoPaperSizes& sizes)
+      : clips_(std::move(clips)), sizes_(sizes) {}
+
+  const XiaoPaper& of(std::size_t window_frames, std::size_t atoms) {
+    const auto found = papers_.find({window_frames, atoms});
+    if (found != papers_.end()) return found->second;
+    XiaoPaperSizes sizes = sizes_;
+    sizes.window_frames = window_frames;
+    sizes.atoms = atoms;
+    return papers_.try_emplace({window_frames, atoms}, clips_, sizes).first->second;
+  }
+
+ private:
+  std::vector<Take> clips_;
+  XiaoPaperSizes sizes_;
+  std::map<std::pair<std::size_t, std::size_t>, XiaoPaper> papers_;
 };
 
 }  // namespace kinemend::papers

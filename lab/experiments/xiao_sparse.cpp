@@ -101,9 +101,8 @@ class Comparison {
                 "noise,method,setting,own_mean_cm,own_deviation_cm,own_under_5_cm,mean_cm,"
                 "deviation_cm");
     const XiaoFold fold = xiao_fold(group);
-    const XiaoPaperSizes sizes = xiao_paper_sizes(arguments_, fold);
-    const XiaoModels tuning = xiao_models(arguments_, fold.training, sizes);
-    const XiaoModels models = xiao_models(arguments_, group.training, sizes);
+    const XiaoModels tuning = xiao_models(arguments_, fold.training, true);
+    const XiaoModels models = xiao_models(arguments_, group.training, false);
     for (const XiaoNoise& noise : xiao_noises()) {
       const auto add = [&](const std::string& name, const std::string& setting,
                            const XiaoFilter& filter, bool is_slow) {
@@ -126,8 +125,8 @@ class Comparison {
       };
       add(
           "(noisy)", "", [](const Take& noisy, const Take&) { return noisy; }, false);
-      for (const XiaoMethod& method : xiao_methods(arguments_, sizes)) {
-        const XiaoSetting setting = xiao_tuned(method, tuning, fold.tuning, noise);
+      for (const XiaoMethod& method : xiao_methods(arguments_)) {
+        const XiaoSetting setting = method.tuned(tuning, fold.tuning, noise);
         add(method.name, setting.name, setting.make(models), method.is_slow);
       }
     }

@@ -1,9 +1,11 @@
-// Variants of `sparse` as in Xiao et al. 2015: table 2 (poselets against whole poses, error and
-// time), figure 9 (training on one action or on all) and figure 10 (M, K and lambda).
+// Variants of `sparse` and of Algorithm 1 as in Xiao et al. 2015: table 2 (poselets against whole
+// poses, error and time), figure 9 (training on one action or on all) and figure 10 (M, K and
+// lambda).
 #include <ctime>
 
 #include "kinemend/extend/method_options.hpp"
 #include "xiao.hpp"
+#include "xiao_paper.hpp"
 
 namespace kinemend::papers {
 namespace {
@@ -25,19 +27,31 @@ class Lines {
   Lines(const Arguments& arguments, const std::string& file)
       : table_(arguments, file, "motion,what,value,mean_cm") {}
 
-  // Measures a cleaner and returns its processor time.
+  // Measures a filter of noisy takes, which is given the truth too, and returns its processor time.
   double add(const XiaoGroup& group, const std::string& what, const std::string& value,
-             const Cleaner& cleaner, const XiaoNoise& noise) {
-    const double start_s = processor_s();
-    double error = 0;
-    for (std::size_t t = 0; t < group.tests.size(); ++t)
-      error += xiao_error(cleaner, group.tests[t], xiao_noise(group.tests[t], noise, t + 1)).mean /
-               static_cast<double>(group.tests.size());
-    const double time_s = processor_s() - start_s;
+             const std::function<Take(Take, const Take&)>& filter, const XiaoNoise& noise) {
+    double error = 0, time_s = 0;
+    for (std::size_t t = 0; t < group.tests.size(); ++t) {
+      const Take& truth = group.tests[t];
+      const XiaoDamaged damaged = xiao_noise(truth, noise, t + 1);
+      const double start_s = processor_s();
+      const Take filtered = filter(damaged.clip, truth);
+      time_s += processor_s() - start_s;
+      error +=
+          xiao_error(truth, damaged, filtered).mean / static_cast<double>(group.tests.size());
+    }
     table_.add({group.name, what, value, fmt::format("{:.3f}", 100 * error)});
     fmt::print("{:<11}{:<16}{:<12}{:9.5f} m {:7.2f} s\n", group.name, what, value, error, time_s);
     std::fflush(stdout);
     return time_s;
+  }
+  double add(const XiaoGroup& group, const std::string& what, const std::string& value,
+             const Cleaner& cleaner, const XiaoNoise& noise) {
+    const auto filter = [&](Take noisy, const Take&) {
+      clean_in_place(cleaner, noisy);
+      return noisy;
+    };
+    return add(group, what, value, filter, noise);
   }
   void close() { table_.close(); }
 
@@ -130,7 +144,88 @@ void xiao_variants(const Arguments& arguments) {
   learned_from.close();
 }
 
-const Registration xiao_variants_entry("xiao_variants", xiao_variants);
+// Algorithm 1 with the coordinates of the true poses.
+double add_algorithm(Lines& lines, const XiaoGroup& group, const std::string& what,
+                     const std::string& value, const XiaoPaper& paper, double lambda,
+                     const XiaoNoise& noise) {
+  const XiaoPaperSettings settings{.lambda_squares = lambda};
+  const auto filter = [&](const Take& noisy, const Take& truth) {
+    return paper.filtered(noisy, truth, settings);
+  };
+  return lines.add(group, what, value, filter, noise);
+}
+
+XiaoPaperSizes algorithm_sizes(const Arguments& arguments) {
+  if (arguments.quick) return {.window_frames = 9, .atoms = 60, .windows = 500, .iterations = 3};
+  return {.window_frames = 27, .windows = 5000, .iterations = 6};
+}
+
+// Table 2 and figure 10 of Algorithm 1, over the paper's grid and beyond its ends.
+void algorithm_alone(const Arguments& arguments, const XiaoGroup& group, Lines& lines,
+                     Table& times) {
+  const XiaoPaperSizes usual = algorithm_sizes(arguments);
+  const double start_s = processor_s();
+  const XiaoPaper paper(group.training, usual);
+  const double poselets_s = processor_s() - start_s;
+  const double cleaned_s =
+      add_algorithm(lines, group, "representation", "poselets", paper, 1, noise_20_db);
+  XiaoPaperSizes sizes = usual;
+  sizes.whole = true;
+  const double whole_start_s = processor_s();
+  const XiaoPaper whole(group.training, sizes);
+  const double whole_s = processor_s() - whole_start_s;
+  const double whole_cleaned_s =
+      add_algorithm(lines, group, "representation", "whole", whole, 1, noise_20_db);
+  times.add({group.name, fmt::format("{:.2f}", whole_s / poselets_s),
+             fmt::format("{:.2f}", whole_cleaned_s / cleaned_s)});
+  for (const double lambda : {1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1000.0})
+    add_algorithm(lines, group, "lambda", fmt::format("{}", lambda), paper, lambda, noise_20_db);
+  const auto add_sized = [&](const std::string& what, std::size_t value,
+                             const XiaoPaperSizes& changed) {
+    const bool is_usual =
+        changed.window_frames == usual.window_frames && changed.atoms == usual.atoms;
+    add_algorithm(lines, group, what, std::to_string(value),
+                  is_usual ? paper : XiaoPaper(group.training, changed), 1, noise_20_db);
+  };
+  for (const std::size_t frames : arguments.quick
+                                      ? std::vector<std::size_t>{9, 15}
+                                      : std::vector<std::size_t>{9, 15, 21, 27, 33, 39, 51}) {
+    sizes = usual;
+    sizes.window_frames = frames;
+    add_sized("M", frames, sizes);
+  }
+  for (const std::size_t atoms : arguments.quick
+                                     ? std::vector<std::size_t>{30, 60}
+                                     : std::vector<std::size_t>{250, 500, 750, 1000, 1250}) {
+    sizes = usual;
+    sizes.atoms = atoms;
+    add_sized("K", atoms, sizes);
+  }
+}
+
+void xiao_algorithm(const Arguments& arguments) {
+  const std::vector<XiaoGroup> groups = xiao_groups(arguments);
+  Lines lines(arguments, "xiao_algorithm.csv");
+  Table times(arguments, "xiao_algorithm_time.csv", "motion,learning,cleaning");
+  for (const XiaoGroup& group : groups) algorithm_alone(arguments, group, lines, times);
+  times.close();
+  std::vector<Take> all;
+  for (const XiaoGroup& group : groups)
+    all.insert(all.end(), group.training.begin(), group.training.end());
+  const XiaoPaperSizes usual = algorithm_sizes(arguments);
+  XiaoPaperSizes grown = usual;
+  grown.atoms *= groups.size(), grown.windows *= groups.size();
+  const XiaoPaper from_all(all, usual), from_all_grown(all, grown);
+  for (const XiaoGroup& group : groups) {
+    add_algorithm(lines, group, "from", "one", XiaoPaper(group.training, usual), 1, noise_30_db);
+    add_algorithm(lines, group, "from", "all", from_all, 1, noise_30_db);
+    add_algorithm(lines, group, "from", "all grown", from_all_grown, 1, noise_30_db);
+  }
+  lines.close();
+}
+
+const Registration xiao_variants_entry("xiao_variants", xiao_variants),
+    xiao_algorithm_entry("xiao_algorithm", xiao_algorithm);
 
 }  // namespace
 }  // namespace kinemend::papers

@@ -24,7 +24,6 @@ namespace {
 
 constexpr double outlier_deviations = 5;  // of the noise of a channel
 constexpr double many_outliers = 0.02;    // share of samples: one in fifty
-constexpr double well_below = 0.7;        // share of the noise that `auto` measures
 // Mean square of the residual outside the atoms, in those of the noise, from which `auto` is mixed
 // in; and the largest share of `auto` in the result.
 constexpr double usual_rest = 0.1, most_of_auto = 0.5;
@@ -182,24 +181,26 @@ PoseMatrix filtered_points(const PriorWork& work, const PoseMatrix& positions, P
   return guide;
 }
 
-// Rejects spikes and measurements far from the result of the atoms. Returns the share of the latter
-// that `auto` has taken for noise: those in channels that mostly lie nearer to this result than the
-// noise that `auto` measures. In motion unlike the model's they do not.
-double reject_outliers(PriorWork& work, const std::vector<double>& noise,
-                       const PoseMatrix& expressed) {
-  const std::vector<double> by_auto = example_noise(work);
-  work.rejected.assign(expressed.values.size(), 0);
-  double taken_for_noise = 0, count = 0;
-  for (std::size_t i = 0; i < expressed.values.size(); ++i) {
-    if (work.channels.observed[i] == 0) continue;
-    const std::size_t c = i % expressed.channels;
+// Rejects spikes and measurements far from the result of the atoms. One that is far while those
+// before and after it are not is an impulse: motion that the atoms lack lasts longer. Impulses
+// that `auto` has not seen become suspects, as the result is not to be held near `auto`'s there.
+void reject_outliers(PriorWork& work, const std::vector<double>& noise,
+                     const PoseMatrix& expressed, bool marks_impulses) {
+  const std::size_t width = expressed.channels, count = expressed.values.size();
+  std::vector<std::uint8_t> is_far(count);
+  for (std::size_t i = 0; i < count; ++i) {
     const double distance = std::abs(work.channels.poses.values[i] - expressed.values[i]);
-    const bool is_far = distance > outlier_deviations * noise[c];
-    work.rejected[i] = work.suspect[i] != 0 || is_far ? 1 : 0;
-    taken_for_noise += is_far && noise[c] < well_below * by_auto[c] ? 1 : 0;
-    count += 1;
+    const bool is_beyond = distance > outlier_deviations * noise[i % width];
+    is_far[i] = work.channels.observed[i] != 0 && is_beyond ? 1 : 0;
   }
-  return taken_for_noise / std::max(count, 1.0);
+  work.rejected.assign(count, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool goes_on = (i >= width && is_far[i - width] != 0) ||
+                         (i + width < count && is_far[i + width] != 0);
+    if (marks_impulses && is_far[i] != 0 && !goes_on) work.suspect[i] = 1;
+    const bool is_rejected = is_far[i] != 0 || work.suspect[i] != 0;
+    work.rejected[i] = work.channels.observed[i] != 0 && is_rejected ? 1 : 0;
+  }
 }
 
 // F x D, 1 for measurements that are not rejected.
@@ -273,8 +274,7 @@ void filter_sparse(PriorWork& work, const SparseOptions& options, const SparsePr
     return;
   }
   const std::vector<double> noise = noise_about(work, cleaned, tuning.caps_noise);
-  const double taken_for_noise = reject_outliers(work, noise, cleaned);
-  if (tuning.releases) release_if_crowded(work, taken_for_noise);
+  reject_outliers(work, noise, cleaned, tuning.marks_impulses);
   // For joints, whose noise is seldom the same about each axis, the smoothing flips between two
   // estimates.
   if (tuning.smooths_rest && prior.points.kind == BodyKind::markers) {

@@ -16,7 +16,7 @@ struct SparseTuning {
   bool smooths_rest = true;    ///< keeps smooth motion of markers that the atoms cannot express
   bool leaves_biased = true;   ///< takes `auto`'s result for parts where the result is biased
   bool holds = true;           ///< changes a part no further than its noise justifies
-  bool releases = true;        ///< lifts that limit where `auto` takes outliers for noise
+  bool marks_impulses = true;  ///< lifts that limit at outliers that `auto` has not seen
   bool averages = true;        ///< averages with `auto` where the atoms miss much
 };
 
