@@ -1,6 +1,7 @@
 // Takes at 30 Hz, models of them, noise and errors, for the experiments of Lou & Chai 2010.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "experiment.hpp"
+#include "kinemend/extend/figures.hpp"
 #include "kinemend/extend/method_options.hpp"
 #include "kinemend/extend/model.hpp"
 #include "kinemend/extend/motion.hpp"
@@ -112,6 +114,13 @@ inline LouMethod lou_method(std::string name, bool is_of_the_paper,
   return method;
 }
 
+/// The algorithm of the paper alone.
+inline std::unique_ptr<Cleaner> papers_example(std::shared_ptr<const Model> model) {
+  ExampleOptions options;
+  options.solver = "paper";
+  return make_example(options, std::move(model));
+}
+
 /// The paper's four methods, then others. A Gaussian window of 11 frames has a deviation of 2 (that
 /// of the usual window function). The general Kalman filter assumes a constant pose and has the
 /// best of a grid of process noises.
@@ -128,10 +137,7 @@ inline std::vector<LouMethod> lou_methods(const LouModels& models) {
   methods.push_back(
       lou_method("kalman-learned", true, make_kalman_learned(of_the_past, models.kalman)));
   methods.push_back(lou_method("example", true, make_example({}, models.example)));
-  ExampleOptions of_the_paper;
-  of_the_paper.solver = "paper";
-  methods.push_back(
-      lou_method("example, solver=paper", false, make_example(of_the_paper, models.example)));
+  methods.push_back(lou_method("example, solver=paper", false, papers_example(models.example)));
   methods.push_back(
       lou_method("kalman-learned, smoother", false, make_kalman_learned({}, models.kalman)));
   if (models.wiener) methods.push_back(lou_method("wiener", false, make_wiener({}, models.wiener)));
@@ -156,6 +162,34 @@ inline Take lou_noise(Take clip, double std_deg, double share_of_outliers, std::
   if (std_deg > 0) apply_damage(clip, "gaussian", {{"std_deg", std_deg}}, noise);
   if (share_of_outliers > 0) apply_damage(clip, "outliers", {{"share", share_of_outliers}}, jumps);
   return clip;
+}
+
+/// Error of a limb that is hidden for a second in the middle of a take, over the limbs, degrees per
+/// joint angle.
+inline double filling_error(const Cleaner& cleaner, const Take& truth) {
+  const std::vector<std::vector<std::string>> limbs = {{"LeftArm", "LeftForeArm", "LeftHand"},
+                                                       {"RightArm", "RightForeArm", "RightHand"},
+                                                       {"LeftUpLeg", "LeftLeg", "LeftFoot"},
+                                                       {"RightUpLeg", "RightLeg", "RightFoot"}};
+  const std::size_t frames = truth.frame_count();
+  const std::size_t length = std::min<std::size_t>(30, frames / 2), first = (frames - length) / 2;
+  double sum = 0, count = 0;
+  for (const std::vector<std::string>& limb : limbs) {
+    std::vector<NamedGap> gaps;
+    for (const std::string& joint : limb) gaps.push_back({joint, first, first + length - 1});
+    Take damaged = truth;
+    mark_gaps(damaged, gaps);
+    const Take filled = cleaned(cleaner, damaged);
+    for (const std::string& name : limb) {
+      const auto joint = static_cast<std::size_t>(truth.skeleton.find(name));
+      for (std::size_t f = first; f < first + length; ++f) {
+        const double angle =
+            degrees_per_radian * angle_between(truth.rotation(f, joint), filled.rotation(f, joint));
+        sum += angle * angle, count += 3;
+      }
+    }
+  }
+  return std::sqrt(sum / count);
 }
 
 /// Errors for one noise setting: for each method the mean over takes and seeds.

@@ -76,6 +76,7 @@ Fillers fillers_of(const LouModels& models) {
     fillers.cleaners.push_back(std::move(cleaner));
   };
   add("example", make_example({}, models.example));
+  add("example, solver=paper", papers_example(models.example));
   add("kalman-learned", make_kalman_learned({}, models.kalman));
   if (models.wiener) add("wiener", make_wiener({}, models.wiener));
   return fillers;
@@ -134,13 +135,15 @@ void figure_6(const Arguments& arguments) {
   Table table(arguments, "lou_missing.csv", "take,method,distance_cm");
   fmt::print("Figure 6: both arms missing throughout. Mean distance of what is of an arm, cm.\n\n");
   std::vector<std::string> short_names;
-  for (const std::string& column : columns) short_names.push_back(column.substr(0, 8));
+  for (const std::string& column : columns)
+    short_names.push_back(column.find("paper") == std::string::npos ? column.substr(0, 8)
+                                                                    : "paper");
   const TextTable text(short_names);
   for (const Result& result : results) {
     text.add(result.take, result.errors_cm);
     for (std::size_t c = 0; c < columns.size(); ++c) {
       table.add(
-          {"\"" + result.take + "\"", columns[c], fmt::format("{:.4g}", result.errors_cm[c])});
+          {papers::quoted(result.take), papers::quoted(columns[c]), fmt::format("{:.4g}", result.errors_cm[c])});
     }
   }
   table.close();

@@ -43,7 +43,7 @@ FrameError frame_error(const BodyChannels& truth, const BodyChannels& found, dou
 }
 
 // Adds two degrees to every joint and a centimetre to the place, in ten draws.
-void noise(const Arguments& arguments) {
+void noise_on_bodies(const Arguments& arguments) {
   Table table(arguments, "page_body_noise.csv", "take,rate_hz,heading_deg,place_mm,floor_mm");
   for (const auto& [name, motion] :
        {std::pair{"35_01", "walk"}, {"02_05", "punch"}, {"09_03", "run"}, {"05_02", "wave"}}) {
@@ -177,7 +177,7 @@ double armless_deg(const Arguments& arguments) {
 }
 
 void page_bodies(const Arguments& arguments) {
-  noise(arguments);
+  noise_on_bodies(arguments);
   Table table(arguments, "page_bodies.csv", "what,takes,value");
   table.add({"circle", "1", figure(circle_cut_cm())});
   if (find_take(arguments.data, "85_12.c3d")) {

@@ -33,19 +33,28 @@ inline bool is_left_out(const std::string& name) {
   return name.starts_with("kinect-") && person != std::string::npos && name[person + 3] > '3';
 }
 
-inline std::vector<SystemPair> pairs_below(const std::filesystem::path& folder) {
+inline std::vector<SystemPair> all_pairs_below(const std::filesystem::path& folder) {
   std::vector<SystemPair> pairs;
   if (!std::filesystem::is_directory(folder)) return pairs;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     const std::size_t at = name.find(".noisy.");
-    if (at == std::string::npos || !is_left_out(name)) continue;
+    if (at == std::string::npos) continue;
     const std::string reference = name.substr(0, at) + ".reference." + name.substr(at + 7);
     pairs.push_back(
         {name.substr(0, name.find('-')), entry.path().string(), (folder / reference).string()});
   }
   std::sort(pairs.begin(), pairs.end(),
             [](const SystemPair& a, const SystemPair& b) { return a.noisy < b.noisy; });
+  return pairs;
+}
+
+/// Those that no shipped model has learned from.
+inline std::vector<SystemPair> pairs_below(const std::filesystem::path& folder) {
+  std::vector<SystemPair> pairs = all_pairs_below(folder);
+  std::erase_if(pairs, [](const SystemPair& pair) {
+    return !is_left_out(std::filesystem::path(pair.noisy).filename().string());
+  });
   return pairs;
 }
 

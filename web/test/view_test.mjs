@@ -617,7 +617,7 @@ step('Ctrl-C ends it, and the page says so', async () => {
   child.removeAllListeners('exit');
   const ended = new Promise((resolve) => child.on('exit', resolve));
   child.kill('SIGINT');
-  assert.equal(await Promise.race([ended, code, new Promise((resolve) => setTimeout(resolve, 20000, 'still there'))]), 0);
+  assert.equal(await Promise.race([ended, code, pause(patience).then(() => 'still there')]), 0);
   await page.fill('[data-flag=strength]:visible', '0.5');
   await page.waitForSelector('.view-controls .error:has-text("has ended")');
 });
@@ -630,26 +630,37 @@ step('Ctrl-C ends it in the midst of a fill', async () => {
   child.removeAllListeners('exit');
   const ended = new Promise((resolve) => child.on('exit', resolve));
   child.kill('SIGINT');
-  assert.equal(await Promise.race([ended, pause(20000).then(() => 'still there')]), 0);
+  assert.equal(await Promise.race([ended, pause(patience).then(() => 'still there')]), 0);
   assert.notEqual((await running).code, 200);
   console.log(`  ended ${Date.now() - begun - 400} ms after Ctrl-C`);
 });
 
-let failed = 0;
-for (const [name, run] of steps.filter(([one]) => only.test(one))) {
-  const begun = Date.now();
+/** Runs a step; returns what went wrong, if anything. */
+async function attempt(run) {
+  let wrong;
   try {
     await run();
-    console.log(`passed: ${name} (${Date.now() - begun} ms)`);
   } catch (error) {
-    failed += 1;
-    console.error(`FAILED: ${name}\n${error.stack}`);
+    wrong = error.stack;
   }
   for (const page of pages.splice(0)) await page.close();
   for (const child of servers.splice(0)) {
     child.removeAllListeners('exit');
     child.kill('SIGINT');
   }
+  return wrong;
+}
+
+// On a machine that is busy with other work a browser may miss a click. What is broken fails the second time too.
+const failures = [];
+for (const [name, run] of steps.filter(([one]) => only.test(one))) {
+  const begun = Date.now();
+  const first = await attempt(run);
+  if (first) console.log(`again: ${name}\n${first}`);
+  const wrong = first && await attempt(run);
+  console.log(`${wrong ? 'FAILED' : 'passed'}: ${name} (${Date.now() - begun} ms)`);
+  if (wrong) failures.push(`FAILED: ${name}\n${wrong}`);
 }
 await browser.close();
-process.exit(failed > 0 ? 1 : 0);
+for (const failure of failures) console.log(failure);
+process.exit(failures.length > 0 ? 1 : 0);

@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "kinemend/error.hpp"
+#include "kinemend/extend/model.hpp"
 #include "kinemend/lab/synth.hpp"
 #include "kinemend/metrics.hpp"
 
@@ -110,6 +112,67 @@ TEST(FilterTraining, WithoutAHeadStartBeginsWithMoreErrorAndLearns) {
   EXPECT_GT(before, 1.02 * given.share_left(walks()));
   for (int i = 0; i < 120; ++i) drawn.step();
   EXPECT_LT(drawn.share_left(walks()), 0.98 * before);
+}
+
+// The change of a layer's weights, in those of the first draw.
+double moved(const Model& now, const Model& first, const std::string& layer) {
+  double change = 0, size = 0;
+  const std::vector<double>&a = now.tensors.at(layer).values, &b = first.tensors.at(layer).values;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    change += (a[i] - b[i]) * (a[i] - b[i]);
+    size += b[i] * b[i];
+  }
+  return std::sqrt(change / size);
+}
+
+TEST(FilterTraining, MovesEveryLayerOfAnEncoderFromItsFirstWeights) {
+  for (const bool has_head_start : {true, false}) {
+    FilterTraining training = tiny("ebf", "gaussian");
+    training.epochs = 40;
+    training.rate = 5e-3;
+    training.has_head_start = has_head_start;
+    FilterTrainer trainer(walks(), training);
+    const Model first = trainer.model();
+    for (int i = 0; i < 60; ++i) trainer.step();
+    const Model trained = trainer.model();
+    for (const char* layer : {"encoder0.weight", "encoder1.weight", "encoder3.weight"}) {
+      EXPECT_GT(moved(trained, first, layer), 0.1) << layer;
+      EXPECT_LT(moved(trained, first, layer), 3) << layer;
+    }
+  }
+}
+
+// A network with the layers of a model, as it was before training.
+Model untrained(const Model& model) {
+  BidirectionalShape shape;
+  shape.encoder.clear();
+  shape.decoder.clear();
+  const auto rows = [&](const std::string& layer) {
+    return model.tensors.at(layer + ".weight").shape[0];
+  };
+  shape.inputs = model.tensors.at("encoder0.weight").shape[1];
+  for (int i = 0; i < model.numbers.at("encoders"); ++i)
+    shape.encoder.push_back(rows("encoder" + std::to_string(i)));
+  for (int i = 0; i + 1 < model.numbers.at("decoders"); ++i)
+    shape.decoder.push_back(rows("decoder" + std::to_string(i)));
+  shape.units = rows("forward0.state") / 4;
+  shape.outputs = rows("decoder" + std::to_string(shape.decoder.size()));
+  Model first;
+  first.tensors = SequenceNetwork(shape, {}, 1).averages();
+  return first;
+}
+
+TEST(FilterTraining, EncodersOfTheNetworksInTheTreeAreNotTheirFirstDraw) {
+  const std::string models = KINEMEND_TEST_FIXTURES "/../../lab/experiments/models/";
+  for (const char* name : {"ebd", "shapes"}) {
+    const Model model = read_model(models + name + ".kmodel");
+    const Model first = untrained(model);
+    EXPECT_GT(moved(model, first, "encoder0.weight"), 0.2) << name;
+    // Two independent draws differ by 1.4.
+    EXPECT_LT(moved(model, first, "encoder0.weight"), 1.2) << name;
+  }
+  const Model ships = *shipped_model("recurrent");
+  EXPECT_GT(moved(ships, untrained(ships), "encoder0.weight"), 0.2);
 }
 
 TEST(FilterTraining, LearnsABiasThatIsOnTopOfTheNoise) {
