@@ -15,7 +15,7 @@ namespace {
 
 // NETWORK-LEFT_OUT-SEED: `ebfdrawn-1-1` is an EBF of the variant `drawn`.
 struct TrainedName {
-  std::string network, variant, left_out, seed;
+  std::string network, variant, left_out, seed, passes;
 };
 
 std::optional<TrainedName> trained_name(const std::string& stem) {
@@ -25,7 +25,7 @@ std::optional<TrainedName> trained_name(const std::string& stem) {
   for (const char* network : {"ebf", "bf", "nn"}) {
     if (!whole.starts_with(network)) continue;
     return TrainedName{network, whole.substr(std::string(network).size()),
-                       stem.substr(first + 1, last - first - 1), stem.substr(last + 1)};
+                       stem.substr(first + 1, last - first - 1), stem.substr(last + 1), ""};
   }
   return std::nullopt;
 }
@@ -35,27 +35,34 @@ struct TrainedNetwork {
   PaperNetwork paper;
 };
 
+std::set<std::filesystem::path> files_below(const std::filesystem::path& folder,
+                                            const std::string& ending) {
+  std::set<std::filesystem::path> paths;
+  if (!std::filesystem::is_directory(folder)) return paths;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.path().string().ends_with(ending)) paths.insert(entry.path());
+  }
+  return paths;
+}
+
 // The networks whose training is done; in the quick form those of lab/experiments/models.
 std::vector<TrainedNetwork> trained_networks(const Arguments& arguments) {
   std::vector<TrainedNetwork> networks;
   if (arguments.quick) {
     for (const char* name : {"ebf", "bf", "nn"}) {
       if (auto network = paper_network(arguments, name))
-        networks.push_back({{name, "drawn", "1", "1"}, *network});
+        networks.push_back({{name, "drawn", "1", "1", ""}, *network});
     }
     return networks;
   }
-  std::set<std::filesystem::path> paths;
-  if (std::filesystem::is_directory(arguments.models)) {
-    for (const auto& entry : std::filesystem::directory_iterator(arguments.models))
-      paths.insert(entry.path());
-  }
-  for (const std::filesystem::path& path : paths) {
-    const auto name = trained_name(path.stem().string());
+  for (const std::filesystem::path& path : files_below(arguments.models, ".kmodel")) {
+    auto name = trained_name(path.stem().string());
     std::filesystem::path checkpoint = path;
-    checkpoint.replace_extension("checkpoint");
-    if (path.extension() != ".kmodel" || !name || std::filesystem::exists(checkpoint)) continue;
-    networks.push_back({*name, *paper_network(arguments, path.stem().string())});
+    if (!name || std::filesystem::exists(checkpoint.replace_extension("checkpoint"))) continue;
+    const Model model = read_model(path);
+    // The card says `tools/train_study DATA NETWORK --passes N`.
+    name->passes = model.card.command.substr(model.card.command.rfind(' ') + 1);
+    networks.push_back({*name, {model.layout, filter_network_of(model)}});
   }
   return networks;
 }
@@ -109,17 +116,18 @@ void write_difference(Table& table, const TrainedName& name, const TakesErrors& 
     better += own[i] > base[i] ? 1 : 0;
   }
   const double error = std::sqrt(square / std::max(1.0, count - 1) / count);
-  table.add({name.network, name.variant, name.left_out, name.seed, fmt::format("{:.0f}", count),
-             figure(mean), figure(error), fmt::format("{:.0f}", better)});
+  table.add({name.network, name.variant, name.left_out, name.seed, name.passes,
+             fmt::format("{:.0f}", count), figure(mean), figure(error),
+             fmt::format("{:.0f}", better)});
   fmt::print("  {:4} less ebf, {}: {:+.4f} +- {:.4f} deg, ebf better in {:.0f} of {:.0f}\n",
              name.network, name.variant, mean, error, better, count);
 }
 
 void errors_of_networks(const Arguments& arguments, const std::vector<TrainedNetwork>& networks) {
   Table table(arguments, "mall_trained.csv",
-              "network,variant,left_out,seed,takes,rms_deg,of_gaussian_58");
+              "network,variant,left_out,seed,passes,takes,rms_deg,of_gaussian_58");
   Table pairs(arguments, "mall_trained_pairs.csv",
-              "network,variant,left_out,seed,takes,difference_deg,standard_error_deg,"
+              "network,variant,left_out,seed,passes,takes,difference_deg,standard_error_deg,"
               "ebf_is_better_in");
   std::map<std::string, std::vector<const TrainedNetwork*>> by_holdout;
   for (const TrainedNetwork& network : networks)
@@ -128,24 +136,24 @@ void errors_of_networks(const Arguments& arguments, const std::vector<TrainedNet
     const HoldOutErrors errors(arguments, holdout);
     const double gaussian = mean_of(
         errors.of([](const Take& noisy) { return cleaned(noisy, "gaussian", {{"width_s", 0.058}}); }));
-    std::map<std::string, TakesErrors> bases;  // those of EBF by variant and seed
+    std::map<std::string, TakesErrors> bases;  // those of EBF by variant, seed and passes
     std::vector<std::pair<TrainedName, TakesErrors>> all;
     for (const TrainedNetwork* network : own) {
       const TakesErrors found =
           errors.of([&](const Take& noisy) { return by_network(network->paper, noisy); });
       const TrainedName& name = network->name;
-      table.add({name.network, name.variant, holdout, name.seed,
+      table.add({name.network, name.variant, holdout, name.seed, name.passes,
                  fmt::format("{}", found.size()), figure(mean_of(found)),
                  figure(mean_of(found) / gaussian)});
-      fmt::print("{:4} {:9} without {} seed {}: {:.3f} deg, {:.3f} of the 58 ms Gaussian\n",
-                 name.network, name.variant, holdout, name.seed, mean_of(found),
+      fmt::print("{:4} {:9} without {} seed {}, {} passes: {:.3f} deg, {:.3f} of the 58 ms Gaussian\n",
+                 name.network, name.variant, holdout, name.seed, name.passes, mean_of(found),
                  mean_of(found) / gaussian);
       std::fflush(stdout);
-      if (name.network == "ebf") bases[name.variant + name.seed] = found;
+      if (name.network == "ebf") bases[name.variant + name.seed + name.passes] = found;
       all.emplace_back(name, found);
     }
     for (const auto& [name, found] : all) {
-      const auto base = bases.find(name.variant + name.seed);
+      const auto base = bases.find(name.variant + name.seed + name.passes);
       if (name.network != "ebf" && base != bases.end())
         write_difference(pairs, name, found, base->second);
     }
@@ -156,30 +164,28 @@ void errors_of_networks(const Arguments& arguments, const std::vector<TrainedNet
 
 // Joins the curves that tools/train_study writes, a row for about every two passes.
 void curves(const Arguments& arguments) {
-  Table table(arguments, "mall_curve.csv", "network,variant,left_out,seed,passes,kept_takes");
-  std::set<std::filesystem::path> paths;
-  for (const auto& entry : std::filesystem::directory_iterator(arguments.models)) {
-    if (entry.path().string().ends_with(".curve.csv")) paths.insert(entry.path());
-  }
-  for (const std::filesystem::path& path : paths) {
+  Table table(arguments, "mall_curve.csv", "network,variant,left_out,seed,of,passes,kept_takes");
+  for (const std::filesystem::path& path : files_below(arguments.models, ".curve.csv")) {
     const auto name = trained_name(path.stem().stem().string());
     if (!name) continue;
-    std::ifstream file(path);
+    std::vector<std::string> rows;
     double written = 0;
+    std::ifstream file(path);
     std::string line, last;
     std::getline(file, line);
-    const auto write = [&](const std::string& row) {
-      const std::size_t first = row.find(','), second = row.rfind(',');
-      table.add({name->network, name->variant, name->left_out, name->seed, row.substr(0, first),
-                 row.substr(second + 1)});
-    };
     while (std::getline(file, line)) {
-      const double passes = std::stod(line);
-      const bool is_due = passes >= written + 2;
-      if (is_due) write(line), written = passes;
-      last = is_due ? "" : line;
+      last = line;
+      if (std::stod(line) < written + 2) continue;
+      rows.push_back(line);
+      written = std::stod(line);
     }
-    if (!last.empty()) write(last);
+    if (!rows.empty() && rows.back() != last) rows.push_back(last);
+    for (const std::string& row : rows) {
+      const std::size_t first = row.find(','), second = row.rfind(',');
+      table.add({name->network, name->variant, name->left_out, name->seed,
+                 fmt::format("{:.0f}", std::stod(last)), row.substr(0, first),
+                 row.substr(second + 1)});
+    }
   }
   table.close();
 }
