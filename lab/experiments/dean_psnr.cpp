@@ -2,6 +2,7 @@
 // signal-to-noise ratio of denoising methods on a run, for six strengths of Gaussian noise and for
 // impulses; the curves of its figures 3 to 6, and the slide of the feet.
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -168,10 +169,46 @@ std::size_t joint_hit_most(const Take& truth, const Take& noisy) {
   return most;
 }
 
-// Figure 6 as a number: the root mean square error of the knee's first channel, in degrees of
-// rotation; under impulses that of the joint whose first channel they hit most.
+std::vector<double> channel_deg(const Take& clip, std::size_t joint) {
+  std::vector<double> values;
+  for (std::size_t f = 0; f < clip.frame_count(); ++f)
+    values.push_back(2 * degrees_per_radian * log_at(clip, f, joint).x);
+  return values;
+}
+
+// By how many frames `late` lies behind `curve`: the shift with the least mean square difference,
+// between frames by a parabola.
+double shift_frames(const std::vector<double>& curve, const std::vector<double>& late) {
+  constexpr std::ptrdiff_t most = 12;
+  const auto frames = static_cast<std::ptrdiff_t>(curve.size());
+  std::vector<double> differences;
+  for (std::ptrdiff_t shift = -most; shift <= most; ++shift) {
+    double sum = 0;
+    for (std::ptrdiff_t f = most; f + most < frames; ++f)
+      sum += std::pow(late[static_cast<std::size_t>(f + shift)] - curve[static_cast<std::size_t>(f)], 2);
+    differences.push_back(sum);
+  }
+  const auto least = std::ranges::min_element(differences) - differences.begin();
+  if (least == 0 || least == 2 * most) return static_cast<double>(least - most);
+  const auto at = static_cast<std::size_t>(least);
+  const double before = differences[at - 1], own = differences[at], after = differences[at + 1];
+  const double bend = before - 2 * own + after;
+  return static_cast<double>(least - most) + (bend > 0 ? 0.5 * (before - after) / bend : 0);
+}
+
+// Root mean square of the second differences.
+double jitter_of(const std::vector<double>& curve) {
+  double sum = 0;
+  for (std::size_t f = 1; f + 1 < curve.size(); ++f)
+    sum += std::pow(curve[f - 1] - 2 * curve[f] + curve[f + 1], 2);
+  return std::sqrt(sum / static_cast<double>(curve.size() - 2));
+}
+
+// Figures 5 and 6 as numbers, for the knee's first channel; under impulses for that of the joint
+// which they hit most. Degrees of rotation.
 void knee(const Arguments& arguments, const Take& truth, const std::vector<Shown>& shown) {
-  Table table(arguments, "dean_knee.csv", "noise,version,rms_deg");
+  Table table(arguments, "dean_knee.csv",
+              "noise,version,rms_deg,least_deg,greatest_deg,jitter_deg,shift_frames");
   std::size_t hit = knee_of(truth);
   for (const auto& [noise, version, clip] : shown) {
     if (noise == "impulse" && version == "noisy") hit = joint_hit_most(truth, clip);
@@ -179,7 +216,35 @@ void knee(const Arguments& arguments, const Take& truth, const std::vector<Shown
   fmt::print("impulses: {}\n", truth.skeleton.names[hit]);
   for (const auto& [noise, version, clip] : shown) {
     const std::size_t joint = noise == "impulse" ? hit : knee_of(truth);
-    table.add({noise, version, fmt::format("{:.4g}", channel_rms_deg(truth, clip, joint))});
+    const std::vector<double> curve = channel_deg(clip, joint);
+    table.add({noise, version, fmt::format("{:.4g}", channel_rms_deg(truth, clip, joint)),
+               fmt::format("{:.4g}", *std::ranges::min_element(curve)),
+               fmt::format("{:.4g}", *std::ranges::max_element(curve)),
+               fmt::format("{:.4g}", jitter_of(curve)),
+               fmt::format("{:.2f}", shift_frames(channel_deg(truth, joint), curve))});
+  }
+  table.close();
+}
+
+// Errors at the ends of the take, a tenth of a second each, and between them, by what poses lie
+// beyond the ends.
+void ends(const Arguments& arguments, const Take& truth, const std::vector<Take>& noisy) {
+  Table table(arguments, "dean_ends.csv", "noise,boundary,ends_deg,middle_deg");
+  for (std::size_t n = 0; n < noises.size(); ++n) {
+    for (const char* boundary : {"neumann", "mirror", "dirichlet"}) {
+      Take clip = noisy[n];
+      clean_in_place(*make_cleaner("nonlocal", {{"boundary", std::string(boundary)}}), clip);
+      const std::vector<double> errors = rms_deg_per_frame(truth, clip);
+      double at_ends = 0, between = 0, ends_count = 0;
+      for (std::size_t f = 0; f < errors.size(); ++f) {
+        const bool is_end = f < 12 || f + 12 >= errors.size();
+        (is_end ? at_ends : between) += errors[f] * errors[f];
+        ends_count += is_end ? 1 : 0;
+      }
+      table.add({noises[n].name, boundary, fmt::format("{:.4g}", std::sqrt(at_ends / ends_count)),
+                 fmt::format("{:.4g}", std::sqrt(between / (static_cast<double>(errors.size()) -
+                                                            ends_count)))});
+    }
   }
   table.close();
 }
@@ -265,6 +330,7 @@ void dean_psnr(const Arguments& arguments) {
   curves(arguments, shown);
   knee(arguments, take.clip, shown);
   feet(arguments, take.clip, shown);
+  ends(arguments, take.clip, noisy);
 }
 
 const Registration dean_psnr_entry("dean_psnr", dean_psnr);
