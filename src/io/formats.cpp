@@ -13,10 +13,12 @@
 #include "io/gltf/gltf.hpp"
 #include "io/npz/npz.hpp"
 #include "io/table/tables.hpp"
+#include "io/text/number.hpp"
 #include "io/text/text.hpp"
 #include "kinemend/error.hpp"
 #include "kinemend/extend/frames.hpp"
 #include "kinemend/extend/motion.hpp"
+#include "kinemend/extend/text.hpp"
 #include "kinemend/io.hpp"
 
 namespace kinemend {
@@ -41,7 +43,24 @@ const Format& format_called(std::string_view name) {
               fmt::format("unknown format {}; the formats are: {}", quote(name), known_formats()));
 }
 
+// A repository with Git LFS holds a few lines in place of a large file, which a clone without LFS
+// leaves there.
+void refuse_lfs_pointer(std::string_view bytes, std::string_view name) {
+  if (!bytes.starts_with("version https://git-lfs.github.com/spec/")) return;
+  const std::size_t at = bytes.find("\nsize ");
+  const NumberToken size =
+      at == bytes.npos ? NumberToken{} : read_number(bytes.substr(at + 6, 24));
+  throw Error::at_line(
+      name, 1,
+      size.kind == TokenKind::number
+          ? fmt::format("a Git LFS pointer: the file itself ({} bytes) was not downloaded; "
+                        "git lfs pull does that",
+                        grouped(static_cast<std::size_t>(std::clamp(size.value, 0.0, 1e15))))
+          : std::string("a Git LFS pointer: the file itself was not downloaded"));
+}
+
 const Format& format_of(std::string_view bytes, std::string_view name) {
+  refuse_lfs_pointer(bytes, name);
   const Format* best = format_of_content(bytes.substr(0, sniffed_bytes));
   if (best == nullptr) best = format_of_path(std::filesystem::path(name));
   if (best != nullptr) return *best;
@@ -150,7 +169,7 @@ std::span<const Format> formats() {
        &write_csv_markers},
       {"glb",
        "Binary glTF 2.0, a scene with an animated skeleton or markers",
-       {".glb", ".vrm"},
+       {".glb", ".vrm", ".vrma"},
        &sniff_glb,
        &read_glb,
        &write_glb,

@@ -25,6 +25,9 @@ struct BvhDocument : MotionDocument {
   std::size_t hierarchy_end = 0;    ///< after the last closing brace
   ByteSpan frame_time;              ///< the number after `Frame Time:`
   bool frame_time_is_none = false;  ///< the frame time is not a finite number
+  /// Faults of the head that are mended in a file that is changed anyway.
+  bool frame_time_is_unusable = false;
+  ByteSpan wrong_frame_count;  ///< the number after `Frames:`, if wrong
 
   std::unique_ptr<RowReader> rows() const override;
 };

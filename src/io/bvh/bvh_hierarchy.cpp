@@ -37,6 +37,8 @@ class HierarchyParser {
       while (!blocks_.empty()) parse_statement();
     }
     if (skeleton_.joint_count() == 0) fail_expected("ROOT");
+    text_.note("offset_rest_angles", rest_angles_,
+               "an OFFSET holds more than three numbers: the others are skipped");
     return std::move(skeleton_);
   }
 
@@ -116,12 +118,24 @@ class HierarchyParser {
     std::array<double, 3> values{};
     for (double& value : values) value = parse_offset_value(commas);
     if (commas == CommaStyle::separator) skip_commas();
+    skip_rest_angles();
     const Vec3 offset{values[0], values[1], values[2]};
     if (block.end_site) {
       skeleton_.end_sites.back().offset = offset;
     } else {
       skeleton_.offsets[static_cast<std::size_t>(block.joint)] = offset;
     }
+  }
+
+  // Some programs write the rest angles of a joint behind its offset; MOTION holds them too.
+  void skip_rest_angles() {
+    const std::size_t begin = scanner_.position();
+    std::size_t skipped = 0;
+    while (skipped < 3 && read_number(scanner_.peek()).kind == TokenKind::number) {
+      scanner_.next();
+      ++skipped;
+    }
+    if (skipped > 0) rest_angles_.add(begin);
   }
 
   void skip_commas() {
@@ -203,6 +217,7 @@ class HierarchyParser {
   std::size_t max_depth_;
   Skeleton skeleton_;
   std::vector<Block> blocks_;
+  CountedRepair<std::size_t> rest_angles_;
 };
 
 // Parses `Frames:` and `Frame Time:`, in either order, any case, with or without the colon.

@@ -305,6 +305,8 @@ TakeResult read_bvh(std::string bytes, std::string_view name, const ReadOptions&
   document->hierarchy_end = header.hierarchy_end;
   document->frame_time = header.frame_time;
   document->frame_time_is_none = header.frame_time_is_none;
+  document->frame_time_is_unusable = header.frame_time.size > 0 && !(header.frame_time_s > 0);
+  if (header.frames != clip.frame_count()) document->wrong_frame_count = header.frame_count;
   clip.source = {std::string(name), "bvh", document};
   return result;
 }

@@ -145,6 +145,14 @@ std::string rewrite_bvh(const Take& clip, const BvhDocument& document) {
   if (clip.frame_rate_hz != document.frame_rate_hz || document.frame_time_is_none) {
     edits.push_back({document.frame_time, frame_time_text(clip.frame_rate_hz)});
   }
+  const bool counts_wrong = document.wrong_frame_count.size > 0;
+  std::string bytes = rewrite_motion(clip, document, edits);
+  if (!(counts_wrong || document.frame_time_is_unusable) || bytes == document.bytes) return bytes;
+  if (document.frame_time_is_unusable && edits.empty())
+    edits.push_back({document.frame_time, frame_time_text(clip.frame_rate_hz)});
+  if (counts_wrong)
+    edits.push_back({document.wrong_frame_count, std::to_string(clip.frame_count())});
+  std::ranges::sort(edits, {}, [](const DocumentEdit& edit) { return edit.place.begin; });
   return rewrite_motion(clip, document, edits);
 }
 
@@ -166,7 +174,8 @@ std::string write_with_hierarchy(const Take& clip, const BvhDocument& document) 
   out.append(hierarchy);
   out.append(line_end);
   const bool same_rate = clip.frame_rate_hz == document.frame_rate_hz &&
-                         document.frame_time.size > 0 && !document.frame_time_is_none;
+                         document.frame_time.size > 0 && !document.frame_time_is_none &&
+                         !document.frame_time_is_unusable;
   const std::string frame_time = same_rate ? std::string(document.text(document.frame_time))
                                            : frame_time_text(clip.frame_rate_hz);
   std::vector<std::size_t> order(clip.joint_count());

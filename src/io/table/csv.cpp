@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "io/motion/motion_write.hpp"
@@ -32,10 +33,12 @@ class CsvReader {
     table.style = header_.style;
     table.frame_column = header_.frame_column;
     table.time_column = header_.time_column;
+    table.labelled_columns = header_.labelled_columns;
     if (std::any_of(header_.notes.begin(), header_.notes.end(),
                     [](const CsvNote& note) { return is_not_finite(note.value); }))
       note_head_not_finite(text_, header_.labels_line, table);
     note_header();
+    refuse_table_of_things();
     if (!header_.has_rotations()) return read_markers();
     RowLabels labels;
     Take clip = read_csv_joints(text_, header_, document_, labels);
@@ -58,7 +61,7 @@ class CsvReader {
       text_.note(
           "column_ignored", header_.labels_line,
           fmt::format("column {} is neither frame, time nor part of a marker or joint: ignored",
-                      quote(header_.ignored[0])),
+                      quote(header_.ignored[0].label)),
           header_.ignored.size());
     }
   }
@@ -97,9 +100,56 @@ class CsvReader {
     return clip;
   }
 
+  // A table without frames and times, but with a column of words, has a row for each thing (a joint
+  // and its offset, a marker and its place), not for each frame.
+  void refuse_table_of_things() const {
+    constexpr std::size_t most_rows = 20;
+    if (header_.frame_column >= 0 || header_.time_column >= 0 || header_.frame_rate_hz > 0) return;
+    for (const CsvIgnored& column : header_.ignored) {
+      std::size_t words = 0, rows = 0, at = header_.data_begin;
+      for (; at < text_.bytes.size() && rows < most_rows; at = next_line(text_.bytes, at)) {
+        const Cells cells = split_cells(line_from(text_.bytes, at), header_.style.separator);
+        if (cells.size() <= column.place || cells[column.place].empty()) continue;
+        ++rows;
+        words += read_number(cells[column.place]).kind == TokenKind::text ? 1 : 0;
+      }
+      if (rows < 2 || words < rows) continue;
+      throw text_.error_at(header_.labels_line,
+                           fmt::format("a table with a row for each {}, not for each frame: it has "
+                                       "no column of frames or times",
+                                       quote(column.label)));
+    }
+  }
+
   const RowLabels& in_seconds(RowLabels& labels) const {
-    for (double& time : labels.times_s) time *= header_.seconds_per_time;
+    const double seconds = header_.time_has_unit ? header_.seconds_per_time : unit_of(labels);
+    for (double& time : labels.times_s) time *= seconds;
     return labels;
+  }
+
+  // The unit of times whose label names none: seconds, unless they are whole numbers with steps that
+  // no capture has in seconds, but in milliseconds, microseconds or nanoseconds.
+  double unit_of(const RowLabels& labels) const {
+    constexpr double least_capture_hz = 5, most_capture_hz = 2000;
+    const std::vector<double>& times = labels.times_s;
+    const auto is_whole = [](double time) { return std::isnan(time) || time == std::floor(time); };
+    if (times.size() < 3 || !std::ranges::all_of(times, is_whole)) return 1;
+    const double step = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+    if (!(step > 1 / least_capture_hz)) return 1;
+    struct Unit {
+      double seconds;
+      std::string_view name;
+    };
+    for (const Unit& unit :
+         {Unit{1e-3, "milliseconds"}, Unit{1e-6, "microseconds"}, Unit{1e-9, "nanoseconds"}}) {
+      const double rate_hz = 1 / (step * unit.seconds);
+      if (rate_hz < least_capture_hz || rate_hz > most_capture_hz) continue;
+      text_.note("time_unit", header_.labels_line,
+                 fmt::format("times in whole numbers with steps of {:.4g}: read as {}", step,
+                             unit.name));
+      return unit.seconds;
+    }
+    return 1;
   }
 
   TableRate rates() const {

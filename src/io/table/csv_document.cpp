@@ -50,11 +50,30 @@ Column column_of(const std::string& cell) {
   return {cell.substr(0, cut), part};
 }
 
-std::optional<double> seconds_of(const std::string& name) {
-  if (name == "t" || name == "seconds") return 1.0;
-  if (name == "milliseconds") return 0.001;
+struct TimeUnit {
+  double seconds = 1;
+  bool is_named = false;
+};
+
+// The unit of a column of times, by its label: `time_s`, `timestamp (ms)`, `time_us`, `t`.
+std::optional<TimeUnit> time_unit_of(const std::string& name) {
+  if (name == "seconds") return TimeUnit{1, true};
+  if (name == "milliseconds") return TimeUnit{1e-3, true};
+  if (name == "t") return TimeUnit{};
   if (name.substr(0, 4) != "time") return std::nullopt;
-  return name.find("ms") != name.npos || name.find("milli") != name.npos ? 0.001 : 1.0;
+  const auto ends_with_unit = [&](std::string_view unit) {
+    const std::size_t at = name.rfind(unit);
+    if (at == name.npos || at < 4) return false;
+    const bool is_word = std::isalpha(static_cast<unsigned char>(name[at - 1])) == 0;
+    const std::string_view rest = std::string_view(name).substr(at + unit.size());
+    return is_word && rest.find_first_not_of(")]") == rest.npos;
+  };
+  const auto names = [&](std::string_view word) { return name.find(word) != name.npos; };
+  if (ends_with_unit("ns") || names("nano")) return TimeUnit{1e-9, true};
+  if (ends_with_unit("us") || names("micro") || names("\u00b5s")) return TimeUnit{1e-6, true};
+  // "timestamp" ends in no unit.
+  if (names("ms") || names("milli")) return TimeUnit{1e-3, true};
+  return TimeUnit{1, ends_with_unit("s") || ends_with_unit("sec") || names("second")};
 }
 
 class CsvHeaderReader {
@@ -171,14 +190,16 @@ class CsvHeaderReader {
     for (std::size_t i = 0; i < cells.size(); ++i) {
       if (grouped[i]) continue;
       const std::string name = lower_case(cells[i]);
-      const auto seconds = seconds_of(name);
-      if (seconds && header_.time_column < 0) {
+      if (!name.empty()) header_.labelled_columns = i + 1;
+      const auto unit = time_unit_of(name);
+      if (unit && header_.time_column < 0) {
         header_.time_column = static_cast<std::int32_t>(i);
-        header_.seconds_per_time = *seconds;
+        header_.seconds_per_time = unit->seconds;
+        header_.time_has_unit = unit->is_named;
       } else if (name.substr(0, 5) == "frame" && header_.frame_column < 0) {
         header_.frame_column = static_cast<std::int32_t>(i);
       } else if (!name.empty() && name != "sub frame") {
-        header_.ignored.push_back(cells[i]);
+        header_.ignored.push_back({cells[i], i});
         header_.style.mark_text(i);
       }
     }

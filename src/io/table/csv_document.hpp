@@ -35,15 +35,23 @@ struct CsvNote {
   std::size_t place = 0;
 };
 
+/// A column that is kept in the file, and not read.
+struct CsvIgnored {
+  std::string label;
+  std::size_t place = 0;
+};
+
 /// The lines above the rows of a CSV file.
 struct CsvHeader {
   std::vector<CsvNote> notes;
   std::vector<CsvGroup> groups;
-  std::vector<std::string> ignored;  ///< columns that are not frame, time or in a group
+  std::vector<CsvIgnored> ignored;  ///< columns that are not frame, time or in a group
   CellStyle style;
   std::int32_t frame_column = -1;
   std::int32_t time_column = -1;
   double seconds_per_time = 1;
+  bool time_has_unit = false;        ///< the label of the times names their unit
+  std::size_t labelled_columns = 0;  ///< columns up to the last label
   double frame_rate_hz = 0;  ///< 0 if the head states no rate
   std::string unit;
   std::size_t labels_line = 0;

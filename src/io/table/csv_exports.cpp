@@ -98,6 +98,7 @@ class MotiveReader {
     }
     if (axes_[i].substr(0, 4) == "Time" && axes_[i] != "TimeCode" && header_.time_column < 0) {
       header_.time_column = static_cast<std::int32_t>(i);
+      header_.time_has_unit = true;
       return 1;
     }
     if (is_marker(at(types_, i)) && is_axis(i, "X") && is_axis(i + 1, "Y") && is_axis(i + 2, "Z") &&
@@ -106,7 +107,7 @@ class MotiveReader {
       return 3;
     }
     if (!axes_[i].empty() || !at(types_, i).empty()) {
-      header_.ignored.push_back(at(names_, i).empty() ? axes_[i] : at(names_, i));
+      header_.ignored.push_back({at(names_, i).empty() ? axes_[i] : at(names_, i), i});
       header_.style.mark_text(i);
     }
     return 1;
@@ -205,28 +206,25 @@ double section_rate(const Cells& cells) {
   return rate > 0 && std::isfinite(1 / rate) ? rate : 0;
 }
 
-// Finds sections, which follow blank lines or lines of separators.
+// Finds sections, which follow blank lines or lines of separators. Above the first one there may be
+// a few lines of other facts (title, date, notes).
 std::vector<Section> sections_of(const SourceText& text, bool only_first) {
+  constexpr std::size_t most_lines_above = 32;
   std::vector<Section> sections;
   HeadLines lines(text, byte_order_mark_size(text.bytes));
   bool after_blank = true;
-  while (!lines.at_end()) {
+  for (std::size_t count = 0; !lines.at_end(); ++count) {
+    if (only_first && count == most_lines_above) return sections;
     const std::string_view line = lines.take();
     const bool blank = holds_no_cell(line);
     const bool may_be_name = after_blank && !blank && line.size() < 256;
     after_blank = blank;
-    if (!may_be_name) {
-      if (only_first && !blank) return sections;
-      continue;
-    }
+    if (!may_be_name) continue;
     Section section;
     section.place = lines.place();
     const Cells name = split_cells(line, separator_of(line));
     HeadLines below(text, lines.next());
-    if (!is_section_name(name) || below.at_end()) {
-      if (only_first) return sections;
-      continue;
-    }
+    if (!is_section_name(name) || below.at_end()) continue;
     const std::string_view rate_line = below.take();
     section.name = name[0];
     if (rate_line.size() < 256)
@@ -234,9 +232,9 @@ std::vector<Section> sections_of(const SourceText& text, bool only_first) {
     section.body = below.next();
     if (section.rate_hz > 0) {
       sections.push_back(std::move(section));
+      if (only_first) return sections;
       lines = below;
     }
-    if (only_first) return sections;
   }
   return sections;
 }
@@ -318,7 +316,7 @@ class ViconReader {
     }
     for (std::size_t i = 1; i < axes.size(); ++i) {
       if (used[i] || axes[i].empty() || equal_ignoring_case(axes[i], "Sub Frame")) continue;
-      header_.ignored.push_back(axes[i]);
+      header_.ignored.push_back({axes[i], i});
     }
     if (header_.groups.empty()) fail("Frame, Sub Frame, X, Y, Z");
   }

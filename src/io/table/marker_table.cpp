@@ -27,6 +27,7 @@ class TableReader {
         clip_(clip),
         markers_(clip.marker_count()),
         width_(table_.width()),
+        least_width_(table_.width_of_samples()),
         rows_(text.bytes, table_.begin, table_.style),
         values_(width_) {}
 
@@ -84,7 +85,7 @@ class TableReader {
                                        markers_, text_.bytes.size()));
     }
     // An empty last cell needs no separator after it.
-    if (row.cells + 1 < width_) too_short_.add(row_begin_);
+    if (row.cells + 1 < least_width_) too_short_.add(row_begin_);
     label(table_.frame_column, finding_.labels.frames);
     label(table_.time_column, finding_.labels.times_s);
     const std::size_t first = clip_.positions.size();
@@ -137,7 +138,7 @@ class TableReader {
     const bool is_empty = last_row_.used != last_row_.cells;
     if (is_empty || text_.bytes.back() == table_.style.separator) return false;
     const std::string_view rows = text_.bytes.substr(table_.begin, table_.end - table_.begin);
-    return last_row_.cells + 1 < width_ ||
+    return last_row_.cells + 1 < least_width_ ||
            last_number_may_be_cut(rows, table_.style.commas, table_.style.separator);
   }
 
@@ -145,7 +146,7 @@ class TableReader {
   void leave_out_cut_value() {
     if (!ends_in_row()) return;
     // The repair `file_cut` covers these faults too.
-    too_short_.count -= last_row_.cells + 1 < width_ ? 1 : 0;
+    too_short_.count -= last_row_.cells + 1 < least_width_ ? 1 : 0;
     incomplete_.count -= incomplete_in_row_;
     text_.note("file_cut", table_.end,
                "the file ends in the middle of a row: its last value is not used");
@@ -214,7 +215,7 @@ class TableReader {
   MarkerTable& table_;
   Take& clip_;
   std::size_t markers_;
-  std::size_t width_;
+  std::size_t width_, least_width_;
   CellRows rows_;
   std::vector<double> values_;
   std::size_t row_begin_ = 0;
@@ -257,7 +258,9 @@ double rate_of(double mean_step_s, double tolerance_s) {
 
 }  // namespace
 
-std::size_t MarkerTable::width() const {
+std::size_t MarkerTable::width() const { return std::max(width_of_samples(), labelled_columns); }
+
+std::size_t MarkerTable::width_of_samples() const {
   std::size_t last = 0;
   for (const std::int32_t column : {frame_column, time_column}) {
     if (column >= 0) last = std::max(last, static_cast<std::size_t>(column) + 1);
@@ -321,7 +324,7 @@ RowRate check_row_labels(const SourceText& text, const MarkerTable& table, const
   });
   text.note("time_uneven", table.begin, "times are uneven: rows are read as evenly spaced", uneven);
   const double tolerance_s = 2.01 * rounding_s / steps;
-  return {rate_of(mean_step_s, tolerance_s), mean_step_s, tolerance_s};
+  return {rate_of(mean_step_s, tolerance_s), mean_step_s, tolerance_s, uneven == 0};
 }
 
 namespace {
@@ -521,17 +524,22 @@ double usable_rate(const SourceText& text, double stated_hz, std::size_t place) 
 
 double table_rate(const SourceText& text, const RowRate& times, std::size_t rows_place,
                   const TableRate& said) {
-  // Relative difference of the stated rate and the times' rate. Chosen by hand, not swept.
-  constexpr double tolerance = 0.01;
+  // Relative difference of the stated rate and the times' rate; and the rates at which people are
+  // captured. Chosen by hand, not swept.
+  constexpr double tolerance = 0.01, least_capture_hz = 5, most_capture_hz = 2000;
   const double stated = usable_rate(text, said.stated_hz, said.stated_place);
   if (stated > 0) {
     const double off_s = std::fabs(1 / stated - times.step_s);
-    if (times.rate_hz > 0 && off_s > tolerance / stated + times.tolerance_s) {
-      text.note("time_mismatch", said.mismatch_place,
-                fmt::format("{0} states {1} Hz, the times {2:.6g} Hz: {0} is used", said.stated_by,
-                            stated, times.rate_hz));
-    }
-    return stated;
+    const bool differs = times.rate_hz > 0 && off_s > tolerance / stated + times.tolerance_s;
+    if (!differs) return stated;
+    // Each row states its time, and the head one number, which stays behind when rows are left out.
+    const bool beats_head = times.is_even && times.rate_hz >= least_capture_hz &&
+                            times.rate_hz <= most_capture_hz;
+    text.note("time_mismatch", said.mismatch_place,
+              fmt::format("{} states {} Hz, the times {:.6g} Hz: {} used", said.stated_by, stated,
+                          times.rate_hz,
+                          beats_head ? "the even times are" : std::string(said.stated_by) + " is"));
+    return beats_head ? times.rate_hz : stated;
   }
   const double of_times = usable_rate(text, times.rate_hz, rows_place);
   const bool by_times = of_times > 0, by_options = said.asked_hz > 0;

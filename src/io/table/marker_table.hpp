@@ -32,14 +32,16 @@ struct MarkerTable {
   std::int32_t frame_column = -1;  ///< -1 if missing
   std::int32_t time_column = -1;
   std::vector<std::array<std::size_t, 3>> columns;  ///< x, y, z for each marker
+  std::size_t labelled_columns = 0;                 ///< columns with a label; 0: not known
   bool zeros_are_missing = false;                   ///< the format's convention if no cell is empty
   std::size_t frames = 0;
   std::vector<std::uint8_t> observed;  ///< F x M
   /// False if the head states a number that is not finite; a new file is then written.
   bool head_is_finite = true;
 
-  /// Returns the number of cells in a full row.
+  /// Returns the number of cells in a full row, and up to the last one that is read.
   std::size_t width() const;
+  std::size_t width_of_samples() const;
   /// Whether a row has only separators, as spreadsheets write, although a frame would have its
   /// number or time.
   bool is_filler(const CellRow& row) const {
@@ -93,6 +95,7 @@ struct RowRate {
   double rate_hz = 0;      ///< 0 if the times do not give a rate
   double step_s = 0;       ///< mean of the steps
   double tolerance_s = 0;  ///< the possible error of rounded times
+  bool is_even = false;    ///< no step differs from the mean
 };
 
 /// Reports irregular frame numbers and times (`frame_number_gap`, `time_uneven`), and sets the

@@ -32,9 +32,18 @@ struct TrcHeader {
   double number(std::string_view key) const;
 };
 
+/// A number of the head that the rows contradict. It is mended in a file that is changed anyway.
+struct TrcFault {
+  std::string key;  ///< as in the line of keys
+  std::string right;
+};
+
 /// A TRC file as it was read.
 struct TrcDocument : SourceDocument, TableFile {
   std::string first_line;
+  std::size_t values_line = 0;  ///< byte of the line of values
+  std::vector<std::string> keys;
+  std::vector<TrcFault> faults;
 };
 
 namespace {
@@ -248,6 +257,13 @@ namespace {
 // Chosen by hand (docs/formats/trc.md).
 constexpr double trc_rate_when_unknown_hz = 100;
 
+std::string rate_text(double rate_hz) {
+  char room[fixed_number_room];
+  const std::string two_decimals(room, write_fixed(room, rate_hz, 2));
+  const NumberToken token = read_number(two_decimals);
+  return token.value == rate_hz ? two_decimals : std::string(room, write_shortest(room, rate_hz));
+}
+
 std::size_t whole(double number) {
   constexpr double most = 1e15;
   return number >= 0 && number <= most ? static_cast<std::size_t>(number) : 0;
@@ -279,6 +295,11 @@ class TrcReader {
                     "the header has no usable DataRate", true},
                    document_, clip_);
     note_facts();
+    const double stated_hz = header_.number("DataRate");
+    if (is_usable_frame_rate(stated_hz) && stated_hz != clip_.frame_rate_hz)
+      document_.faults.push_back({"DataRate", rate_text(clip_.frame_rate_hz)});
+    document_.values_line = header_.values_line;
+    document_.keys = header_.keys;
     document_.first_line = header_.first_line;
     return std::move(clip_);
   }
@@ -331,6 +352,7 @@ class TrcReader {
                              std::string_view what) {
       if (header_.number(key) == static_cast<double>(found)) return;
       const std::string_view says = header_.value(key);
+      document_.faults.push_back({std::string(key), std::to_string(found)});
       text_.note(kind, header_.values_line,
                  fmt::format("{} says {}, the file holds {} {}", key,
                              says.empty() ? "nothing" : quote(says), found, what));
@@ -411,13 +433,6 @@ TableStyle style_of(const TrcDocument* document) {
   return style;
 }
 
-std::string rate_text(double rate_hz) {
-  char room[fixed_number_room];
-  const std::string two_decimals(room, write_fixed(room, rate_hz, 2));
-  const NumberToken token = read_number(two_decimals);
-  return token.value == rate_hz ? two_decimals : std::string(room, write_shortest(room, rate_hz));
-}
-
 class TrcWriter {
  public:
   TrcWriter(const Take& clip, const TrcDocument* document)
@@ -466,10 +481,37 @@ class TrcWriter {
 
 }  // namespace
 
+namespace {
+
+// Replaces the values of the head that the rows contradict, with the separators as they are.
+std::string with_right_head(std::string bytes, const TrcDocument& document) {
+  for (const TrcFault& fault : document.faults) {
+    const auto key = std::ranges::find_if(document.keys, [&](const std::string& own) {
+      return equal_ignoring_case(own, fault.key);
+    });
+    const std::string_view line = line_from(bytes, document.values_line);
+    std::size_t begin = 0, left = static_cast<std::size_t>(key - document.keys.begin());
+    const std::string_view separators =
+        line.find('\t') != line.npos ? "\t" : line.find(',') != line.npos ? "," : " ";
+    begin = line.find_first_not_of(separators);
+    for (; left > 0 && begin < line.size(); --left)
+      begin = line.find_first_not_of(separators, line.find_first_of(separators, begin));
+    if (key == document.keys.end() || begin >= line.size()) continue;
+    const std::size_t end = std::min(line.size(), line.find_first_of(separators, begin));
+    bytes.replace(document.values_line + begin, end - begin, fault.right);
+  }
+  return bytes;
+}
+
+}  // namespace
+
 std::string write_trc(const Take& clip) {
   clip.validate();
   const auto* document = dynamic_cast<const TrcDocument*>(clip.source.document.get());
-  if (auto bytes = rewrite_marker_table(clip, document)) return *std::move(bytes);
+  if (auto bytes = rewrite_marker_table(clip, document)) {
+    if (*bytes == document->bytes) return *std::move(bytes);
+    return with_right_head(*std::move(bytes), *document);
+  }
   if (clip.names.empty()) throw Error(ErrorKind::usage, "TRC cannot hold a clip without markers");
   return TrcWriter(clip, document).write();
 }

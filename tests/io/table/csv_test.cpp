@@ -192,6 +192,72 @@ TEST(CsvReader, WhatIsTakenForGrantedOfATableIsSaid) {
             (Counts{{"head_unknown", 3}, {"frame_rate_assumed", 1}, {"unit_unknown", 1}}));
 }
 
+// Forty rows of a marker that moves, with what is before and behind its coordinates.
+std::string rows_of(const std::string& labels, double first, double step,
+                    const std::string& behind = "") {
+  std::string text = labels + "\n";
+  for (int f = 0; f < 40; ++f)
+    text += fmt::format("{:.10g},{:.4f},1,2{}\n", first + step * f, 0.1 * f, behind);
+  return text;
+}
+
+TEST(CsvReader, WholeTimesWithoutAUnitAreMilliOrMicroOrNanoseconds) {
+  struct Case {
+    std::string label;
+    double first, step, rate_hz;
+    bool is_noted;
+  };
+  for (const Case& one :
+       {Case{"timestamp", 1735689600000, 20, 50, true}, Case{"time", 0, 20, 50, true},
+        Case{"time", 0, 10000, 100, true}, Case{"t", 0, 10000000, 100, true},
+        Case{"time_us", 0, 20000, 50, false}, Case{"time (ms)", 0, 20, 50, false},
+        Case{"timestamp_ns", 0, 20000000, 50, false}, Case{"time", 0, 0.02, 50, false}}) {
+    SCOPED_TRACE(one.label);
+    const TakeResult read = read_table(rows_of(one.label + ",a_x,a_y,a_z", one.first, one.step));
+    EXPECT_NEAR(read.take.frame_rate_hz, one.rate_hz, 1e-6);
+    EXPECT_EQ(read.diagnostics.count("time_unit"), one.is_noted ? 1u : 0u);
+  }
+  // Seconds that are named stay seconds: no capture, but what the file says.
+  EXPECT_GT(read_table(rows_of("time_s,a_x,a_y,a_z", 0, 20))
+                .diagnostics.count("frame_rate_unusable"),
+            0u);
+}
+
+TEST(CsvReader, ColumnsBehindTheLastCoordinateAreIgnoredAndStay) {
+  const std::string bytes = rows_of("time_s,a_x,a_y,a_z,a_visibility,note", 0, 0.01, ",0.9,ok");
+  TakeResult read = read_table(bytes);
+  EXPECT_EQ(read.take.names, std::vector<std::string>{"a"});
+  EXPECT_EQ(read.diagnostics.count("column_ignored"), 2u);
+  EXPECT_EQ(write_take(read.take), bytes);
+  read.take.positions[3].x += 1;
+  std::string expected = bytes;
+  expected.replace(expected.find("0.3000,1,2,0.9"), 6, "1.3000");
+  EXPECT_EQ(write_take(read.take), expected);
+  // Rows may end before columns that are ignored.
+  EXPECT_EQ(read_table(rows_of("time_s,a_x,a_y,a_z,note", 0, 0.01)).diagnostics.count("row_too_short"),
+            0u);
+}
+
+TEST(CsvReader, ATableWithARowForEachThingIsRefusedByWhatItIs) {
+  EXPECT_EQ(message_of([] {
+              read_table("joint,parent,offset.x,offset.y,offset.z\nHips,,0,90,0\nSpine,Hips,0,12,0\n"
+                         "Head,Spine,0,45,0\n");
+            }, ErrorKind::unreadable_input),
+            "take.csv:1: a table with a row for each \"joint\", not for each frame: it has no column of "
+            "frames or times");
+  // Words beside frames are notes.
+  EXPECT_EQ(read_table("frame,what,a_x,a_y,a_z\n1,step,0,1,2\n2,step,1,1,2\n").take.frame_count(), 2u);
+}
+
+TEST(CsvReader, AViconExportMayHaveLinesAboveItsFirstSection) {
+  const TakeResult read = read_table(
+      "Title\nDate:\nNotes:,\"\"\n\nTRAJECTORIES\n100,Hz\n,LASI,,\nField #,X,Y,Z\n1,0,30,900\n"
+      "2,1,30,900\n3,2,30,900\n");
+  EXPECT_EQ(read.take.frame_rate_hz, 100);
+  EXPECT_EQ(read.take.unit, "mm");
+  EXPECT_EQ(read.take.names, std::vector<std::string>{"LASI"});
+}
+
 TEST(CsvReader, TheRateMayBeGiven) {
   ReadOptions options;
   options.frame_rate_hz = 250;

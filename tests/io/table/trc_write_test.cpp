@@ -39,6 +39,28 @@ TEST(TrcWriter, OnlyChangedSamplesGetNewDigits) {
   EXPECT_EQ(write_take(clip, "trc"), with(bytes, "-116.63701", "-110.50000"));
 }
 
+std::string small_trc(const std::string& values) {
+  std::string text =
+      "PathFileType\t4\t(X/Y/Z)\ta.trc\n"
+      "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\t"
+      "OrigNumFrames\n" +
+      values + "\nFrame#\tTime\tA\t\t\n\t\tX1\tY1\tZ1\n\n";
+  for (int f = 0; f < 20; ++f) text += fmt::format("{}\t{:.2f}\t{}\t1\t2\n", f + 1, 0.04 * f, f);
+  return text;
+}
+
+TEST(TrcWriter, ValuesOfTheHeadThatTheRowsContradictAreMendedInAFileThatIsChangedAnyway) {
+  const std::string bytes = small_trc("250\t250\t99\t3\tmm\t250\t1\t99");
+  TakeResult read = read_take(bytes, "a.trc");
+  EXPECT_EQ(read.take.frame_rate_hz, 25);  // each row states its time
+  EXPECT_EQ(read.diagnostics.count("time_mismatch"), 1u);
+  EXPECT_EQ(write_take(read.take), bytes);
+  read.take.positions[0].y = 7;
+  std::string expected = small_trc("25.00\t250\t20\t1\tmm\t250\t1\t99");
+  expected.replace(expected.find("0\t1\t2\n"), 6, "0\t7\t2\n");
+  EXPECT_EQ(write_take(read.take), expected);
+}
+
 TEST(TrcWriter, FilledSamplesGetTheDecimalsOfTheFile) {
   const std::string bytes = trc_fixture("good/gaps.trc");
   Take clip = read_trc(bytes);
