@@ -119,7 +119,10 @@ void check_rows(const check::Rows& labelled, const CheckSettings& settings, Chec
   check::check_lengths(labelled, settings, report);
   check::check_frames(labelled, report);
   check::check_body(labelled, settings, report);
-  if (!settings.robot) return;
+  if (!settings.robot) {
+    check::check_root_jumps(labelled, report);
+    return;
+  }
   if (labelled.clip.has_joints()) check::check_joint_limits(labelled.clip, *settings.robot, report);
   check::check_jumps(labelled, *settings.robot, report);
   check::check_robot_feet(labelled, settings, report);

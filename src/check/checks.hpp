@@ -84,6 +84,9 @@ void check_joint_limits(const Take& clip, const RobotSettings& settings, CheckRe
 /// Finds rotations and positions that change within one frame and stay changed. Positions require
 /// the scale from `check_unit`.
 void check_jumps(const Rows& rows, const RobotSettings& settings, CheckReport& report);
+/// Finds places where the root of a take of joints moves farther within one frame than a body can,
+/// and stays there. Requires the scale from `check_unit`.
+void check_root_jumps(const Rows& rows, CheckReport& report);
 /// Finds feet in or above the floor and times in the air, for a take with `CheckSettings::robot`;
 /// for joints also the height of the floor. Requires the scale from `check_unit`, and
 /// `CheckReport::stands`.

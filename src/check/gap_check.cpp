@@ -48,6 +48,9 @@ namespace {
 constexpr std::size_t shortest_frozen_steps = 2;    // three samples in a row
 constexpr std::size_t shortest_straight_steps = 3;  // five samples in a row
 constexpr double share_of_usual = 0.01;  // of the usual step or bend; smaller ones are zero
+// A joint whose usual step is smaller rests, and what moves is the rounding of a file: 32-bit floats
+// round a rotation by 1e-7 radians.
+constexpr double least_usual_rad = 1e-6;
 
 // Sizes of the steps and the bends of one track; negative where a sample is missing. Step t lies
 // between samples t and t + 1, bend t at sample t + 1.
@@ -182,7 +185,8 @@ void leave_out_hinge_ends(const Take& clip, std::size_t joint, std::vector<Stale
 
 // Returns one list for each track, by frame; the spans of a track do not overlap.
 std::vector<std::vector<Stale>> find_stale(const std::vector<TrackChanges>& tracks,
-                                           std::size_t frames, std::size_t shortest_frames) {
+                                           double least_usual, std::size_t frames,
+                                           std::size_t shortest_frames) {
   std::vector<std::vector<Stale>> spans(tracks.size());
   if (frames < 4) return spans;
   FlagTable repeats(frames - 1, tracks.size()), straight(frames - 2, tracks.size());
@@ -190,7 +194,7 @@ std::vector<std::vector<Stale>> find_stale(const std::vector<TrackChanges>& trac
   for_each_parallel(tracks.size(), frames * tracks.size(), [&](std::size_t n) {
     step_scales[n] = ChangeScale(tracks[n].steps);
     bend_scales[n] = ChangeScale(tracks[n].bends);
-    if (step_scales[n].usual == 0) return;
+    if (step_scales[n].usual <= least_usual) return;
     set_flags(tracks[n].steps, share_of_usual * step_scales[n].usual, n, repeats);
     set_flags(tracks[n].bends, share_of_usual * bend_scales[n].usual, n, straight);
     // A frozen span is also a straight line.
@@ -297,7 +301,8 @@ void check_stale(const Rows& rows, const CheckSettings& settings, CheckReport& r
     changes[i] = joints ? rotation_changes(clip, track) : position_changes(clip, track);
   });
   const std::size_t shortest = frames_in(settings.shortest_stale_s, report.frame_rate_hz, 2);
-  std::vector<std::vector<Stale>> spans = find_stale(changes, clip.frame_count(), shortest);
+  std::vector<std::vector<Stale>> spans = find_stale(
+      changes, joints ? least_usual_rad : 0, clip.frame_count(), shortest);
   if (joints) {
     for_each_parallel(kept.size(), samples, [&](std::size_t i) {
       leave_out_hinge_ends(clip, rows.tracks[kept[i]], spans[i]);

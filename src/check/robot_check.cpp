@@ -194,6 +194,21 @@ void check_jumps(const Rows& rows, const RobotSettings& settings, CheckReport& r
   }
 }
 
+void check_root_jumps(const Rows& rows, CheckReport& report) {
+  // Thirty metres a second faster than just before and after: no body does that. Chosen by hand.
+  constexpr double impossible_cm = 50;
+  const Take& clip = rows.clip;
+  if (!clip.has_joints() || !(report.metres_per_unit > 0)) return;
+  const double cm = 100 * report.metres_per_unit;
+  const auto jumps = jumps_of(
+      clip.frame_count(), at_rate(impossible_cm, clip.frame_rate_hz),
+      [&](std::size_t f) { return cm * clip.position(f, 0); },
+      [&](std::size_t f) { return clip.is_position_observed(f, 0); });
+  for (const auto& [frame, amount] : jumps)
+    report.findings.push_back({FindingKind::jump, Severity::serious, report.tracks[0].name, frame,
+                               frame + 1, amount, "cm", "moves within one frame and stays there"});
+}
+
 namespace {
 
 constexpr double nowhere = std::numeric_limits<double>::infinity();

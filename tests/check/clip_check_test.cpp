@@ -191,6 +191,28 @@ TEST(CheckClip, TakesAStretchedKneeForNoFrozenJoint) {
   EXPECT_TRUE(of_kind(check_take(clip), FindingKind::frozen).empty());
 }
 
+TEST(CheckClip, TakesRoundingForNoMotion) {
+  Take clip = synthetic_clip("walk", 4);
+  const std::size_t j = joint_of(clip, "Head");
+  // A joint that rests, in 32-bit floats: now one value, now the next.
+  for (std::size_t f = 0; f < clip.frame_count(); ++f)
+    clip.rotation(f, j) = exp({f % 7 < 3 || f > 200 ? 0 : 4e-8, 0.1, 0});
+  EXPECT_TRUE(of_kind(check_take(clip), FindingKind::frozen).empty());
+}
+
+TEST(CheckClip, FindsARootThatMovesFartherWithinAFrameThanABodyCan) {
+  Take clip = synthetic_clip("walk", 4);
+  EXPECT_TRUE(of_kind(check_take(clip), FindingKind::jump).empty());
+  const double metre = 1 / guess_length_unit(clip.skeleton)->metres;
+  for (std::size_t f = 150; f < clip.frame_count(); ++f) clip.root_position(f).x += 1.8 * metre;
+  const std::vector<Finding> jumps = of_kind(check_take(clip), FindingKind::jump);
+  ASSERT_EQ(jumps.size(), 1u);
+  EXPECT_EQ(jumps[0].severity, Severity::serious);
+  EXPECT_EQ(jumps[0].first_frame, 149u);
+  EXPECT_NEAR(jumps[0].figure, 180, 5);
+  EXPECT_FALSE(check_take(clip).figures.jumps.has_value());
+}
+
 TEST(CheckClip, FindsFramesThatRepeatAndFramesOfZeros) {
   Take clip = synthetic_clip("walk");
   const auto copy_frame = [&](std::size_t from, std::size_t to) {
