@@ -185,7 +185,8 @@ double shift_frames(const std::vector<double>& curve, const std::vector<double>&
   for (std::ptrdiff_t shift = -most; shift <= most; ++shift) {
     double sum = 0;
     for (std::ptrdiff_t f = most; f + most < frames; ++f)
-      sum += std::pow(late[static_cast<std::size_t>(f + shift)] - curve[static_cast<std::size_t>(f)], 2);
+      sum += std::pow(
+          late[static_cast<std::size_t>(f + shift)] - curve[static_cast<std::size_t>(f)], 2);
     differences.push_back(sum);
   }
   const auto least = std::ranges::min_element(differences) - differences.begin();

@@ -38,8 +38,7 @@ void curves(const Arguments& arguments) {
     for (std::size_t f = 0; f < truth.frame_count(); ++f)
       square += std::pow(angle_deg(clip, f, joint) - angle_deg(truth, f, joint), 2);
     errors.add({figure_number, quoted(version), joint,
-                fmt::format("{:.4g}",
-                            std::sqrt(square / static_cast<double>(truth.frame_count()))),
+                fmt::format("{:.4g}", std::sqrt(square / static_cast<double>(truth.frame_count()))),
                 fmt::format("{:.4g}", rms_deg(truth, clip))});
   };
 

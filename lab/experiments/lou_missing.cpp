@@ -142,8 +142,8 @@ void figure_6(const Arguments& arguments) {
   for (const Result& result : results) {
     text.add(result.take, result.errors_cm);
     for (std::size_t c = 0; c < columns.size(); ++c) {
-      table.add(
-          {papers::quoted(result.take), papers::quoted(columns[c]), fmt::format("{:.4g}", result.errors_cm[c])});
+      table.add({papers::quoted(result.take), papers::quoted(columns[c]),
+                 fmt::format("{:.4g}", result.errors_cm[c])});
     }
   }
   table.close();

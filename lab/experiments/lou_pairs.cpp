@@ -50,8 +50,8 @@ void clean_person(const std::string& person, const std::vector<PersonsPair>& pai
       if (i != tested) others.push_back(pairs[i].reference);
     }
     const PairErrors untouched = errors_of(both.sample.take.values, both.sample);
-    for (const LouMethod& method : lou_methods({learned("example", others),
-                                                learned("kalman-learned", others), nullptr})) {
+    for (const LouMethod& method :
+         lou_methods({learned("example", others), learned("kalman-learned", others), nullptr})) {
       if (method.cleaners.size() > 1) continue;  // settings that the truth would select
       const PairErrors errors = errors_of(
           channels_of(both.tracks, cleaned(*method.cleaners.front(), noisy)), both.sample);
@@ -65,8 +65,8 @@ void clean_person(const std::string& person, const std::vector<PersonsPair>& pai
   for (const auto& [name, sum] : shares) {
     table.add({person, quoted(name), fmt::format("{:.0f}", takes), figure(sum.value / takes),
                figure(sum.velocity / takes), figure(sum.fast / takes)});
-    fmt::print("{:5} {:26} {:4.0f}  {:.3f} {:.3f} {:.3f}\n", person, name, takes,
-               sum.value / takes, sum.velocity / takes, sum.fast / takes);
+    fmt::print("{:5} {:26} {:4.0f}  {:.3f} {:.3f} {:.3f}\n", person, name, takes, sum.value / takes,
+               sum.velocity / takes, sum.fast / takes);
   }
   std::fflush(stdout);
 }

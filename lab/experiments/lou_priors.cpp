@@ -132,11 +132,12 @@ void priors(const Arguments& arguments) {
   const auto automatic = make_auto();
   for (const auto& [test, tests] :
        {std::pair{"walk", &walks.tests}, std::pair{"run", &run_tests.tests}}) {
-    const double denoised = tried_with(*automatic, *tests), filled = filled_with(*automatic, *tests);
+    const double denoised = tried_with(*automatic, *tests),
+                 filled = filled_with(*automatic, *tests);
     fmt::print("(auto, no prior) {} {:.2f}, filled {:.2f}\n", test, denoised, filled);
-    std::vector<std::string> line{quoted("(auto, no prior)"), "", "", test,
-                                  fmt::format("{:.5g}", denoised), "",
-                                  fmt::format("{:.5g}", filled)};
+    std::vector<std::string> line{
+        quoted("(auto, no prior)"),   "", "", test, fmt::format("{:.5g}", denoised), "",
+        fmt::format("{:.5g}", filled)};
     table.add(line);
   }
   table.close();

@@ -51,8 +51,8 @@ void figure_9(const Arguments& arguments) {
   }
   const auto kalman = make_kalman_learned({}, learned("kalman-learned", walks.training)),
              of_jumps = make_kalman_learned({}, learned("kalman-learned", jumping.training));
-  add("(kalman-learned, smoother)", {denoising(*kalman, walks.tests), filling(*of_jumps),
-                                     denoising(*of_jumps, jumping.tests)});
+  add("(kalman-learned, smoother)",
+      {denoising(*kalman, walks.tests), filling(*of_jumps), denoising(*of_jumps, jumping.tests)});
   const auto automatic = make_auto();
   add("(auto)", {denoising(*automatic, walks.tests), filling(*automatic),
                  denoising(*automatic, jumping.tests)});

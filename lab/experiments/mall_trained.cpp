@@ -85,8 +85,8 @@ class HoldOutErrors {
     for (std::size_t i = 0; i < takes.size(); ++i) {
       takes_.emplace_back(take_of(arguments, takes[i]));
       for (std::uint64_t draw = 0; draw < draws_; ++draw)
-        noisy_.push_back(damaged(takes_.back().truth(), "gaussian-channels", {{"k", 0.5}},
-                                 100 * draw + i));
+        noisy_.push_back(
+            damaged(takes_.back().truth(), "gaussian-channels", {{"k", 0.5}}, 100 * draw + i));
     }
   }
 
@@ -94,8 +94,8 @@ class HoldOutErrors {
   TakesErrors of(const Filter& filter) const {
     TakesErrors errors(takes_.size());
     for (std::size_t i = 0; i < noisy_.size(); ++i)
-      errors[i / draws_] += takes_[i / draws_].mean(filter(noisy_[i]), true) /
-                            static_cast<double>(draws_);
+      errors[i / draws_] +=
+          takes_[i / draws_].mean(filter(noisy_[i]), true) / static_cast<double>(draws_);
     return errors;
   }
 
@@ -134,8 +134,9 @@ void errors_of_networks(const Arguments& arguments, const std::vector<TrainedNet
     by_holdout[network.name.left_out].push_back(&network);
   for (const auto& [holdout, own] : by_holdout) {
     const HoldOutErrors errors(arguments, holdout);
-    const double gaussian = mean_of(
-        errors.of([](const Take& noisy) { return cleaned(noisy, "gaussian", {{"width_s", 0.058}}); }));
+    const double gaussian = mean_of(errors.of([](const Take& noisy) {
+      return cleaned(noisy, "gaussian", {{"width_s", 0.058}});
+    }));
     std::map<std::string, TakesErrors> bases;  // those of EBF by variant, seed and passes
     std::vector<std::pair<TrainedName, TakesErrors>> all;
     for (const TrainedNetwork* network : own) {
@@ -145,9 +146,10 @@ void errors_of_networks(const Arguments& arguments, const std::vector<TrainedNet
       table.add({name.network, name.variant, holdout, name.seed, name.passes,
                  fmt::format("{}", found.size()), figure(mean_of(found)),
                  figure(mean_of(found) / gaussian)});
-      fmt::print("{:4} {:9} without {} seed {}, {} passes: {:.3f} deg, {:.3f} of the 58 ms Gaussian\n",
-                 name.network, name.variant, holdout, name.seed, name.passes, mean_of(found),
-                 mean_of(found) / gaussian);
+      fmt::print(
+          "{:4} {:9} without {} seed {}, {} passes: {:.3f} deg, {:.3f} of the 58 ms Gaussian\n",
+          name.network, name.variant, holdout, name.seed, name.passes, mean_of(found),
+          mean_of(found) / gaussian);
       std::fflush(stdout);
       if (name.network == "ebf") bases[name.variant + name.seed + name.passes] = found;
       all.emplace_back(name, found);

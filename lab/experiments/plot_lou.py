@@ -52,7 +52,9 @@ rows = [row for row in table("lou_windows.csv") if row["window_frames"].isdigit(
 figure, panels = plt.subplots(1, 2, figsize=(9, 4))
 for panel, column, title in zip(panels, ["denoising_rms_deg", "filling_rms_deg"],
                                 ["a walk, sigma = 3", "a limb missing in a jump"]):
-    panel.plot([int(r["window_frames"]) for r in rows], [float(r[column]) for r in rows], marker=".")
+    for prefix, label in (("", "example"), ("papers_", "example, solver=paper")):
+        panel.plot([int(r["window_frames"]) for r in rows], [float(r[prefix + column]) for r in rows], marker=".", label=label)
+    panel.legend(fontsize=6)
     panel.set(xlabel="window, frames at 30 Hz", ylabel="degrees per joint angle", title=title, ylim=(0, None))
     panel.grid(alpha=0.3)
 figure.suptitle("Lou & Chai 2010, figure 9")

@@ -49,7 +49,7 @@ inline std::vector<SystemPair> all_pairs_below(const std::filesystem::path& fold
   return pairs;
 }
 
-/// Those that no shipped model has learned from.
+/// The pairs that no shipped model has learned from.
 inline std::vector<SystemPair> pairs_below(const std::filesystem::path& folder) {
   std::vector<SystemPair> pairs = all_pairs_below(folder);
   std::erase_if(pairs, [](const SystemPair& pair) {

@@ -36,8 +36,8 @@ std::vector<XiaoDamaged> tuning_noise(const std::vector<Take>& clips, const Xiao
 // A method that tries all of its settings.
 template <class Settings>
 XiaoMethod method_with(const std::string& name, const Settings& settings_for) {
-  return {name, [=](const XiaoModels& models, const std::vector<Take>& clips,
-                    const XiaoNoise& noise) {
+  return {name,
+          [=](const XiaoModels& models, const std::vector<Take>& clips, const XiaoNoise& noise) {
             const std::vector<XiaoSetting> settings = settings_for(noise);
             if (settings.size() == 1) return settings.front();
             const std::vector<XiaoDamaged> damaged = tuning_noise(clips, noise);
@@ -130,11 +130,10 @@ XiaoMethod xiao_sparse() {
         SparseOptions options;
         options.loss = noise.share > 0 ? "mixed" : "l2";
         options.lambda = lambda;
-        settings.push_back(
-            {fmt::format("M {} {} {}", xiao_sparse_windows[w], options.loss, lambda),
-             [=](const XiaoModels& models) {
-               return cleaner_filter(make_sparse(options, models.sparse[w]));
-             }});
+        settings.push_back({fmt::format("M {} {} {}", xiao_sparse_windows[w], options.loss, lambda),
+                            [=](const XiaoModels& models) {
+                              return cleaner_filter(make_sparse(options, models.sparse[w]));
+                            }});
       }
     }
     return settings;
@@ -150,7 +149,8 @@ struct PaperChoice {
 
 // The paper's: M of 9 to 39 in steps of 6, K of 500 to 1000 (in steps of 50; here 250), and powers
 // of ten for lambda.
-constexpr int window_step = 6, atom_step = 250, steady_step = 4, least_window = 9, least_atoms = 250;
+constexpr int window_step = 6, atom_step = 250, steady_step = 4, least_window = 9,
+              least_atoms = 250;
 constexpr double lambda_step = 10;
 
 std::string name_of(const PaperChoice& choice) {
@@ -245,22 +245,22 @@ PaperChoice search(PaperChoice choice, const std::vector<PaperStep>& steps,
 }
 
 XiaoMethod xiao_algorithm(const Arguments& arguments, const std::string& name, XiaoFrames frames) {
-  return {name,
-          [=](const XiaoModels& models, const std::vector<Take>& clips, const XiaoNoise& noise) {
-            XiaoModels with_fewer_windows = models;
-            with_fewer_windows.paper_hop = tuning_hop;
-            const std::vector<XiaoDamaged> damaged = tuning_noise(clips, noise);
-            PaperChoice choice{.settings = {.loss = loss_for(noise)}};
-            if (arguments.quick) choice.window_frames = 9, choice.atoms = 60;
-            if (frames == XiaoFrames::steady) choice.steady_frames = 1 + 2 * steady_step;
-            choice = search(choice, paper_steps(arguments, noise, frames),
-                            [&](const PaperChoice& tried) {
-                              return error_on(setting_of(tried, frames).make(with_fewer_windows),
-                                              clips, damaged);
-                            });
-            return setting_of(choice, frames);
-          },
-          true};
+  return {
+      name,
+      [=](const XiaoModels& models, const std::vector<Take>& clips, const XiaoNoise& noise) {
+        XiaoModels with_fewer_windows = models;
+        with_fewer_windows.paper_hop = tuning_hop;
+        const std::vector<XiaoDamaged> damaged = tuning_noise(clips, noise);
+        PaperChoice choice{.settings = {.loss = loss_for(noise)}};
+        if (arguments.quick) choice.window_frames = 9, choice.atoms = 60;
+        if (frames == XiaoFrames::steady) choice.steady_frames = 1 + 2 * steady_step;
+        choice =
+            search(choice, paper_steps(arguments, noise, frames), [&](const PaperChoice& tried) {
+              return error_on(setting_of(tried, frames).make(with_fewer_windows), clips, damaged);
+            });
+        return setting_of(choice, frames);
+      },
+      true};
 }
 
 }  // namespace
@@ -279,8 +279,7 @@ std::vector<XiaoMethod> xiao_methods(const Arguments& arguments) {
           xiao_algorithm(arguments, "paper true frames", XiaoFrames::truth)};
 }
 
-XiaoModels xiao_models(const Arguments& arguments, const std::vector<Take>& clips,
-                       bool is_tuning) {
+XiaoModels xiao_models(const Arguments& arguments, const std::vector<Take>& clips, bool is_tuning) {
   XiaoPaperSizes sizes{.windows = 5000, .iterations = 6};
   if (is_tuning) sizes.iterations = 3;
   if (arguments.quick) sizes.windows = 500, sizes.iterations = 3;

@@ -176,10 +176,8 @@ Take XiaoPaper::filtered(const Take& noisy, const Take& posed, const XiaoPaperSe
   scale_by(factor, poses);
   const std::vector<LocalFrame> frames = local_frames(poses, local_);
   to_local(frames, local);
-  if (settings.loss != XiaoPaperLoss::squares)
-    local = filter(local, true, settings, hop);
-  if (settings.loss != XiaoPaperLoss::absolute)
-    local = filter(local, false, settings, hop);
+  if (settings.loss != XiaoPaperLoss::squares) local = filter(local, true, settings, hop);
+  if (settings.loss != XiaoPaperLoss::absolute) local = filter(local, false, settings, hop);
   from_local(frames, local);
   scale_by(1 / factor, local);
   Take result = noisy;

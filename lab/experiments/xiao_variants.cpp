@@ -37,8 +37,7 @@ class Lines {
       const double start_s = processor_s();
       const Take filtered = filter(damaged.clip, truth);
       time_s += processor_s() - start_s;
-      error +=
-          xiao_error(truth, damaged, filtered).mean / static_cast<double>(group.tests.size());
+      error += xiao_error(truth, damaged, filtered).mean / static_cast<double>(group.tests.size());
     }
     table_.add({group.name, what, value, fmt::format("{:.3f}", 100 * error)});
     fmt::print("{:<11}{:<16}{:<12}{:9.5f} m {:7.2f} s\n", group.name, what, value, error, time_s);

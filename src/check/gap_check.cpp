@@ -48,8 +48,8 @@ namespace {
 constexpr std::size_t shortest_frozen_steps = 2;    // three samples in a row
 constexpr std::size_t shortest_straight_steps = 3;  // five samples in a row
 constexpr double share_of_usual = 0.01;  // of the usual step or bend; smaller ones are zero
-// A joint whose usual step is smaller rests, and what moves is the rounding of a file: 32-bit floats
-// round a rotation by 1e-7 radians.
+// A joint whose usual step is smaller rests, and what moves is the rounding of a file: 32-bit
+// floats round a rotation by 1e-7 radians.
 constexpr double least_usual_rad = 1e-6;
 
 // Sizes of the steps and the bends of one track; negative where a sample is missing. Step t lies
@@ -301,8 +301,8 @@ void check_stale(const Rows& rows, const CheckSettings& settings, CheckReport& r
     changes[i] = joints ? rotation_changes(clip, track) : position_changes(clip, track);
   });
   const std::size_t shortest = frames_in(settings.shortest_stale_s, report.frame_rate_hz, 2);
-  std::vector<std::vector<Stale>> spans = find_stale(
-      changes, joints ? least_usual_rad : 0, clip.frame_count(), shortest);
+  std::vector<std::vector<Stale>> spans =
+      find_stale(changes, joints ? least_usual_rad : 0, clip.frame_count(), shortest);
   if (joints) {
     for_each_parallel(kept.size(), samples, [&](std::size_t i) {
       leave_out_hinge_ends(clip, rows.tracks[kept[i]], spans[i]);

@@ -48,8 +48,7 @@ const Format& format_called(std::string_view name) {
 void refuse_lfs_pointer(std::string_view bytes, std::string_view name) {
   if (!bytes.starts_with("version https://git-lfs.github.com/spec/")) return;
   const std::size_t at = bytes.find("\nsize ");
-  const NumberToken size =
-      at == bytes.npos ? NumberToken{} : read_number(bytes.substr(at + 6, 24));
+  const NumberToken size = at == bytes.npos ? NumberToken{} : read_number(bytes.substr(at + 6, 24));
   throw Error::at_line(
       name, 1,
       size.kind == TokenKind::number

@@ -158,11 +158,13 @@ TEST(Formats, AreFoundByContentThenByName) {
 }
 
 TEST(Formats, APointerOfGitLfsIsNamed) {
-  EXPECT_EQ(message_of([] {
-              read_take(
-                  "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 1534272\n",
-                  "a.fbx");
-            }, ErrorKind::unreadable_input),
+  EXPECT_EQ(message_of(
+                [] {
+                  read_take(
+                      "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 1534272\n",
+                      "a.fbx");
+                },
+                ErrorKind::unreadable_input),
             "a.fbx:1: a Git LFS pointer: the file itself (1,534,272 bytes) was not downloaded; git "
             "lfs pull does that");
   EXPECT_EQ(message_of([] { read_take("version https://git-lfs.github.com/spec/v1\n", "a.fbx"); },
@@ -170,9 +172,7 @@ TEST(Formats, APointerOfGitLfsIsNamed) {
             "a.fbx:1: a Git LFS pointer: the file itself was not downloaded");
 }
 
-TEST(Formats, AnimationsOfAvatarsAreGltf) {
-  EXPECT_EQ(format_of_path("a.vrma")->name, "glb");
-}
+TEST(Formats, AnimationsOfAvatarsAreGltf) { EXPECT_EQ(format_of_path("a.vrma")->name, "glb"); }
 
 TEST(Formats, BvhIsSniffedThroughMarksAndComments) {
   const Format& bvh = formats()[0];

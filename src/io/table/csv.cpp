@@ -127,8 +127,8 @@ class CsvReader {
     return labels;
   }
 
-  // The unit of times whose label names none: seconds, unless they are whole numbers with steps that
-  // no capture has in seconds, but in milliseconds, microseconds or nanoseconds.
+  // The unit of times whose label names none: seconds, unless they are whole numbers with steps
+  // that no capture has in seconds, but in milliseconds, microseconds or nanoseconds.
   double unit_of(const RowLabels& labels) const {
     constexpr double least_capture_hz = 5, most_capture_hz = 2000;
     const std::vector<double>& times = labels.times_s;
@@ -144,9 +144,9 @@ class CsvReader {
          {Unit{1e-3, "milliseconds"}, Unit{1e-6, "microseconds"}, Unit{1e-9, "nanoseconds"}}) {
       const double rate_hz = 1 / (step * unit.seconds);
       if (rate_hz < least_capture_hz || rate_hz > most_capture_hz) continue;
-      text_.note("time_unit", header_.labels_line,
-                 fmt::format("times in whole numbers with steps of {:.4g}: read as {}", step,
-                             unit.name));
+      text_.note(
+          "time_unit", header_.labels_line,
+          fmt::format("times in whole numbers with steps of {:.4g}: read as {}", step, unit.name));
       return unit.seconds;
     }
     return 1;

@@ -52,7 +52,7 @@ struct CsvHeader {
   double seconds_per_time = 1;
   bool time_has_unit = false;        ///< the label of the times names their unit
   std::size_t labelled_columns = 0;  ///< columns up to the last label
-  double frame_rate_hz = 0;  ///< 0 if the head states no rate
+  double frame_rate_hz = 0;          ///< 0 if the head states no rate
   std::string unit;
   std::size_t labels_line = 0;
   std::size_t data_begin = 0;

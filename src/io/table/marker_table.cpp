@@ -533,8 +533,8 @@ double table_rate(const SourceText& text, const RowRate& times, std::size_t rows
     const bool differs = times.rate_hz > 0 && off_s > tolerance / stated + times.tolerance_s;
     if (!differs) return stated;
     // Each row states its time, and the head one number, which stays behind when rows are left out.
-    const bool beats_head = times.is_even && times.rate_hz >= least_capture_hz &&
-                            times.rate_hz <= most_capture_hz;
+    const bool beats_head =
+        times.is_even && times.rate_hz >= least_capture_hz && times.rate_hz <= most_capture_hz;
     text.note("time_mismatch", said.mismatch_place,
               fmt::format("{} states {} Hz, the times {:.6g} Hz: {} used", said.stated_by, stated,
                           times.rate_hz,

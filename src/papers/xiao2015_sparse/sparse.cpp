@@ -184,8 +184,8 @@ PoseMatrix filtered_points(const PriorWork& work, const PoseMatrix& positions, P
 // Rejects spikes and measurements far from the result of the atoms. One that is far while those
 // before and after it are not is an impulse: motion that the atoms lack lasts longer. Impulses
 // that `auto` has not seen become suspects, as the result is not to be held near `auto`'s there.
-void reject_outliers(PriorWork& work, const std::vector<double>& noise,
-                     const PoseMatrix& expressed, bool marks_impulses) {
+void reject_outliers(PriorWork& work, const std::vector<double>& noise, const PoseMatrix& expressed,
+                     bool marks_impulses) {
   const std::size_t width = expressed.channels, count = expressed.values.size();
   std::vector<std::uint8_t> is_far(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -195,8 +195,8 @@ void reject_outliers(PriorWork& work, const std::vector<double>& noise,
   }
   work.rejected.assign(count, 0);
   for (std::size_t i = 0; i < count; ++i) {
-    const bool goes_on = (i >= width && is_far[i - width] != 0) ||
-                         (i + width < count && is_far[i + width] != 0);
+    const bool goes_on =
+        (i >= width && is_far[i - width] != 0) || (i + width < count && is_far[i + width] != 0);
     if (marks_impulses && is_far[i] != 0 && !goes_on) work.suspect[i] = 1;
     const bool is_rejected = is_far[i] != 0 || work.suspect[i] != 0;
     work.rejected[i] = work.channels.observed[i] != 0 && is_rejected ? 1 : 0;

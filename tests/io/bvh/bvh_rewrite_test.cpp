@@ -123,8 +123,9 @@ TEST(BvhRewriter, RestAnglesBehindAnOffsetAreSkippedAndStay) {
   const TakeResult read = read_joints(bytes, "a.bvh", {});
   EXPECT_EQ(read.diagnostics.count("offset_rest_angles"), 1u);
   EXPECT_EQ(read.take.skeleton.offsets[0], (Vec3{0, 90, 0}));
-  EXPECT_EQ(read.take.rotations,
-            read_joints(small_bvh("0 90 0", "Frames: 3\nFrame Time: 0.01\n"), "b.bvh").take.rotations);
+  EXPECT_EQ(
+      read.take.rotations,
+      read_joints(small_bvh("0 90 0", "Frames: 3\nFrame Time: 0.01\n"), "b.bvh").take.rotations);
   EXPECT_EQ(write_take(read.take), bytes);
 }
 

@@ -218,9 +218,9 @@ TEST(CsvReader, WholeTimesWithoutAUnitAreMilliOrMicroOrNanoseconds) {
     EXPECT_EQ(read.diagnostics.count("time_unit"), one.is_noted ? 1u : 0u);
   }
   // Seconds that are named stay seconds: no capture, but what the file says.
-  EXPECT_GT(read_table(rows_of("time_s,a_x,a_y,a_z", 0, 20))
-                .diagnostics.count("frame_rate_unusable"),
-            0u);
+  EXPECT_GT(
+      read_table(rows_of("time_s,a_x,a_y,a_z", 0, 20)).diagnostics.count("frame_rate_unusable"),
+      0u);
 }
 
 TEST(CsvReader, ColumnsBehindTheLastCoordinateAreIgnoredAndStay) {
@@ -234,19 +234,25 @@ TEST(CsvReader, ColumnsBehindTheLastCoordinateAreIgnoredAndStay) {
   expected.replace(expected.find("0.3000,1,2,0.9"), 6, "1.3000");
   EXPECT_EQ(write_take(read.take), expected);
   // Rows may end before columns that are ignored.
-  EXPECT_EQ(read_table(rows_of("time_s,a_x,a_y,a_z,note", 0, 0.01)).diagnostics.count("row_too_short"),
-            0u);
+  EXPECT_EQ(
+      read_table(rows_of("time_s,a_x,a_y,a_z,note", 0, 0.01)).diagnostics.count("row_too_short"),
+      0u);
 }
 
 TEST(CsvReader, ATableWithARowForEachThingIsRefusedByWhatItIs) {
-  EXPECT_EQ(message_of([] {
-              read_table("joint,parent,offset.x,offset.y,offset.z\nHips,,0,90,0\nSpine,Hips,0,12,0\n"
-                         "Head,Spine,0,45,0\n");
-            }, ErrorKind::unreadable_input),
-            "take.csv:1: a table with a row for each \"joint\", not for each frame: it has no column of "
-            "frames or times");
+  EXPECT_EQ(
+      message_of(
+          [] {
+            read_table(
+                "joint,parent,offset.x,offset.y,offset.z\nHips,,0,90,0\nSpine,Hips,0,12,0\n"
+                "Head,Spine,0,45,0\n");
+          },
+          ErrorKind::unreadable_input),
+      "take.csv:1: a table with a row for each \"joint\", not for each frame: it has no column of "
+      "frames or times");
   // Words beside frames are notes.
-  EXPECT_EQ(read_table("frame,what,a_x,a_y,a_z\n1,step,0,1,2\n2,step,1,1,2\n").take.frame_count(), 2u);
+  EXPECT_EQ(read_table("frame,what,a_x,a_y,a_z\n1,step,0,1,2\n2,step,1,1,2\n").take.frame_count(),
+            2u);
 }
 
 TEST(CsvReader, AViconExportMayHaveLinesAboveItsFirstSection) {

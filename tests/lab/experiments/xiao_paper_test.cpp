@@ -123,8 +123,7 @@ Take by_definition(const XiaoPaper& paper, const Take& noisy, double lambda, spa
   for (std::size_t i = 0; i < sums.size(); ++i) {
     const PoseAxes& pose = axes[i / markers];
     const Vec3 p = copies[i] > 0 ? (1 / copies[i]) * sums[i] : local[i];
-    result.positions[i] =
-        pose.origin + (1 / scale) * (p.x * pose.x + p.y * pose.y + p.z * pose.z);
+    result.positions[i] = pose.origin + (1 / scale) * (p.x * pose.x + p.y * pose.y + p.z * pose.z);
   }
   return result;
 }
@@ -147,8 +146,8 @@ TEST(XiaoPaper, IsAlgorithmOneByItsDefinitionUnderEquation4) {
   const Take noisy = noisy_take(markers_of_walk(3, 0.2), 0.01, 1);
   for (const double lambda : {1.0, 10.0}) {
     const Take expected = by_definition(small_paper(), noisy, lambda, sparse::Loss::squares);
-    const Take found = small_paper().filtered(
-        noisy, noisy, {.lambda_squares = lambda, .descent = to_the_minimum});
+    const Take found =
+        small_paper().filtered(noisy, noisy, {.lambda_squares = lambda, .descent = to_the_minimum});
     EXPECT_LT(mean_distance(found, expected), 0.02 * mean_distance(found, noisy)) << lambda;
     const Take quick = small_paper().filtered(noisy, noisy, {.lambda_squares = lambda});
     EXPECT_LT(mean_distance(quick, expected), 0.2 * mean_distance(quick, noisy)) << lambda;
@@ -158,18 +157,17 @@ TEST(XiaoPaper, IsAlgorithmOneByItsDefinitionUnderEquation4) {
 TEST(XiaoPaper, IsAlgorithmOneByItsDefinitionUnderEquation5) {
   const Take noisy = noisy_take(markers_of_walk(3, 0.2), 0.01, 1);
   const Take expected = by_definition(small_paper(), noisy, 0.5, sparse::Loss::absolute);
-  const Take found = small_paper().filtered(noisy, noisy,
-                                            {.loss = XiaoPaperLoss::absolute,
-                                             .lambda_absolute = 0.5,
-                                             .descent = to_the_minimum});
+  const Take found = small_paper().filtered(
+      noisy, noisy,
+      {.loss = XiaoPaperLoss::absolute, .lambda_absolute = 0.5, .descent = to_the_minimum});
   EXPECT_LT(mean_distance(found, expected), 0.1 * mean_distance(found, noisy));
 }
 
 TEST(XiaoPaper, SequenceIsEquation4OnWhatEquation5Leaves) {
   const Take clean = markers_of_walk(3, 0.5), noisy = noisy_take(clean, 0.01, 1);
   const auto by = [&](const Take& take, XiaoPaperLoss loss) {
-    return small_paper().filtered(
-        take, clean, {.loss = loss, .lambda_squares = 1, .lambda_absolute = 0.5});
+    return small_paper().filtered(take, clean,
+                                  {.loss = loss, .lambda_squares = 1, .lambda_absolute = 0.5});
   };
   const Take turns = by(by(noisy, XiaoPaperLoss::absolute), XiaoPaperLoss::squares);
   EXPECT_LT(farthest(by(noisy, XiaoPaperLoss::sequence), turns), 1e-5);
