@@ -103,9 +103,15 @@ std::string small_bvh(const std::string& offset, const std::string& head) {
          head + "0 90 0 1 2 3 4 5 6\n0 91 0 2 3 4 5 6 7\n0 92 0 3 4 5 6 7 8\n";
 }
 
+Take read_at(const std::string& bytes, double frame_rate_hz) {
+  ReadOptions options;
+  options.frame_rate_hz = frame_rate_hz;
+  return read_joints(bytes, "a.bvh", options).take;
+}
+
 TEST(BvhRewriter, AWrongHeadIsMendedInAFileThatIsChangedAnyway) {
   const std::string bytes = small_bvh("0 90 0", "Frames: 7\nFrame Time: 0\n");
-  Take clip = read_joints(bytes, "a.bvh", {.frame_rate_hz = 30}).take;
+  Take clip = read_at(bytes, 30);
   EXPECT_EQ(write_take(clip), bytes);
   clip.root_position(1).y += 1;
   std::string expected = small_bvh("0 90 0", "Frames: 3\nFrame Time: 0.033333\n");
@@ -113,7 +119,7 @@ TEST(BvhRewriter, AWrongHeadIsMendedInAFileThatIsChangedAnyway) {
   EXPECT_EQ(write_take(clip), expected);
   // The two lines may come the other way round.
   const std::string turned = small_bvh("0 90 0", "Frame Time: -1\nFrames: 2.5\n");
-  clip = read_joints(turned, "a.bvh", {.frame_rate_hz = 50}).take;
+  clip = read_at(turned, 50);
   clip.root_position(1).y += 1;
   EXPECT_NE(write_take(clip).find("MOTION\nFrame Time: 0.020000\nFrames: 3\n"), std::string::npos);
 }
