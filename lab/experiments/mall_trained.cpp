@@ -189,8 +189,8 @@ double at_passes(const std::vector<CurvePoint>& curve, double passes) {
   return before.kept + share * (next->kept - before.kept);
 }
 
-// What is left of the error of the takes left out, as a share of that of the 58 ms Gaussian, after
-// so many passes; `of` is how many passes the training had.
+// Writes how much of the error of the takes left out remains after so many passes, as a share of
+// that of the 58 ms Gaussian; `of` is how many passes the training had.
 void curves(const Arguments& arguments) {
   Table table(arguments, "mall_curve.csv", "network,variant,left_out,seed,of,passes,kept_takes");
   for (const std::filesystem::path& path : files_below(arguments.models, ".curve.csv")) {

@@ -209,8 +209,9 @@ TEST_F(Endings, OfFormatsThatAreNotWrittenAreRefusedByEveryCommand) {
                                                {"synth", "walk"},
                                                {"clean", "walk.bvh", "--dry-run"},
                                                {"view", "walk.bvh"}})
-      expect_refused(words, output,
-                     ".bvh, .amc, .asf, .c3d, .trc, .tsv, .csv, .glb, .vrm, .vrma, .gltf, .fbx, .npz");
+      expect_refused(
+          words, output,
+          ".bvh, .amc, .asf, .c3d, .trc, .tsv, .csv, .glb, .vrm, .vrma, .gltf, .fbx, .npz");
     expect_refused({"plot", "walk.bvh"}, output, "only .svg");
   }
   expect_refused({"plot", "walk.bvh"}, "out.bvh", "only .svg");

@@ -109,7 +109,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{{"convert", "a.bvh", "-o", "c.xyz"},
              "c.xyz: .xyz files are not written; the endings that are written: .bvh, .amc, .asf, "
              ".c3d, "
-             ".trc, .tsv, .csv, .glb, .vrm, .vrma, .gltf, .fbx, .npz. A name without an ending keeps the "
+             ".trc, .tsv, .csv, .glb, .vrm, .vrma, .gltf, .fbx, .npz. A name without an ending "
+             "keeps the "
              "format "
              "of "
              "the input"},

@@ -24,6 +24,7 @@ namespace {
 
 constexpr double outlier_deviations = 5;  // of the noise of a channel
 constexpr double many_outliers = 0.02;    // share of samples: one in fifty
+constexpr double well_below = 0.7;        // share of the noise that `auto` measures
 // Mean square of the residual outside the atoms, in those of the noise, from which `auto` is mixed
 // in; and the largest share of `auto` in the result.
 constexpr double usual_rest = 0.1, most_of_auto = 0.5;
@@ -184,14 +185,21 @@ PoseMatrix filtered_points(const PriorWork& work, const PoseMatrix& positions, P
 // Rejects spikes and measurements far from the result of the atoms. One that is far while those
 // before and after it are not is an impulse: motion that the atoms lack lasts longer. Impulses
 // that `auto` has not seen become suspects, as the result is not to be held near `auto`'s there.
-void reject_outliers(PriorWork& work, const std::vector<double>& noise, const PoseMatrix& expressed,
-                     bool marks_impulses) {
+// Returns the share of far measurements that `auto` has taken for noise: those in channels that
+// mostly lie nearer to this result than the noise that `auto` measures.
+double reject_outliers(PriorWork& work, const std::vector<double>& noise,
+                       const PoseMatrix& expressed, bool marks_impulses) {
+  const std::vector<double> by_auto = example_noise(work);
   const std::size_t width = expressed.channels, count = expressed.values.size();
   std::vector<std::uint8_t> is_far(count);
+  double taken_for_noise = 0, observed = 0;
   for (std::size_t i = 0; i < count; ++i) {
+    if (work.channels.observed[i] == 0) continue;
+    const std::size_t c = i % width;
     const double distance = std::abs(work.channels.poses.values[i] - expressed.values[i]);
-    const bool is_beyond = distance > outlier_deviations * noise[i % width];
-    is_far[i] = work.channels.observed[i] != 0 && is_beyond ? 1 : 0;
+    is_far[i] = distance > outlier_deviations * noise[c] ? 1 : 0;
+    taken_for_noise += is_far[i] != 0 && noise[c] < well_below * by_auto[c] ? 1 : 0;
+    observed += 1;
   }
   work.rejected.assign(count, 0);
   for (std::size_t i = 0; i < count; ++i) {
@@ -201,6 +209,7 @@ void reject_outliers(PriorWork& work, const std::vector<double>& noise, const Po
     const bool is_rejected = is_far[i] != 0 || work.suspect[i] != 0;
     work.rejected[i] = work.channels.observed[i] != 0 && is_rejected ? 1 : 0;
   }
+  return taken_for_noise / std::max(observed, 1.0);
 }
 
 // F x D, 1 for measurements that are not rejected.
@@ -274,7 +283,7 @@ void filter_sparse(PriorWork& work, const SparseOptions& options, const SparsePr
     return;
   }
   const std::vector<double> noise = noise_about(work, cleaned, tuning.caps_noise);
-  reject_outliers(work, noise, cleaned, tuning.marks_impulses);
+  release_if_crowded(work, reject_outliers(work, noise, cleaned, tuning.marks_impulses));
   // For joints, whose noise is seldom the same about each axis, the smoothing flips between two
   // estimates.
   if (tuning.smooths_rest && prior.points.kind == BodyKind::markers) {

@@ -167,12 +167,13 @@ TEST(FilterTraining, EncodersOfTheNetworksInTheTreeAreNotTheirFirstDraw) {
   for (const char* name : {"ebd", "shapes"}) {
     const Model model = read_model(models + name + ".kmodel");
     const Model first = untrained(model);
-    EXPECT_GT(moved(model, first, "encoder0.weight"), 0.2) << name;
+    // Ten passes move it by 0.085, forty by 0.166.
+    EXPECT_GT(moved(model, first, "encoder0.weight"), 0.12) << name;
     // Two independent draws differ by 1.4.
     EXPECT_LT(moved(model, first, "encoder0.weight"), 1.2) << name;
   }
   const Model ships = *shipped_model("recurrent");
-  EXPECT_GT(moved(ships, untrained(ships), "encoder0.weight"), 0.2);
+  EXPECT_GT(moved(ships, untrained(ships), "encoder0.weight"), 0.12);
 }
 
 TEST(FilterTraining, LearnsABiasThatIsOnTopOfTheNoise) {
