@@ -90,13 +90,15 @@ TEST(NotFinite, MarkersOfATableAreMissingInWhatIsWritten) {
 }
 
 TEST(NotFinite, NumbersAndTimesOfRowsAreMended) {
-  const std::string rows = "7,0.00,1,2,3,4,5,6\nnan,0.01,1,2,3,4,5,6\n9,inf,1,2,3,4,5,6\n";
+  const std::string rows =
+      "7,0.00,1,2,3,4,5,6\nnan,0.01,1,2,3,4,5,6\n9,inf,1,2,3,4,5,6\n10,0.03,1,2,3,4,5,6\n";
   for (const TextTake& take : text_takes) {
     SCOPED_TRACE(take.format);
     const TakeResult read = read_as(take.head + with_separator(rows, take.separator), take.format);
     EXPECT_EQ(read.diagnostics.count("value_not_finite"), 2u);
     EXPECT_EQ(write_take(read.take),
-              take.head + with_separator("7,0.00,1,2,3,4,5,6\n8,0.01,1,2,3,4,5,6\n9,,1,2,3,4,5,6\n",
+              take.head + with_separator("7,0.00,1,2,3,4,5,6\n8,0.01,1,2,3,4,5,6\n"
+                                         "9,,1,2,3,4,5,6\n10,0.03,1,2,3,4,5,6\n",
                                          take.separator));
   }
 }
