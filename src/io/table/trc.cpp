@@ -9,6 +9,7 @@
 #include "io/table/marker_table.hpp"
 #include "io/table/tables.hpp"
 #include "kinemend/error.hpp"
+#include "kinemend/extend/frames.hpp"
 #include "kinemend/extend/text.hpp"
 
 namespace kinemend {
