@@ -212,6 +212,22 @@ class LouErrors {
   std::vector<std::vector<std::pair<double, double>>> sums_;
 };
 
+/// Mean error of takes with noise of 3 degrees, over so many draws of it.
+inline double denoising_error(const Cleaner& cleaner, const std::vector<Take>& takes,
+                              std::uint64_t draws) {
+  LouErrors errors;
+  for (const Take& truth : takes) {
+    for (std::uint64_t seed = 1; seed <= draws; ++seed)
+      errors.add(0, 0, rms_deg(truth, cleaned(cleaner, lou_noise(truth, 3, 0, seed))));
+  }
+  return errors.of(0);
+}
+inline double mean_filling_error(const Cleaner& cleaner, const std::vector<Take>& takes) {
+  LouErrors errors;
+  for (const Take& truth : takes) errors.add(0, 0, filling_error(cleaner, truth));
+  return errors.of(0);
+}
+
 /// Prints rows of names and columns of numbers on the terminal.
 class TextTable {
  public:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <optional>
 #include <set>
 
 #include "kinemend/extend/figures.hpp"
@@ -90,26 +91,15 @@ void priors(const Arguments& arguments) {
   fmt::print("Section 4.3: sigma = 3 degrees, bases of different motions. Degrees.\n\n");
   const TextTable text({"frames", "bases", "walk", "run", "paper", "run", "fill", "run"});
   const auto tried_with = [&](const Cleaner& cleaner, const std::vector<Take>& tests) {
-    LouErrors errors;
-    for (const Take& truth : tests) {
-      for (std::size_t seed = 1; seed <= (arguments.quick ? 1 : 3); ++seed)
-        errors.add(0, 0, rms_deg(truth, cleaned(cleaner, lou_noise(truth, 3, 0, seed))));
-    }
-    return errors.of(0);
-  };
-  const auto filled_with = [&](const Cleaner& cleaner, const std::vector<Take>& tests) {
-    double sum = 0;
-    for (const Take& truth : tests) sum += filling_error(cleaner, truth);
-    return sum / static_cast<double>(tests.size());
+    return denoising_error(cleaner, tests, arguments.quick ? 1 : 3);
   };
   struct Cells {
     std::string frames, bases;
   };
   const auto add = [&](const std::string& name, const Cells& cells, const std::string& test,
-                       const std::vector<double>& values) {
+                       const std::vector<std::optional<double>>& values) {
     std::vector<std::string> line{quoted(name), cells.frames, cells.bases, test};
-    for (const double value : values) line.push_back(fmt::format("{:.5g}", value));
-    line.resize(7);
+    for (const auto& value : values) line.push_back(value ? fmt::format("{:.5g}", *value) : "");
     table.add(line);
   };
   for (const Prior& prior : list) {
@@ -118,12 +108,12 @@ void priors(const Arguments& arguments) {
     const auto bases = model->tensor("bases", 3).shape[2];
     const double frames = model->seconds * lou_rate_hz;
     std::vector<double> shown{frames, static_cast<double>(bases)};
-    std::vector<std::vector<double>> of_tests;
+    std::vector<std::vector<std::optional<double>>> of_tests;
     for (const auto* tests : {&walks.tests, &run_tests.tests})
       of_tests.push_back({tried_with(*cleaner, *tests), tried_with(*papers, *tests),
-                          filled_with(*cleaner, *tests)});
+                          mean_filling_error(*cleaner, *tests)});
     for (std::size_t column = 0; column < 3; ++column)
-      shown.insert(shown.end(), {of_tests[0][column], of_tests[1][column]});
+      shown.insert(shown.end(), {*of_tests[0][column], *of_tests[1][column]});
     text.add(prior.name, shown);
     const Cells cells{fmt::format("{:.0f}", frames), fmt::format("{}", bases)};
     add(prior.name, cells, "walk", of_tests[0]);
@@ -133,12 +123,9 @@ void priors(const Arguments& arguments) {
   for (const auto& [test, tests] :
        {std::pair{"walk", &walks.tests}, std::pair{"run", &run_tests.tests}}) {
     const double denoised = tried_with(*automatic, *tests),
-                 filled = filled_with(*automatic, *tests);
+                 filled = mean_filling_error(*automatic, *tests);
     fmt::print("(auto, no prior) {} {:.2f}, filled {:.2f}\n", test, denoised, filled);
-    std::vector<std::string> line{
-        quoted("(auto, no prior)"),   "", "", test, fmt::format("{:.5g}", denoised), "",
-        fmt::format("{:.5g}", filled)};
-    table.add(line);
+    add("(auto, no prior)", {}, test, {denoised, std::nullopt, filled});
   }
   table.close();
 }

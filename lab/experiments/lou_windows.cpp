@@ -19,19 +19,11 @@ void figure_9(const Arguments& arguments) {
               "papers_denoising_rms_deg,papers_filling_rms_deg");
   fmt::print("Figure 9: windows of so many frames at 30 Hz. Degrees per joint angle.\n\n");
   const TextTable text({"denoise", "fill", "jumps", "paper", "fill"});
-  // The mean over three draws of noise of 3 degrees.
   const auto denoising = [](const Cleaner& cleaner, const std::vector<Take>& takes) {
-    LouErrors errors;
-    for (const Take& truth : takes) {
-      for (const std::uint64_t seed : {1, 2, 3})
-        errors.add(0, 0, rms_deg(truth, cleaned(cleaner, lou_noise(truth, 3, 0, seed))));
-    }
-    return errors.of(0);
+    return denoising_error(cleaner, takes, 3);
   };
   const auto filling = [&](const Cleaner& cleaner) {
-    LouErrors errors;
-    for (const Take& truth : jumping.tests) errors.add(0, 0, filling_error(cleaner, truth));
-    return errors.of(0);
+    return mean_filling_error(cleaner, jumping.tests);
   };
   const auto add = [&](const std::string& name, const std::vector<double>& values) {
     text.add(name, values);

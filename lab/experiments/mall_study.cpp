@@ -16,36 +16,9 @@
 namespace kinemend::papers {
 namespace {
 
-struct StudyNetwork {
-  std::string network, left_out, seed;  // NETWORK-LEFT_OUT-SEED.kmodel
-  PaperNetwork paper;
-};
-
 // The quick form uses the networks of lab/experiments/models instead.
 std::vector<StudyNetwork> study_networks(const Arguments& arguments) {
-  std::vector<StudyNetwork> networks;
-  if (arguments.quick) {
-    for (const char* name : {"ebf", "bf", "nn"}) {
-      if (auto network = paper_network(arguments, name))
-        networks.push_back({name, "1", "1", *network});
-    }
-    return networks;
-  }
-  std::set<std::filesystem::path> paths;
-  if (std::filesystem::is_directory(arguments.models)) {
-    for (const auto& entry : std::filesystem::directory_iterator(arguments.models))
-      paths.insert(entry.path());
-  }
-  for (const std::filesystem::path& path : paths) {
-    const std::string stem = path.stem().string();
-    const std::size_t first = stem.find('-'), last = stem.rfind('-');
-    std::filesystem::path checkpoint = path;
-    const bool is_done = !std::filesystem::exists(checkpoint.replace_extension("checkpoint"));
-    if (path.extension() != ".kmodel" || first == last || !is_done) continue;
-    networks.push_back({stem.substr(0, first), stem.substr(first + 1, last - first - 1),
-                        stem.substr(last + 1), *paper_network(arguments, stem)});
-  }
-  return networks;
+  return arguments.quick ? quick_networks(arguments) : networks_in(arguments.models);
 }
 
 // Filters a take with each channel's mean predicted width in all frames.
@@ -288,22 +261,16 @@ void write_means(Table& table, const std::string& joints, const StudyErrors& err
 void write_pair(Table& table, const std::vector<std::string>& names, const std::string& over,
                 const std::vector<double>& differences) {
   if (differences.size() < 2) return;
-  const auto count = static_cast<double>(differences.size());
-  double mean = 0, square = 0, better = 0;
-  for (const double difference : differences) {
-    mean += difference / count;
-    better += difference > 0 ? 1 : 0;
-  }
-  for (const double difference : differences) square += std::pow(difference - mean, 2);
-  const double error = std::sqrt(square / (count - 1) / count);
+  const PairedDifference pair = paired_difference(differences);
   std::vector<std::string> cells = names;
-  for (const std::string& cell : {over, fmt::format("{}", differences.size()), figure(mean),
-                                  figure(error), fmt::format("{}", better)})
+  for (const std::string& cell : {over, fmt::format("{}", pair.count), figure(pair.mean),
+                                  figure(pair.standard_error), fmt::format("{}", pair.positive)})
     cells.push_back(cell);
   table.add(cells);
   fmt::print(
       "{:6} {:28} less {:12} over {:9}: {:+.4f} +- {:.4f} deg, the latter better in {} of {}\n",
-      names[0], names[1], names[2], over, mean, error, better, differences.size());
+      names[0], names[1], names[2], over, pair.mean, pair.standard_error, pair.positive,
+      pair.count);
 }
 
 struct StudyPair {
@@ -449,13 +416,7 @@ void other_noises(const Arguments& arguments, const std::vector<StudyNetwork>& n
 
 void mall_study(const Arguments& arguments) {
   const std::vector<StudyNetwork> networks = study_networks(arguments);
-  if (networks.empty()) {
-    fmt::print(
-        "skipped: no networks in {}; tools/train_study DATA trains them, --models names "
-        "their folder\n",
-        arguments.models.string());
-    return;
-  }
+  if (networks.empty()) return say_no_networks(arguments);
   ablations(arguments, networks);
   network_facts(arguments, networks);
   other_noises(arguments, networks);

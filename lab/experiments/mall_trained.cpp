@@ -13,56 +13,45 @@
 namespace kinemend::papers {
 namespace {
 
-// NETWORK-LEFT_OUT-SEED: `ebfdrawn-1-1` is an EBF of the variant `drawn`.
-struct TrainedName {
-  std::string network, variant, left_out, seed, passes;
+// A folder and all below it.
+std::set<std::filesystem::path> folders_below(const std::filesystem::path& folder) {
+  std::set<std::filesystem::path> folders{folder};
+  if (!std::filesystem::is_directory(folder)) return folders;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_directory()) folders.insert(entry.path());
+  }
+  return folders;
+}
+
+// `ebfdrawn` is an EBF of the variant `drawn`.
+struct Variant {
+  std::string network, variant;
 };
 
-std::optional<TrainedName> trained_name(const std::string& stem) {
-  const std::size_t first = stem.find('-'), last = stem.rfind('-');
-  if (first == std::string::npos || first == last) return std::nullopt;
-  const std::string whole = stem.substr(0, first);
-  for (const char* network : {"ebf", "bf", "nn"}) {
-    if (!whole.starts_with(network)) continue;
-    return TrainedName{network, whole.substr(std::string(network).size()),
-                       stem.substr(first + 1, last - first - 1), stem.substr(last + 1), ""};
+std::optional<Variant> variant_of(const std::string& name) {
+  for (const std::string network : {"ebf", "bf", "nn"}) {
+    if (name.starts_with(network)) return Variant{network, name.substr(network.size())};
   }
   return std::nullopt;
 }
 
 struct TrainedNetwork {
-  TrainedName name;
-  PaperNetwork paper;
+  Variant kind;
+  StudyNetwork study;
 };
 
-std::set<std::filesystem::path> files_below(const std::filesystem::path& folder,
-                                            const std::string& ending) {
-  std::set<std::filesystem::path> paths;
-  if (!std::filesystem::is_directory(folder)) return paths;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    if (entry.path().string().ends_with(ending)) paths.insert(entry.path());
-  }
-  return paths;
-}
-
-// The networks whose training is done; in the quick form those of lab/experiments/models.
+// In the quick form the networks of lab/experiments/models stand for `drawn` ones.
 std::vector<TrainedNetwork> trained_networks(const Arguments& arguments) {
   std::vector<TrainedNetwork> networks;
   if (arguments.quick) {
-    for (const char* name : {"ebf", "bf", "nn"}) {
-      if (auto network = paper_network(arguments, name))
-        networks.push_back({{name, "drawn", "1", "1", ""}, *network});
-    }
+    for (const StudyNetwork& network : quick_networks(arguments))
+      networks.push_back({{network.network, "drawn"}, network});
     return networks;
   }
-  for (const std::filesystem::path& path : files_below(arguments.models, ".kmodel")) {
-    auto name = trained_name(path.stem().string());
-    std::filesystem::path checkpoint = path;
-    if (!name || std::filesystem::exists(checkpoint.replace_extension("checkpoint"))) continue;
-    const Model model = read_model(path);
-    // The card says `tools/train_study DATA NETWORK --passes N`.
-    name->passes = model.card.command.substr(model.card.command.rfind(' ') + 1);
-    networks.push_back({*name, {model.layout, filter_network_of(model)}});
+  for (const std::filesystem::path& folder : folders_below(arguments.models)) {
+    for (const StudyNetwork& network : networks_in(folder)) {
+      if (const auto kind = variant_of(network.network)) networks.push_back({*kind, network});
+    }
   }
   return networks;
 }
@@ -105,22 +94,19 @@ class HoldOutErrors {
   std::vector<Take> noisy_;  // takes x draws
 };
 
-// Writes the difference to the EBF of the same variant, hold-out and seed, paired by take.
-void write_difference(Table& table, const TrainedName& name, const TakesErrors& own,
+// Writes the difference to the EBF of the same variant, hold-out, seed and passes, paired by take.
+void write_difference(Table& table, const TrainedNetwork& network, const TakesErrors& own,
                       const TakesErrors& base) {
-  const auto count = static_cast<double>(own.size());
-  double mean = 0, square = 0, better = 0;
-  for (std::size_t i = 0; i < own.size(); ++i) mean += (own[i] - base[i]) / count;
-  for (std::size_t i = 0; i < own.size(); ++i) {
-    square += std::pow(own[i] - base[i] - mean, 2);
-    better += own[i] > base[i] ? 1 : 0;
-  }
-  const double error = std::sqrt(square / std::max(1.0, count - 1) / count);
-  table.add({name.network, name.variant, name.left_out, name.seed, name.passes,
-             fmt::format("{:.0f}", count), figure(mean), figure(error),
-             fmt::format("{:.0f}", better)});
-  fmt::print("  {:4} less ebf, {}: {:+.4f} +- {:.4f} deg, ebf better in {:.0f} of {:.0f}\n",
-             name.network, name.variant, mean, error, better, count);
+  if (own.size() < 2) return;
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < own.size(); ++i) differences.push_back(own[i] - base[i]);
+  const PairedDifference pair = paired_difference(differences);
+  const auto& [kind, study] = network;
+  table.add({kind.network, kind.variant, study.left_out, study.seed, study.passes,
+             fmt::format("{}", pair.count), figure(pair.mean), figure(pair.standard_error),
+             fmt::format("{}", pair.positive)});
+  fmt::print("  {:4} less ebf, {}: {:+.4f} +- {:.4f} deg, ebf better in {} of {}\n", kind.network,
+             kind.variant, pair.mean, pair.standard_error, pair.positive, pair.count);
 }
 
 void errors_of_networks(const Arguments& arguments, const std::vector<TrainedNetwork>& networks) {
@@ -131,33 +117,35 @@ void errors_of_networks(const Arguments& arguments, const std::vector<TrainedNet
               "ebf_is_better_in");
   std::map<std::string, std::vector<const TrainedNetwork*>> by_holdout;
   for (const TrainedNetwork& network : networks)
-    by_holdout[network.name.left_out].push_back(&network);
+    by_holdout[network.study.left_out].push_back(&network);
   for (const auto& [holdout, own] : by_holdout) {
     const HoldOutErrors errors(arguments, holdout);
     const double gaussian = mean_of(errors.of([](const Take& noisy) {
       return cleaned(noisy, "gaussian", {{"width_s", 0.058}});
     }));
-    std::map<std::string, TakesErrors> bases;  // those of EBF by variant, seed and passes
-    std::vector<std::pair<TrainedName, TakesErrors>> all;
+    const auto training_of = [](const TrainedNetwork& network) {
+      return network.kind.variant + " " + network.study.seed + " " + network.study.passes;
+    };
+    std::map<std::string, TakesErrors> of_ebf;  // by training
+    std::vector<TakesErrors> all;
     for (const TrainedNetwork* network : own) {
+      const auto& [kind, study] = *network;
       const TakesErrors found =
-          errors.of([&](const Take& noisy) { return by_network(network->paper, noisy); });
-      const TrainedName& name = network->name;
-      table.add({name.network, name.variant, holdout, name.seed, name.passes,
-                 fmt::format("{}", found.size()), figure(mean_of(found)),
-                 figure(mean_of(found) / gaussian)});
+          errors.of([&](const Take& noisy) { return by_network(study.paper, noisy); });
+      const double mean = mean_of(found);
+      table.add({kind.network, kind.variant, holdout, study.seed, study.passes,
+                 fmt::format("{}", found.size()), figure(mean), figure(mean / gaussian)});
       fmt::print(
           "{:4} {:9} without {} seed {}, {} passes: {:.3f} deg, {:.3f} of the 58 ms Gaussian\n",
-          name.network, name.variant, holdout, name.seed, name.passes, mean_of(found),
-          mean_of(found) / gaussian);
+          kind.network, kind.variant, holdout, study.seed, study.passes, mean, mean / gaussian);
       std::fflush(stdout);
-      if (name.network == "ebf") bases[name.variant + name.seed + name.passes] = found;
-      all.emplace_back(name, found);
+      if (kind.network == "ebf") of_ebf[training_of(*network)] = found;
+      all.push_back(found);
     }
-    for (const auto& [name, found] : all) {
-      const auto base = bases.find(name.variant + name.seed + name.passes);
-      if (name.network != "ebf" && base != bases.end())
-        write_difference(pairs, name, found, base->second);
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      const auto base = of_ebf.find(training_of(*own[i]));
+      if (own[i]->kind.network != "ebf" && base != of_ebf.end())
+        write_difference(pairs, *own[i], all[i], base->second);
     }
   }
   table.close();
@@ -193,15 +181,18 @@ double at_passes(const std::vector<CurvePoint>& curve, double passes) {
 // that of the 58 ms Gaussian; `of` is how many passes the training had.
 void curves(const Arguments& arguments) {
   Table table(arguments, "mall_curve.csv", "network,variant,left_out,seed,of,passes,kept_takes");
-  for (const std::filesystem::path& path : files_below(arguments.models, ".curve.csv")) {
-    const auto name = trained_name(path.stem().stem().string());
-    const std::vector<CurvePoint> curve = curve_of(path);
-    if (!name || curve.empty()) continue;
-    for (const double passes : {2, 5, 10, 15, 20, 25, 30, 35, 40, 60, 80, 100, 120}) {
-      if (passes > curve.back().passes) break;
-      table.add({name->network, name->variant, name->left_out, name->seed,
-                 fmt::format("{:.0f}", curve.back().passes), fmt::format("{:.0f}", passes),
-                 fmt::format("{:.4f}", at_passes(curve, passes))});
+  for (const std::filesystem::path& folder : folders_below(arguments.models)) {
+    for (const std::filesystem::path& path : files_in(folder, ".curve.csv")) {
+      const auto study = study_name(path.stem().stem().string());
+      const auto kind = study ? variant_of(study->network) : std::nullopt;
+      const std::vector<CurvePoint> curve = curve_of(path);
+      if (!kind || curve.empty()) continue;
+      for (const double passes : {2, 5, 10, 15, 20, 25, 30, 35, 40, 60, 80, 100, 120}) {
+        if (passes > curve.back().passes) break;
+        table.add({kind->network, kind->variant, study->left_out, study->seed,
+                   fmt::format("{:.0f}", curve.back().passes), fmt::format("{:.0f}", passes),
+                   fmt::format("{:.4f}", at_passes(curve, passes))});
+      }
     }
   }
   table.close();
@@ -209,13 +200,7 @@ void curves(const Arguments& arguments) {
 
 void mall_trained(const Arguments& arguments) {
   const std::vector<TrainedNetwork> networks = trained_networks(arguments);
-  if (networks.empty()) {
-    fmt::print(
-        "skipped: no networks in {}; tools/train_study DATA trains them, --models names their "
-        "folder\n",
-        arguments.models.string());
-    return;
-  }
+  if (networks.empty()) return say_no_networks(arguments);
   errors_of_networks(arguments, networks);
   if (!arguments.quick) curves(arguments);
 }

@@ -140,11 +140,18 @@ XiaoMethod xiao_sparse() {
   });
 }
 
+// The poses whose local coordinates Algorithm 1 uses; the paper does not state them.
+enum class XiaoFrames : std::uint8_t {
+  noisy,   // those of the noisy take: noise came before the change of coordinates
+  steady,  // the same after a running median and a running mean
+  truth,   // those of the ground truth: noise came after the change of coordinates
+};
+
 // A value of each coordinate of the paper's grid. A search moves from the middle of the lists; at
 // an end of one it goes on by the same step, so that no choice lies on the edge of what was tried.
 struct PaperChoice {
   XiaoPaperSettings settings;
-  int window_frames = 27, atoms = 500, steady_frames = 1;
+  int window_frames = 0, atoms = 0, steady_frames = 1;
 };
 
 // The paper's: M of 9 to 39 in steps of 6, K of 500 to 1000 (in steps of 50; here 250), and powers
@@ -184,7 +191,7 @@ XiaoSetting setting_of(const PaperChoice& choice, XiaoFrames frames) {
           }};
 }
 
-// Steps of one coordinate, back or forth; false at its least value.
+// Steps of one coordinate, back or forth; false below its least value.
 using PaperStep = std::function<bool(PaperChoice&, bool is_up)>;
 
 bool step_by(int& value, int step, int least, bool is_up) {
@@ -230,12 +237,9 @@ PaperChoice search(PaperChoice choice, const std::vector<PaperStep>& steps,
     has_moved = false;
     for (const PaperStep& step : steps) {
       for (const bool is_up : {true, false}) {
-        bool is_better = true;
-        while (is_better) {
-          PaperChoice next = choice;
-          const double error = step(next, is_up) ? error_of(next) : least;
-          is_better = error < (1 - least_gain) * least;
-          if (!is_better) break;
+        for (PaperChoice next = choice; step(next, is_up); next = choice) {
+          const double error = error_of(next);
+          if (error >= (1 - least_gain) * least) break;
           choice = next, least = error, has_moved = true;
         }
       }
@@ -251,8 +255,10 @@ XiaoMethod xiao_algorithm(const Arguments& arguments, const std::string& name, X
         XiaoModels with_fewer_windows = models;
         with_fewer_windows.paper_hop = tuning_hop;
         const std::vector<XiaoDamaged> damaged = tuning_noise(clips, noise);
-        PaperChoice choice{.settings = {.loss = loss_for(noise)}};
-        if (arguments.quick) choice.window_frames = 9, choice.atoms = 60;
+        const XiaoPaperSizes sizes = xiao_paper_sizes(arguments);
+        PaperChoice choice{.settings = {.loss = loss_for(noise)},
+                           .window_frames = static_cast<int>(sizes.window_frames),
+                           .atoms = static_cast<int>(sizes.atoms)};
         if (frames == XiaoFrames::steady) choice.steady_frames = 1 + 2 * steady_step;
         choice =
             search(choice, paper_steps(arguments, noise, frames), [&](const PaperChoice& tried) {
@@ -279,10 +285,14 @@ std::vector<XiaoMethod> xiao_methods(const Arguments& arguments) {
           xiao_algorithm(arguments, "paper true frames", XiaoFrames::truth)};
 }
 
+XiaoPaperSizes xiao_paper_sizes(const Arguments& arguments) {
+  if (arguments.quick) return {.window_frames = 9, .atoms = 60, .windows = 500, .iterations = 3};
+  return {.window_frames = 27, .atoms = 500, .windows = 5000, .iterations = 6};
+}
+
 XiaoModels xiao_models(const Arguments& arguments, const std::vector<Take>& clips, bool is_tuning) {
-  XiaoPaperSizes sizes{.windows = 5000, .iterations = 6};
+  XiaoPaperSizes sizes = xiao_paper_sizes(arguments);
   if (is_tuning) sizes.iterations = 3;
-  if (arguments.quick) sizes.windows = 500, sizes.iterations = 3;
   XiaoModels models{{}, {}, std::make_shared<XiaoPapers>(clips, sizes)};
   for (const std::int64_t frames : xiao_sparse_windows) {
     OptionValues options = xiao_training(arguments);

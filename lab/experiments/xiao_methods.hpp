@@ -48,6 +48,9 @@ inline std::vector<double> xiao_windows_s(const Arguments& arguments) {
 /// coordinates of three poses.
 std::vector<XiaoMethod> xiao_methods(const Arguments& arguments);
 
+/// The sizes of Algorithm 1 where nothing else is chosen, and from which a choice begins.
+XiaoPaperSizes xiao_paper_sizes(const Arguments& arguments);
+
 /// `is_tuning`: models to choose settings with, whose dictionaries of Algorithm 1 have fewer
 /// iterations.
 XiaoModels xiao_models(const Arguments& arguments, const std::vector<Take>& clips, bool is_tuning);

@@ -38,13 +38,6 @@ struct XiaoPaperSettings {
   sparse::DescentSettings descent{};
 };
 
-/// The poses whose local coordinates Algorithm 1 uses; the paper does not state them.
-enum class XiaoFrames : std::uint8_t {
-  noisy,   ///< those of the noisy take: noise came before the change of coordinates
-  steady,  ///< the same after a running median and a running mean
-  truth,   ///< those of the ground truth: noise came after the change of coordinates
-};
-
 /// Every marker's running median over `frames` frames, then its running mean over as many; 1: the
 /// take itself. Windows reach as far forth as back, so at the ends they are shorter.
 Take steady_take(Take clip, std::size_t frames);

@@ -4,8 +4,7 @@
 #include <ctime>
 
 #include "kinemend/extend/method_options.hpp"
-#include "xiao.hpp"
-#include "xiao_paper.hpp"
+#include "xiao_methods.hpp"
 
 namespace kinemend::papers {
 namespace {
@@ -60,11 +59,11 @@ class Lines {
 
 const XiaoNoise noise_20_db{"20 dB", 20, 0}, noise_30_db{"30 dB", 30, 0};
 
-std::shared_ptr<const Model> learned(const Arguments& arguments, const XiaoGroup& group,
+std::shared_ptr<const Model> learned(const Arguments& arguments, const std::vector<Take>& clips,
                                      const OptionValues& extra = {}) {
   OptionValues options = xiao_training(arguments);
   for (const auto& [name, setting] : extra) options[name] = setting;
-  return xiao_model("sparse", group.training, options);
+  return xiao_model("sparse", clips, options);
 }
 
 // Table 2. Times of whole poses are multiples of those of poselets.
@@ -76,7 +75,7 @@ void representations(const Arguments& arguments, const XiaoGroup& group, Lines& 
   const auto add = [&](const std::string& what, const std::string& value,
                        const OptionValues& extra) {
     const double start_s = processor_s();
-    const auto model = learned(arguments, group, extra);
+    const auto model = learned(arguments, group.training, extra);
     const double learning_s = processor_s() - start_s;
     const auto cleaner = make_sparse(plain_options(), model);
     return Seconds{learning_s, lines.add(group, what, value, *cleaner, noise_20_db)};
@@ -88,19 +87,24 @@ void representations(const Arguments& arguments, const XiaoGroup& group, Lines& 
              fmt::format("{:.2f}", whole.cleaning / poselets.cleaning)});
 }
 
+std::vector<Take> training_of_all(const std::vector<XiaoGroup>& groups) {
+  std::vector<Take> all;
+  for (const XiaoGroup& group : groups)
+    all.insert(all.end(), group.training.begin(), group.training.end());
+  return all;
+}
+
 // Figure 9, at its 30 dB. `all` has as many windows and atoms as one action; `all grown` has as
 // many for each action.
 void actions(const Arguments& arguments, const std::vector<XiaoGroup>& groups, Lines& lines) {
-  XiaoGroup all;
-  for (const XiaoGroup& group : groups)
-    all.training.insert(all.training.end(), group.training.begin(), group.training.end());
+  const std::vector<Take> all = training_of_all(groups);
   const auto count = static_cast<std::int64_t>(groups.size());
   const auto same = learned(arguments, all);
   const auto grown = learned(arguments, all, {{"windows", 10'000 * count}, {"atoms", 500 * count}});
-  const auto example = xiao_model("example", all.training);
+  const auto example = xiao_model("example", all);
   for (const XiaoGroup& group : groups) {
-    lines.add(group, "sparse from", "one", *make_sparse(plain_options(), learned(arguments, group)),
-              noise_30_db);
+    lines.add(group, "sparse from", "one",
+              *make_sparse(plain_options(), learned(arguments, group.training)), noise_30_db);
     lines.add(group, "sparse from", "all", *make_sparse(plain_options(), same), noise_30_db);
     lines.add(group, "sparse from", "all grown", *make_sparse(plain_options(), grown), noise_30_db);
     lines.add(group, "example from", "one",
@@ -113,7 +117,8 @@ void actions(const Arguments& arguments, const std::vector<XiaoGroup>& groups, L
 void sizes(const Arguments& arguments, const XiaoGroup& group, Lines& lines) {
   const auto add = [&](const std::string& what, std::int64_t value, const OptionValues& extra) {
     lines.add(group, what, std::to_string(value),
-              *make_sparse(plain_options(), learned(arguments, group, extra)), noise_20_db);
+              *make_sparse(plain_options(), learned(arguments, group.training, extra)),
+              noise_20_db);
   };
   for (const std::int64_t frames :
        arguments.quick ? std::vector<std::int64_t>{9, 21} : std::vector<std::int64_t>{5, 9, 15, 21})
@@ -121,7 +126,7 @@ void sizes(const Arguments& arguments, const XiaoGroup& group, Lines& lines) {
   for (const std::int64_t atoms : arguments.quick ? std::vector<std::int64_t>{30}
                                                   : std::vector<std::int64_t>{125, 250, 500, 1000})
     add("K", atoms, {{"atoms", atoms}});
-  const auto model = learned(arguments, group);
+  const auto model = learned(arguments, group.training);
   for (const double lambda : {0.01, 0.03, 0.1, 0.3, 1.0, 3.0})
     lines.add(group, "lambda", fmt::format("{}", lambda),
               *make_sparse(plain_options(lambda), model), noise_20_db);
@@ -154,71 +159,65 @@ double add_algorithm(Lines& lines, const XiaoGroup& group, const std::string& wh
   return lines.add(group, what, value, filter, noise);
 }
 
-XiaoPaperSizes algorithm_sizes(const Arguments& arguments) {
-  if (arguments.quick) return {.window_frames = 9, .atoms = 60, .windows = 500, .iterations = 3};
-  return {.window_frames = 27, .windows = 5000, .iterations = 6};
-}
-
-// Table 2 and figure 10 of Algorithm 1, over the paper's grid and beyond its ends.
-void algorithm_alone(const Arguments& arguments, const XiaoGroup& group, Lines& lines,
-                     Table& times) {
-  const XiaoPaperSizes usual = algorithm_sizes(arguments);
-  const double start_s = processor_s();
-  const XiaoPaper paper(group.training, usual);
-  const double poselets_s = processor_s() - start_s;
-  const double cleaned_s =
-      add_algorithm(lines, group, "representation", "poselets", paper, 1, noise_20_db);
-  XiaoPaperSizes sizes = usual;
-  sizes.whole = true;
-  const double whole_start_s = processor_s();
-  const XiaoPaper whole(group.training, sizes);
-  const double whole_s = processor_s() - whole_start_s;
-  const double whole_cleaned_s =
-      add_algorithm(lines, group, "representation", "whole", whole, 1, noise_20_db);
-  times.add({group.name, fmt::format("{:.2f}", whole_s / poselets_s),
-             fmt::format("{:.2f}", whole_cleaned_s / cleaned_s)});
-  for (const double lambda : {1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1000.0})
-    add_algorithm(lines, group, "lambda", fmt::format("{}", lambda), paper, lambda, noise_20_db);
-  const auto add_sized = [&](const std::string& what, std::size_t value,
-                             const XiaoPaperSizes& changed) {
-    const bool is_usual =
-        changed.window_frames == usual.window_frames && changed.atoms == usual.atoms;
-    add_algorithm(lines, group, what, std::to_string(value),
-                  is_usual ? paper : XiaoPaper(group.training, changed), 1, noise_20_db);
+// Table 2 and figure 10 of Algorithm 1, over the paper's grid and beyond its ends. `papers` are
+// those of the action's training.
+void algorithm_alone(const Arguments& arguments, const XiaoGroup& group, XiaoPapers& papers,
+                     Lines& lines, Table& times) {
+  struct Seconds {
+    double learning, cleaning;
   };
+  const XiaoPaperSizes usual = xiao_paper_sizes(arguments);
+  const auto represent = [&](const std::string& value, const auto& paper_of) {
+    const double start_s = processor_s();
+    const XiaoPaper& paper = paper_of();
+    const double learning_s = processor_s() - start_s;
+    return Seconds{learning_s,
+                   add_algorithm(lines, group, "representation", value, paper, 1, noise_20_db)};
+  };
+  const auto usual_paper = [&]() -> const XiaoPaper& {
+    return papers.of(usual.window_frames, usual.atoms);
+  };
+  const Seconds poselets = represent("poselets", usual_paper);
+  XiaoPaperSizes undivided = usual;
+  undivided.whole = true;
+  const Seconds whole = represent("whole", [&] { return XiaoPaper(group.training, undivided); });
+  times.add({group.name, fmt::format("{:.2f}", whole.learning / poselets.learning),
+             fmt::format("{:.2f}", whole.cleaning / poselets.cleaning)});
+  for (const double lambda : {1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1000.0})
+    add_algorithm(lines, group, "lambda", fmt::format("{}", lambda), usual_paper(), lambda,
+                  noise_20_db);
   for (const std::size_t frames : arguments.quick
                                       ? std::vector<std::size_t>{9, 15}
-                                      : std::vector<std::size_t>{9, 15, 21, 27, 33, 39, 51}) {
-    sizes = usual;
-    sizes.window_frames = frames;
-    add_sized("M", frames, sizes);
-  }
+                                      : std::vector<std::size_t>{9, 15, 21, 27, 33, 39, 51})
+    add_algorithm(lines, group, "M", std::to_string(frames), papers.of(frames, usual.atoms), 1,
+                  noise_20_db);
   for (const std::size_t atoms : arguments.quick
                                      ? std::vector<std::size_t>{30, 60}
-                                     : std::vector<std::size_t>{250, 500, 750, 1000, 1250}) {
-    sizes = usual;
-    sizes.atoms = atoms;
-    add_sized("K", atoms, sizes);
-  }
+                                     : std::vector<std::size_t>{250, 500, 750, 1000, 1250})
+    add_algorithm(lines, group, "K", std::to_string(atoms), papers.of(usual.window_frames, atoms),
+                  1, noise_20_db);
 }
 
 void xiao_algorithm(const Arguments& arguments) {
   const std::vector<XiaoGroup> groups = xiao_groups(arguments);
+  const XiaoPaperSizes usual = xiao_paper_sizes(arguments);
   Lines lines(arguments, "xiao_algorithm.csv");
   Table times(arguments, "xiao_algorithm_time.csv", "motion,learning,cleaning");
-  for (const XiaoGroup& group : groups) algorithm_alone(arguments, group, lines, times);
+  std::vector<XiaoPapers> papers;
+  for (const XiaoGroup& group : groups) {
+    papers.emplace_back(group.training, usual);
+    algorithm_alone(arguments, group, papers.back(), lines, times);
+  }
   times.close();
-  std::vector<Take> all;
-  for (const XiaoGroup& group : groups)
-    all.insert(all.end(), group.training.begin(), group.training.end());
-  const XiaoPaperSizes usual = algorithm_sizes(arguments);
+  const std::vector<Take> all = training_of_all(groups);
   XiaoPaperSizes grown = usual;
   grown.atoms *= groups.size(), grown.windows *= groups.size();
   const XiaoPaper from_all(all, usual), from_all_grown(all, grown);
-  for (const XiaoGroup& group : groups) {
-    add_algorithm(lines, group, "from", "one", XiaoPaper(group.training, usual), 1, noise_30_db);
-    add_algorithm(lines, group, "from", "all", from_all, 1, noise_30_db);
-    add_algorithm(lines, group, "from", "all grown", from_all_grown, 1, noise_30_db);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const XiaoPaper& from_one = papers[g].of(usual.window_frames, usual.atoms);
+    add_algorithm(lines, groups[g], "from", "one", from_one, 1, noise_30_db);
+    add_algorithm(lines, groups[g], "from", "all", from_all, 1, noise_30_db);
+    add_algorithm(lines, groups[g], "from", "all grown", from_all_grown, 1, noise_30_db);
   }
   lines.close();
 }
