@@ -142,7 +142,24 @@ void report_jumps(const std::string& track, const char* unit, const char* words,
     report.findings.push_back(
         {FindingKind::jump, Severity::serious, track, frame, frame + 1, amount, unit, words});
   }
-  report.figures.jumps = report.figures.jumps.value_or(0) + jumps.size();
+}
+
+// Finds and reports the jumps of the root or a marker, row `n`; returns how many there are.
+std::size_t find_place_jumps(const Rows& rows, std::size_t n, double limit_cm,
+                             CheckReport& report) {
+  const Take& clip = rows.clip;
+  const bool joints = clip.has_joints();
+  const std::size_t point = joints ? 0 : rows.tracks[n];
+  const double cm = 100 * report.metres_per_unit;
+  const auto jumps = jumps_of(
+      clip.frame_count(), at_rate(limit_cm, clip.frame_rate_hz),
+      [&](std::size_t f) { return cm * clip.position(f, point); },
+      [&](std::size_t f) {
+        return joints ? clip.is_position_observed(f, point) : clip.is_observed(f, point);
+      });
+  report_jumps(report.tracks[n].name, "cm", "moves within one frame and stays there", jumps,
+               report);
+  return jumps.size();
 }
 
 }  // namespace
@@ -171,42 +188,28 @@ void check_jumps(const Rows& rows, const RobotSettings& settings, CheckReport& r
   const bool joints = clip.has_joints();
   const std::size_t frames = clip.frame_count();
   const double limit_deg = at_rate(settings.jump_deg, clip.frame_rate_hz);
+  const auto count = [&](std::size_t jumps) {
+    report.figures.jumps = report.figures.jumps.value_or(0) + jumps;
+  };
   for (std::size_t j = 0; joints && j < clip.joint_count(); ++j) {
     const auto jumps = jumps_of(
         frames, limit_deg, [&](std::size_t f) { return clip.rotation(f, j); },
         [&](std::size_t f) { return clip.is_observed(f, j); });
     report_jumps(clip.skeleton.names[j], "deg", "turns within one frame and stays so", jumps,
                  report);
+    count(jumps.size());
   }
   if (!(report.metres_per_unit > 0)) return;
-  const double cm = 100 * report.metres_per_unit;
   // In a take of joints only the root is checked.
-  for (std::size_t n = 0; n < (joints ? 1 : rows.tracks.size()); ++n) {
-    const std::size_t point = joints ? 0 : rows.tracks[n];
-    const auto jumps = jumps_of(
-        frames, at_rate(settings.jump_cm, clip.frame_rate_hz),
-        [&](std::size_t f) { return cm * clip.position(f, point); },
-        [&](std::size_t f) {
-          return joints ? clip.is_position_observed(f, point) : clip.is_observed(f, point);
-        });
-    report_jumps(report.tracks[n].name, "cm", "moves within one frame and stays there", jumps,
-                 report);
-  }
+  for (std::size_t n = 0; n < (joints ? 1 : rows.tracks.size()); ++n)
+    count(find_place_jumps(rows, n, settings.jump_cm, report));
 }
 
 void check_root_jumps(const Rows& rows, CheckReport& report) {
   // Thirty metres a second faster than just before and after: no body does that. Chosen by hand.
   constexpr double impossible_cm = 50;
-  const Take& clip = rows.clip;
-  if (!clip.has_joints() || !(report.metres_per_unit > 0)) return;
-  const double cm = 100 * report.metres_per_unit;
-  const auto jumps = jumps_of(
-      clip.frame_count(), at_rate(impossible_cm, clip.frame_rate_hz),
-      [&](std::size_t f) { return cm * clip.position(f, 0); },
-      [&](std::size_t f) { return clip.is_position_observed(f, 0); });
-  for (const auto& [frame, amount] : jumps)
-    report.findings.push_back({FindingKind::jump, Severity::serious, report.tracks[0].name, frame,
-                               frame + 1, amount, "cm", "moves within one frame and stays there"});
+  if (rows.clip.has_joints() && report.metres_per_unit > 0)
+    find_place_jumps(rows, 0, impossible_cm, report);
 }
 
 namespace {

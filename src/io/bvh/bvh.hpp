@@ -25,7 +25,8 @@ struct BvhDocument : MotionDocument {
   std::size_t hierarchy_end = 0;    ///< after the last closing brace
   ByteSpan frame_time;              ///< the number after `Frame Time:`
   bool frame_time_is_none = false;  ///< the frame time is not a finite number
-  /// Faults of the head that are mended in a file that is changed anyway.
+  /// Faults of the head that are mended in a file that is changed anyway. A time that is no finite
+  /// number is unusable too.
   bool frame_time_is_unusable = false;
   ByteSpan wrong_frame_count;  ///< the number after `Frames:`, if wrong
 

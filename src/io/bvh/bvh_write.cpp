@@ -174,8 +174,7 @@ std::string write_with_hierarchy(const Take& clip, const BvhDocument& document) 
   out.append(hierarchy);
   out.append(line_end);
   const bool same_rate = clip.frame_rate_hz == document.frame_rate_hz &&
-                         document.frame_time.size > 0 && !document.frame_time_is_none &&
-                         !document.frame_time_is_unusable;
+                         document.frame_time.size > 0 && !document.frame_time_is_unusable;
   const std::string frame_time = same_rate ? std::string(document.text(document.frame_time))
                                            : frame_time_text(clip.frame_rate_hz);
   std::vector<std::size_t> order(clip.joint_count());

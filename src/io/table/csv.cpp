@@ -130,7 +130,6 @@ class CsvReader {
   // The unit of times whose label names none: seconds, unless they are whole numbers with steps
   // that no capture has in seconds, but in milliseconds, microseconds or nanoseconds.
   double unit_of(const RowLabels& labels) const {
-    constexpr double least_capture_hz = 5, most_capture_hz = 2000;
     const std::vector<double>& times = labels.times_s;
     const auto is_whole = [](double time) { return std::isnan(time) || time == std::floor(time); };
     if (times.size() < 3 || !std::ranges::all_of(times, is_whole)) return 1;

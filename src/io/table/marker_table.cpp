@@ -524,9 +524,8 @@ double usable_rate(const SourceText& text, double stated_hz, std::size_t place) 
 
 double table_rate(const SourceText& text, const RowRate& times, std::size_t rows_place,
                   const TableRate& said) {
-  // Relative difference of the stated rate and the times' rate; and the rates at which people are
-  // captured. Chosen by hand, not swept.
-  constexpr double tolerance = 0.01, least_capture_hz = 5, most_capture_hz = 2000;
+  // Relative difference of the stated rate and the times' rate. Chosen by hand, not swept.
+  constexpr double tolerance = 0.01;
   const double stated = usable_rate(text, said.stated_hz, said.stated_place);
   if (stated > 0) {
     const double off_s = std::fabs(1 / stated - times.step_s);

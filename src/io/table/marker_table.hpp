@@ -90,6 +90,9 @@ TableFinding read_marker_table(const SourceText& text, std::size_t declared_fram
 /// Repair: `marker_unnamed`.
 void name_the_unnamed(const SourceText& text, std::size_t place, Take& clip);
 
+/// The rates at which people are captured. Chosen by hand, not swept.
+inline constexpr double least_capture_hz = 5, most_capture_hz = 2000;
+
 /// The rate from the times of the rows.
 struct RowRate {
   double rate_hz = 0;      ///< 0 if the times do not give a rate

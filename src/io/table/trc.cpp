@@ -490,11 +490,11 @@ std::string with_right_head(std::string bytes, const TrcDocument& document) {
     const auto key = std::ranges::find_if(
         document.keys, [&](const std::string& own) { return equal_ignoring_case(own, fault.key); });
     const std::string_view line = line_from(bytes, document.values_line);
-    std::size_t begin = 0, left = static_cast<std::size_t>(key - document.keys.begin());
+    std::size_t left = static_cast<std::size_t>(key - document.keys.begin());
     const std::string_view separators = line.find('\t') != line.npos  ? "\t"
                                         : line.find(',') != line.npos ? ","
                                                                       : " ";
-    begin = line.find_first_not_of(separators);
+    std::size_t begin = line.find_first_not_of(separators);
     for (; left > 0 && begin < line.size(); --left)
       begin = line.find_first_not_of(separators, line.find_first_of(separators, begin));
     if (key == document.keys.end() || begin >= line.size()) continue;
